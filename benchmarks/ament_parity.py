@@ -42,7 +42,7 @@ Finding = tuple[str, int, str]
 Oracle = Callable[[Path], set[oracles.Finding]]
 CRASH: Finding = ("", 0, "crash")
 
-NESTED = "LY002"
+NESTED = "LY001"
 """Covers what lies in a package inside of the package: the linters go in, colcon does not."""
 WHOLE_FILE = ("convention/filename", "package/consistency")
 

@@ -149,8 +149,8 @@ def test_name_added_later_is_reported_for_earlier_distributions(
     package = write(
         tmp_path, "import rclpy\n\n\ndef main():\n    with rclpy.init():\n        pass\n"
     )
-    found = {name: [code for code, *_ in check(capsys, package, name, "ND007")] for name in ORDER}
-    assert found == {"humble": ["ND007"], "jazzy": ["ND007"], "kilted": [], "lyrical": []}
+    found = {name: [code for code, *_ in check(capsys, package, name, "ND005")] for name in ORDER}
+    assert found == {"humble": ["ND005"], "jazzy": ["ND005"], "kilted": [], "lyrical": []}
 
 
 def test_arguments_depend_on_the_target(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Effect, Example, Fix, Package, Report, Rule, Severity
-from scaffold.api.cmake import Command
+from scaffold.api.cmake import Command, generations, is_interface_package
+from scaffold.api.distributions import target
 
 _NAMING = (
     "add_executable",
@@ -26,19 +27,29 @@ _FILES = {"test/test_talk.py": "", "test/test_more.py": ""}
 _FIND = "find_package(rclcpp REQUIRED)\n"
 
 
+_LISTS_INTERFACES = (
+    "project(my_robot)\nrosidl_generate_interfaces(${PROJECT_NAME} msg/Beat.msg)\n"
+    "ament_python_install_package(%s)\n"
+)
+_FILES_INTERFACES = {"msg/Beat.msg": "int32 count\n", "my_robot/__init__.py": ""}
+
+
 class CallRepeated(Rule):
     """A test, target or Python package has the name of another, or a call is repeated.
 
     **Why.** CMake stops: ``add_test given test NAME "talk" which already exists in this
-    directory``. A second ``ament_package()`` writes the index entry and the configuration files
-    again, with what was collected up to there. A second ``find_package`` does nothing, and is
-    forgotten when the dependency is removed.
+    directory``. A Python package with the name of the interfaces that are generated stops it as
+    well, up to Kilted: the target ``ament_cmake_python_copy_my_robot`` exists already. A second
+    ``ament_package()`` writes the index entry and the configuration files again, with what was
+    collected up to there. A second ``find_package`` does nothing, and is forgotten when the
+    dependency is removed.
 
-    **Fix.** Give each its own name, or remove the call; of ``ament_package()`` keep the last.
+    **Fix.** Give each its own name, or remove the call; of ``ament_package()`` keep the last. Move
+    interfaces to a separate package, such as ``my_robot_msgs``.
 
     **Source.** CMake documentation, ``add_test``; ``ament_python_install_package.cmake``; ROS 2
     documentation, "ament_cmake user documentation": "exactly once"; catkin_lint, "duplicate
-    find_package".
+    find_package"; https://github.com/ros2/rosidl_python/issues/141.
     """
 
     code = "CM095"
@@ -76,9 +87,25 @@ class CallRepeated(Rule):
             ),
             fixed={"CMakeLists.txt": f"project(talker)\n{_FIND}"},
         ),
+        Example(
+            "another name",
+            {"CMakeLists.txt": _LISTS_INTERFACES % "my_robot_tools", **_FILES_INTERFACES},
+        ),
+        Example(
+            "the same name where both are merged",
+            {"CMakeLists.txt": _LISTS_INTERFACES % "${PROJECT_NAME}", **_FILES_INTERFACES},
+            distro="lyrical",
+        ),
+        Example(
+            "the same name",
+            {"CMakeLists.txt": _LISTS_INTERFACES % "${PROJECT_NAME}", **_FILES_INTERFACES},
+            "CMakeLists.txt:3:1: the Python package 'my_robot' and the interfaces generated in "
+            "line 2 have the same name, so CMake stops: move the interfaces to a separate package",
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
+        yield from self._check_interfaces(package)
         yield from self._check_names(package)
         yield from self._check_exports(package)
         yield from self._check_finds(package)
@@ -134,3 +161,18 @@ class CallRepeated(Rule):
             fix = Fix("remove it", (Edit("CMakeLists.txt", start, end, ""),)) if alone else None
             message = f"{values[0]!r} is already found in line {first[values]}"
             yield self.report(command.name_location, message, fix, severity=Severity.WARNING)
+
+    def _check_interfaces(self, package: Package) -> Iterator[Diagnostic]:
+        cmake = package.cmake
+        may_be = target().fact("build.package_may_be_installed_twice")
+        if not is_interface_package(package) or may_be:
+            return
+        line = generations(package)[0].command.location.line
+        for command in cmake.find("ament_python_install_package"):
+            name = cmake.expand(command.arguments[0], command) if command.arguments else None
+            if name is not None and name == cmake.project_name:
+                message = (
+                    f"the Python package {name!r} and the interfaces generated in line {line} "
+                    "have the same name, so CMake stops: move the interfaces to a separate package"
+                )
+                yield self.report(command.name_location, message)

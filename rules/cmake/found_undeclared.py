@@ -4,7 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import (
+    Diagnostic,
+    Example,
+    Fix,
+    Package,
+    Report,
+    Rule,
+    Severity,
+    ViewError,
+)
 from scaffold.api.catalog import ROS_PACKAGES, transitive_dependencies
 from scaffold.api.cmake import FoundPackage
 from scaffold.api.distributions import removed_package, target
@@ -19,20 +28,30 @@ _ELSEWHERE = (
 )
 
 
+_MANIFEST_RUN_ONLY = '<package format="3">\n  <name>talker</name>\n{}</package>\n'
+_LISTS_RUN_ONLY = "project(talker)\nfind_package(std_msgs REQUIRED)\n"
+_EXEC = "  <exec_depend>std_msgs</exec_depend>\n"
+
+
 class FoundUndeclared(Rule):
-    """``find_package`` looks for a ROS package that the manifest does not declare.
+    """``find_package`` looks for a ROS package that the manifest does not declare for the build.
 
     **Why.** On a clean machine rosdep does not install it and CMake stops; colcon may build the
-    two packages in the wrong order.
+    two packages in the wrong order. What is only needed to run, the build farm leaves out.
 
     **Fix.** Add a ``<build_depend>``, or a ``<test_depend>`` when it is found for tests only; if
-    there is one whose condition excludes the distribution, change the condition.
+    there is one whose condition excludes the distribution, change the condition. A package of
+    Python code alone need not be found at all.
 
-    **Source.** ROS 2 documentation, "ament_cmake user documentation"; REP-149.
+    **Source.** ROS 2 documentation, "ament_cmake user documentation"; REP-149; bloom, whose
+    ``Build-Depends`` are those of ``buildtool_depend``, ``build_depend``, ``depend`` and
+    ``test_depend``.
     """
 
     code = "CM020"
     name = "found-undeclared"
+    release_refused = "the build farm does not install the package before it builds"
+    other_severities = {Severity.WARNING: "it is declared, but as a run dependency only"}
     examples = (
         Example(
             "declared, and a library whose key may have another name",
@@ -129,9 +148,49 @@ class FoundUndeclared(Rule):
                 )
             },
         ),
+        Example(
+            "for the build",
+            {
+                "package.xml": _MANIFEST_RUN_ONLY.format("  <depend>std_msgs</depend>\n"),
+                "CMakeLists.txt": _LISTS_RUN_ONLY,
+            },
+        ),
+        Example(
+            "transitive dependency of a build dependency",
+            {
+                "package.xml": _MANIFEST_RUN_ONLY.format(
+                    "  <depend>sensor_msgs</depend>\n" + _EXEC
+                ),
+                "CMakeLists.txt": _LISTS_RUN_ONLY,
+            },
+        ),
+        Example(
+            "where it is there",
+            {
+                "package.xml": _MANIFEST_RUN_ONLY.format(_EXEC),
+                "CMakeLists.txt": "project(talker)\nfind_package(std_msgs)\n",
+            },
+        ),
+        Example(
+            "for running",
+            {"package.xml": _MANIFEST_RUN_ONLY.format(_EXEC), "CMakeLists.txt": _LISTS_RUN_ONLY},
+            Report(
+                "package.xml:3:3",
+                "<exec_depend> 'std_msgs' is not installed when the package is built, "
+                "but CMakeLists.txt, line 2 finds it; add <build_depend>",
+                fix="add a <build_depend> of std_msgs",
+                severity=Severity.WARNING,
+            ),
+            fixed={
+                "package.xml": _MANIFEST_RUN_ONLY.format(
+                    "  <build_depend>std_msgs</build_depend>\n" + _EXEC
+                )
+            },
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
+        yield from self._check_run_only(package)
         manifest = package.manifest
         reported: set[str] = set()
         for found in _undeclared(package):
@@ -154,6 +213,35 @@ class FoundUndeclared(Rule):
             needed = declaring(package, _tag(found), name)
             message = f"finds {name!r}, which no dependency in package.xml names; {needed.advice}"
             yield self.report(found, message, needed.fix, cause=f"dependency {name}")
+
+    def _check_run_only(self, package: Package) -> Iterator[Diagnostic]:
+        manifest = package.manifest
+        kinds: dict[str, set[str]] = {}
+        for declared in manifest.dependencies:
+            kinds.setdefault(declared.name, set()).add(declared.kind)
+        only = {name for name, item in kinds.items() if item == {"exec_depend"}}
+        along = _there(package) if only else set()
+        for found_package in package.cmake.found_packages:
+            name = found_package.name
+            if (
+                name not in only
+                or name in along
+                or not found_package.required
+                or found_package.command.blocks
+            ):
+                continue
+            if name not in ROS_PACKAGES and package.workspace.get(name) is None:
+                continue
+            only.remove(name)
+            element = next(
+                dependency for dependency in manifest.dependencies if dependency.name == name
+            ).element
+            message = (
+                f"<exec_depend> {name!r} is not installed when the package is built, but "
+                f"CMakeLists.txt, line {found_package.location.line} finds it; add <build_depend>"
+            )
+            fix = Fix(f"add a <build_depend> of {name}", (manifest.insert("build_depend", name),))
+            yield self.report(element, message, fix, severity=Severity.WARNING)
 
 
 def _undeclared(package: Package) -> Iterator[FoundPackage]:
@@ -178,3 +266,29 @@ def _tag(found: FoundPackage) -> str:
         return "test_depend"
     is_tool = found.name.startswith(("ament_cmake", "rosidl_default_generators"))
     return "buildtool_depend" if is_tool else "build_depend"
+
+
+def _there(package: Package) -> set[str]:
+    """Return the transitive dependencies of those for the build and the tests."""
+    manifest = package.manifest
+    result: set[str] = set()
+    pending = [
+        *manifest.build_names,
+        *manifest.test_names,
+        *(
+            dependency.name
+            for dependency in manifest.dependencies
+            if dependency.kind.startswith("buildtool")
+        ),
+    ]
+    while pending:
+        name = pending.pop()
+        if name not in result:
+            result.add(name)
+            neighbour = package.workspace.get(name)
+            try:
+                pending += neighbour.manifest.run_names if neighbour is not None else ()
+            except ViewError:
+                continue
+    # A package with messages depends on what is needed to use them.
+    return result | transitive_dependencies(result) | {"rosidl_default_runtime"}

@@ -1,4 +1,4 @@
-"""CM012: every node is installed."""
+"""CM012: every node and every executable is installed."""
 
 from __future__ import annotations
 
@@ -24,14 +24,23 @@ _DATA = "install(DIRECTORY scripts DESTINATION share/talker)\nament_package()\n"
 _FOR_USERS = ("launch.py", "launch.xml", "launch.yaml", "launch.yml", ".sh", ".md", ".rst")
 
 
+_LISTS_TARGETS = (
+    "project(talker)\nfind_package(ament_cmake REQUIRED)\nadd_executable(talk src/talk.cpp)\n"
+    "add_executable(listen src/listen.cpp)\n"
+    "install(TARGETS talk {}DESTINATION lib/${{PROJECT_NAME}})\nament_package()\n"
+)
+
+
 class ProgramNotInstalled(Rule):
-    """A node, written to be started, is not among the installed programs.
+    """A node or an executable, written to be started, is not among the installed programs.
 
     **Why.** ``ros2 run`` answers ``No executable found``.
 
-    **Fix.** List the file in ``install(PROGRAMS ... DESTINATION lib/${PROJECT_NAME})``.
+    **Fix.** List a script in ``install(PROGRAMS ... DESTINATION lib/${PROJECT_NAME})``, and what is
+    built in ``install(TARGETS ... DESTINATION lib/${PROJECT_NAME})``.
 
-    **Source.** ``ros2run/command/run.py``; ROS 2 documentation, "ament_cmake user documentation".
+    **Source.** ``ros2run/command/run.py``; ROS 2 documentation, "ament_cmake user documentation";
+    catkin_lint, "target is not installed".
     """
 
     code = "CM012"
@@ -151,9 +160,16 @@ class ProgramNotInstalled(Rule):
             "installed: `ros2 run` does not find it",
             executable=("talker/node.py",),
         ),
+        Example("both", {"CMakeLists.txt": _LISTS_TARGETS.format("listen ")}),
+        Example(
+            "one is forgotten",
+            {"CMakeLists.txt": _LISTS_TARGETS.format("")},
+            "4:16: 'listen' is built, but not installed",
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
+        yield from self._check_targets(package)
         cmake = package.cmake
         if not cmake.find("ament_package") or has_unknown_commands(package):
             return
@@ -194,6 +210,46 @@ class ProgramNotInstalled(Rule):
         """Tell whether an installed file that does not exist must be this one."""
         missing = [program.path for program in programs(package) if not package.has(program.path)]
         return bool(closest_name(package, path, missing, 0.8))
+
+    def _check_targets(self, package: Package) -> Iterator[Diagnostic]:
+        cmake = package.cmake
+        if not cmake.find("ament_package") or has_unknown_commands(package):
+            return
+        targets = [install for install in cmake.installs if install.kind == "TARGETS"]
+        installed = {item.value for target in targets for item in target.items}
+        # An application that installs nothing at all has not forgotten this one.
+        if not installed or None in installed:
+            return
+        for command in cmake.find("add_executable"):
+            if command.blocks or not command.arguments or cmake.guarded_by_testing(command):
+                continue
+            name = cmake.expand(command.arguments[0], command)
+            kinds = set(command.values[1:2])
+            if (
+                name is None
+                or name in installed
+                or kinds & {"IMPORTED", "ALIAS", "EXCLUDE_FROM_ALL"}
+            ):
+                continue
+            if self._is_used(package, name) or "test" in name or "benchmark" in name:
+                continue
+            yield self.report(command.arguments[0], f"{name!r} is built, but not installed")
+
+    def _is_used(self, package: Package, name: str) -> bool:
+        """Tell whether the build itself runs or installs the executable."""
+        ways = (
+            "add_custom_command",
+            "add_custom_target",
+            "rclcpp_components_register_node",
+            "install",
+            "add_test",
+            "add_dependencies",
+        )
+        return any(
+            name in value.split(":") or f"TARGET_FILE:{name}" in value
+            for command in package.cmake.find(*ways)
+            for value in command.values
+        )
 
 
 def _is_named(package: Package, path: str) -> bool:

@@ -1,10 +1,10 @@
-"""IM050: names are used that the distribution has."""
+"""IM050: names are used that the distribution has, and that will stay."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Fix, PythonRule, Report
+from scaffold.api import Diagnostic, Example, Fix, PythonRule, Report, Severity
 from scaffold.api.distributions import of_kind
 from scaffold.api.python import PythonModule
 from scaffold.api.rclpy import changed_uses
@@ -32,11 +32,12 @@ _ELSEWHERE = (
 
 
 class NameRemoved(PythonRule):
-    """Code uses a name that was removed in the distribution.
+    """Code uses a name that the distribution removed, or that it deprecates.
 
     **Why.** ``AttributeError``, ``ImportError`` or ``ModuleNotFoundError``: Lyrical removed what
     rclpy had deprecated, such as ``get_logger().warn`` and the long names of the policies. Names
-    and arguments of its NumPy and Python were removed, too: ``TypeError`` or ``ValueError``.
+    and arguments of its NumPy and Python were removed, too: ``TypeError`` or ``ValueError``. What
+    is deprecated works until then, with a warning at most.
 
     **Fix.** Use its replacement. If not all distributions of the package have it, test for it
     first.
@@ -47,6 +48,8 @@ class NameRemoved(PythonRule):
     code = "IM050"
     name = "name-removed"
     is_fixed_for_all = True
+    is_deprecation = True
+    other_severities = {Severity.INFO: "the distribution still has it, and a later one will not"}
     examples = (
         Example("still there", {"talker.py": _NODE.format("", "warn")}),
         Example("the new name", {"talker.py": _NODE.format("", "warning")}, distro="lyrical"),
@@ -302,6 +305,12 @@ class NameRemoved(PythonRule):
         Example(
             "what only later releases of NumPy remove",
             {"area.py": "import numpy as np\n\nfound = np.in1d([1], np.array([1, 2]))\n"},
+            Report(
+                "3:9",
+                "numpy.in1d is deprecated since Lyrical; use numpy.isin, whose result "
+                "has the shape of its first argument (NumPy 2.0)",
+                severity=Severity.INFO,
+            ),
             distro="lyrical",
         ),
         Example(
@@ -352,12 +361,28 @@ class NameRemoved(PythonRule):
             },
             distro="lyrical",
         ),
+        Example(
+            "the old name while it is deprecated",
+            {"talker.py": _NODE.format("", "warn")},
+            Report(
+                "8:9",
+                "rclpy.impl.rcutils_logger.RcutilsLogger.warn is deprecated since "
+                "Kilted, and Lyrical removes it; use warning (rclpy 1456)",
+                fix="write warning",
+                severity=Severity.INFO,
+            ),
+            fixed={"talker.py": _NODE.format("", "warning")},
+            distro="kilted",
+        ),
     )
 
     def check_file(self, module: PythonModule) -> Iterator[Diagnostic]:
-        changes = [change for change in of_kind("name") if change.is_removed]
+        changes = [item for item in of_kind("name") if item.is_removed or item.is_deprecated]
         for use in changed_uses(module, changes):
-            advice = use.change.instead(use.replacement)
-            message = f"{use.shown} {use.change.state}: {use.error}; {advice} ({use.change.source})"
+            change, is_gone = use.change, use.change.is_removed
+            error = f": {use.error}" if is_gone else ""
+            advice = f"{change.instead(use.replacement)} ({change.source})"
+            message = f"{use.shown} {change.state}{error}; {advice}"
             fix = Fix(f"write {use.replacement}", use.edits) if use.edits else None
-            yield self.report(use.location, message, fix)
+            severity = Severity.ERROR if is_gone else Severity.INFO
+            yield self.report(use.location, message, fix, severity=severity)

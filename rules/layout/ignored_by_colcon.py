@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule, Severity
+from scaffold.api import Diagnostic, Example, Package, Rule, Severity, ViewError
+from scaffold.api.cmake import installs_directory
 
 MARKERS = {
     "COLCON_IGNORE": "colcon",
@@ -13,15 +14,21 @@ MARKERS = {
 }
 
 
+_COPIES = frozenset({"third_party", "thirdparty", "3rdparty", "external", "vendor"})
+"""Directories of code of others."""
+
+
 class IgnoredByColcon(Rule):
-    """A marker file hides the package from the build.
+    """A package is hidden from the build: by a marker file, or inside another package.
 
     **Why.** ``colcon build`` says ``0 packages finished`` and nothing else; later ``ros2 run``
-    answers ``Package not found``.
+    answers ``Package not found``. colcon does not search inside packages.
 
-    **Fix.** Delete the marker. No automatic fix: it may be there on purpose.
+    **Fix.** Delete the marker; move the inner package next to the outer one, below ``src/``. No
+    automatic fix: both may be there on purpose.
 
-    **Source.** colcon documentation, "Discovery arguments"; ``colcon_ros`` package identification.
+    **Source.** colcon documentation, "Discovery arguments"; ``colcon_ros`` package identification;
+    ROS 2 documentation, "Creating a package": "You can also not have nested packages".
     """
 
     code = "LY001"
@@ -41,10 +48,55 @@ class IgnoredByColcon(Rule):
             "tools: it is never built",
             "CATKIN_IGNORE:1:1: CATKIN_IGNORE hides the package from colcon-ros: it is never built",
         ),
+        Example("one package", {"package.xml": "<package/>\n", "msgs/readme.txt": ""}),
+        Example(
+            "a library that the outer package builds",
+            {
+                "package.xml": "<package/>\n",
+                "CMakeLists.txt": "project(robot)\nadd_subdirectory(lib/karto)\n",
+                "lib/karto/package.xml": "<package/>\n",
+            },
+        ),
+        Example(
+            "a template that the outer package installs",
+            {
+                "package.xml": "<package/>\n",
+                "CMakeLists.txt": "project(robot)\n"
+                "install(DIRECTORY templates DESTINATION share/robot)\n",
+                "templates/talker/package.xml": "<package/>\n",
+            },
+        ),
+        Example(
+            "a package of messages inside the package that uses them",
+            {"package.xml": "<package/>\n", "robot_msgs/package.xml": "<package/>\n"},
+            "robot_msgs/package.xml:1:1: is inside the package 'the package above it': colcon "
+            "never builds it",
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
+        outer = package.name or "the package above it"
+        for directory in package.tree.nested:
+            if not _is_built(package, directory):
+                at = package.start_of(f"{directory}/package.xml")
+                yield self.report(at, f"is inside the package {outer!r}: colcon never builds it")
         for marker, tool in MARKERS.items():
             if package.has(marker):
                 at = package.start_of(marker)
                 yield self.report(at, f"{marker} hides the package from {tool}: it is never built")
+
+
+def _is_built(package: Package, directory: str) -> bool:
+    """Tell whether the outer package builds or installs a directory, or it is a copy."""
+    if not _COPIES.isdisjoint(directory.split("/")):
+        return True
+    try:
+        if installs_directory(package, directory):
+            return True
+        commands = package.cmake.find("add_subdirectory", "set", "include", "include_directories")
+    except ViewError:
+        return False
+    values = {
+        value.rpartition("}/")[2].strip("/") for command in commands for value in command.values
+    }
+    return any(f"{directory}/".startswith(f"{value}/") for value in values - {"", "."})

@@ -9,6 +9,7 @@ from scaffold.api import Diagnostic, Example, MessageRule
 from scaffold.api.distributions import removed_interface
 from scaffold.api.interfaces import closest_word
 from scaffold.api.messages import PARTS, MessageClass, MessageTypes
+from scaffold.api.python import is_handled
 
 _CLASS_PARTS = frozenset({"Request", "Response", "Event", "Goal", "Result", "Feedback", "Impl"})
 _NODE = (
@@ -22,17 +23,41 @@ _NODE = (
 )
 
 
+_NODE_WRAPPED = (
+    "from example_interfaces.action import Fibonacci\nfrom rclpy.action import ActionClient\n"
+    "from rclpy.node import Node\n\n\n"
+    "class Sender(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('sender')\n"
+    "        self.client = ActionClient(self, Fibonacci, 'count')\n\n"
+    "    def send(self):\n"
+    "        future = self.client.send_goal_async(Fibonacci.Goal(), self.show)\n"
+    "        future.add_done_callback(self.ask)\n\n"
+    "    def show(self, message):\n"
+    "        self.last = message{}.sequence\n\n"
+    "    def ask(self, future):\n"
+    "        handle = future.result()\n"
+    "        handle.get_result_async().add_done_callback(self.end)\n\n"
+    "    def end(self, future):\n"
+    "        answer = future.result()\n"
+    "        self.last = answer{}.sequence, answer.status\n"
+)
+
+
 class MessageFieldUnknown(MessageRule):
-    """Code reads or sets a field that the message does not have.
+    """Code reads or sets a field that the message, or what wraps it, does not have.
 
     **Why.** ``AttributeError: 'String' object has no attribute 'text'``; in a callback, the
-    first message ends the node.
+    first message ends the node. Feedback and results of actions come inside of another message:
+    ``'Fibonacci_FeedbackMessage' object has no attribute 'sequence'``.
 
-    **Fix.** Use a field of the definition: ``ros2-scaffold interfaces String`` shows it. Only
-    objects that are certainly messages are checked: those a constructor returns, and the
-    parameters that rclpy passes to callbacks.
+    **Fix.** Use a field of the definition: ``ros2-scaffold interfaces String`` shows it; for
+    actions, ``message.feedback.sequence`` and ``future.result().result.sequence``. Only objects
+    that are certainly messages are checked: those a constructor returns, and the parameters that
+    rclpy passes to callbacks.
 
-    **Source.** ``rosidl_generator_py``: the classes have ``__slots__``.
+    **Source.** ``rosidl_generator_py``: the classes have ``__slots__``; ROS 2 documentation,
+    "Writing an action server and client (Python)".
     """
 
     code = "MS002"
@@ -99,9 +124,19 @@ class MessageFieldUnknown(MessageRule):
             {"talker.py": "from std_srvs.srv import SetBool\n\nrequest = SetBool.Requests()\n"},
             "3:19: std_srvs/srv/SetBool has no 'Requests': AttributeError; did you mean 'Request'?",
         ),
+        Example("unwrapped", {"sender.py": _NODE_WRAPPED.format(".feedback", ".result")}),
+        Example(
+            "not unwrapped",
+            {"sender.py": _NODE_WRAPPED.format("", "")},
+            "16:21: this wrapper has only 'feedback' and 'goal_id', not 'sequence': "
+            "AttributeError; use .feedback.sequence",
+            "24:21: this wrapper has only 'result' and 'status', not 'sequence': AttributeError; "
+            "use .result.sequence",
+        ),
     )
 
     def check_file(self, types: MessageTypes) -> Iterator[Diagnostic]:
+        yield from self._check_wrapped(types)
         for node in types.module.walk(ast.Attribute):
             message = _flaw(types, node)
             if message and not types.is_tolerated(node):
@@ -109,6 +144,14 @@ class MessageFieldUnknown(MessageRule):
                 at = types.module.source.location(max(start, end - len(node.attr)), end)
                 cause = f"fields of {message.partition(' has no ')[0]}"
                 yield self.report(at, message, cause=cause)
+
+    def _check_wrapped(self, types: MessageTypes) -> Iterator[Diagnostic]:
+        if not types.file.action_clients:
+            return
+        for node in types.module.walk(ast.Attribute):
+            message = _message_wrapped(types, node)
+            if message and not is_handled(types.module, node, "AttributeError"):
+                yield self.report(types.module.location(node), message)
 
 
 def _flaw(types: MessageTypes, node: ast.Attribute) -> str | None:
@@ -148,3 +191,15 @@ def _unknown_part(types: MessageTypes, node: ast.Attribute) -> str | None:
         return None
     hint = closest_word(node.attr, [*PARTS[dotted[1]]])
     return f"{full_name} has no {node.attr!r}: AttributeError{hint}"
+
+
+def _message_wrapped(types: MessageTypes, node: ast.Attribute) -> str:
+    wrapped = types.action_messages.wrapped(node.value)
+    if wrapped is None or node.attr in {wrapped.field, wrapped.other} or node.attr.startswith("_"):
+        return ""
+    if node.attr in {"get_fields_and_field_types", "SLOT_TYPES"}:
+        return ""
+    return (
+        f"this wrapper has only {wrapped.field!r} and {wrapped.other!r}, not {node.attr!r}: "
+        f"AttributeError; use .{wrapped.field}.{node.attr}"
+    )

@@ -316,7 +316,7 @@ def test_migrated_packages_still_build_run_and_are_clean_on_jazzy(
     left = reported(capsys, "--keep", "jazzy")
     assert codes(left, "breaks") == {"IM050": 1, "TY002": 1, "MS002": 1, "TY001": 1}
     assert codes(left, "changes") == {"IM052": 2}
-    assert codes(left, "deprecated") == {"IM051": 3}
+    assert codes(left, "deprecated") == {"IM050": 3}
     assert main(["check", "--distro", "jazzy", "."]) == 0, capsys.readouterr().out
     main(["smoke", ".", "--format", "json", "--output-file", "report.json"])
     report = json.loads(Path("report.json").read_text())

@@ -5,10 +5,10 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator, Mapping
 
-from scaffold.api import Diagnostic, Example, Package, RclpyRule
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, RclpyRule, Report, Safety
 from scaffold.api.parameters import declared_by
-from scaffold.api.python import is_handled
-from scaffold.api.rclpy import RclpyFile, parameter_read
+from scaffold.api.python import UNKNOWN, is_handled
+from scaffold.api.rclpy import FIELDS, RclpyFile, is_listed_parameter, name_asked, parameter_read
 
 _NUMBERS = ("double", "integer")
 _ARITHMETIC = (ast.Add, ast.Sub, ast.Mult, ast.Div, ast.FloorDiv)
@@ -35,16 +35,38 @@ _SCALARS: Mapping[str, tuple[type, ...]] = {
 """The Python types of what parameters may equal."""
 
 
+_NODE_FIELDS = (
+    "from rclpy.node import Node\n\n\n"
+    "class Talker(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('talker')\n"
+    "        self.declare_parameter('period', 0.2)\n"
+    "        self.period = self.get_parameter('period').get_parameter_value().{}\n"
+)
+_VARIABLES = (
+    "from rclpy.node import Node\n\n\n"
+    "class Talker(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('talker')\n"
+    "        self.parameter = self.declare_parameter('period', 0.2)\n"
+    "        value = self.parameter.get_parameter_value()\n"
+    "        self.period = value.{}\n"
+)
+
+
 class ParameterValueUnfit(RclpyRule):
-    """The value of a parameter is used as if it had another type than declared.
+    """The value of a parameter is used, or read, as if it had another type than declared.
 
     **Why.** ``TypeError: unsupported operand type(s) for /: 'float' and 'str'``, ``'float' object
     cannot be interpreted as an integer``. A bool never equals ``'true'``: ``==`` is always false,
-    and nothing complains.
+    and nothing complains. The fields of ParameterValue that belong to other types are 0, False or
+    empty, whatever the parameter is set to.
 
-    **Fix.** Declare the parameter with a default of the type that the code needs.
+    **Fix.** Declare the parameter with a default of the type that the code needs, and read
+    ``.value`` or the field of that type.
 
-    **Source.** ``rclpy/parameter.py``; declared parameters keep their type.
+    **Source.** ``rclpy/parameter.py``; declared parameters keep their type;
+    ``rcl_interfaces/msg/ParameterValue.msg``.
     """
 
     code = "ND088"
@@ -108,9 +130,42 @@ class ParameterValueUnfit(RclpyRule):
                 .format("== 'true'")
             },
         ),
+        Example("the field of its type", {"talker.py": _NODE_FIELDS.format("double_value")}),
+        Example(
+            "another field as a fallback",
+            {
+                "talker.py": _VARIABLES.format("double_value").replace(
+                    "        self.period = value.double_value\n",
+                    "        try:\n            self.period = value.double_value\n"
+                    "        except AttributeError:\n"
+                    "            self.period = value.integer_value\n",
+                )
+            },
+        ),
+        Example(
+            "another field",
+            {"talker.py": _NODE_FIELDS.format("integer_value")},
+            Report(
+                "8:23",
+                "'period' is declared as double: integer_value is always empty; use double_value",
+                unsafe_fix="read the field of the declared type",
+            ),
+            fixed={"talker.py": _NODE_FIELDS.format("double_value")},
+        ),
+        Example(
+            "through variables",
+            {"talker.py": _VARIABLES.format("string_value")},
+            Report(
+                "9:23",
+                "'period' is declared as double: string_value is always empty; use double_value",
+                unsafe_fix="read the field of the declared type",
+            ),
+            fixed={"talker.py": _VARIABLES.format("double_value")},
+        ),
     )
 
     def check_in(self, package: Package, file: RclpyFile) -> Iterator[Diagnostic]:
+        yield from self._check_fields(package, file)
         if not file.parameter_reads and not file.parameters:
             return
         for node, problem in _problems(package, file):
@@ -120,6 +175,22 @@ class ParameterValueUnfit(RclpyRule):
             problem = _never_equal(package, file, comparison)
             if problem:
                 yield self.report(file.module.location(comparison), problem)
+
+    def _check_fields(self, package: Package, file: RclpyFile) -> Iterator[Diagnostic]:
+        for name in FIELDS:
+            for field in file.module.index.attributes(name):
+                read, declared = _read(package, file, field)
+                if not declared or field.attr == f"{declared}_value":
+                    continue
+                parents = file.module.parents(field)
+                if any(isinstance(parent, ast.ExceptHandler) for parent in parents):
+                    continue  # a fallback
+                _, end = file.module.span(field)
+                edit = Edit(file.module.path, end - len(field.attr), end, f"{declared}_value")
+                message = f"{read!r} is declared as {declared}: {field.attr} is always empty; "
+                message += f"use {declared}_value"
+                fix = Fix("read the field of the declared type", (edit,), Safety.UNSAFE)
+                yield self.report(file.module.location(field), message, fix)
 
 
 def _problems(package: Package, file: RclpyFile) -> Iterator[tuple[ast.expr, str]]:
@@ -207,4 +278,22 @@ def _declared(package: Package, file: RclpyFile, node: ast.expr) -> tuple[str, s
             owner, name = parameter_read(file, parameter)
             if owner is not None and isinstance(name, str):
                 return name, declared_by(owner, package).types.get(name) or ""
+    return "", ""
+
+
+def _read(package: Package, file: RclpyFile, field: ast.Attribute) -> tuple[str, str]:
+    """Return name and declared type of the parameter that a field is read from.
+
+    Both are empty if that is not certain.
+    """
+    match file.evaluator.single_value(field.value):
+        case ast.Call(func=ast.Attribute(attr="get_parameter_value", value=parameter)):
+            owner, name = parameter_read(file, parameter)
+            if isinstance(parameter, ast.Name) and is_listed_parameter(file, parameter):
+                class_ = file.module.enclosing_class(field)
+                owner = file.node_class(class_) if class_ is not None else None
+                name = name_asked(file, field, parameter.id) or UNKNOWN
+            if owner is not None and isinstance(name, str):
+                declared = declared_by(owner, package)
+                return name, declared.types.get(name) or ""
     return "", ""

@@ -64,6 +64,19 @@ _NODE_ORDER = (
 )
 
 
+_SENDER = (
+    "from example_interfaces.action import Fibonacci\nfrom rclpy.action import ActionClient\n"
+    "from rclpy.node import Node\n\n\n"
+    "class Sender(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('sender')\n"
+    "        self.client = ActionClient({}, 'count')\n\n"
+    "    def send(self):\n"
+    "        self.client.send_goal_async({})\n"
+)
+_GOAL = "Fibonacci.Goal(order=3)"
+
+
 class ArgumentUnusable(RclpyRule):
     """An rclpy function gets an argument of the wrong type, or its first two arguments are swapped.
 
@@ -140,6 +153,20 @@ class ArgumentUnusable(RclpyRule):
             ),
             fixed={"talker.py": _NODE_ORDER.format("String, 'chatter'", "0.5, self.tick")},
         ),
+        Example("an action type", {"sender.py": _SENDER.format("self, Fibonacci", _GOAL)}),
+        Example(
+            "a part of the action",
+            {"sender.py": _SENDER.format("self, Fibonacci.Goal", _GOAL)},
+            "9:42: this is only a part of an action; pass Fibonacci",
+        ),
+        Example(
+            "a message type",
+            {
+                "sender.py": "from std_msgs.msg import String\n"
+                + _SENDER.format("self, String", _GOAL)
+            },
+            "10:42: 'String' is not an action type",
+        ),
     )
 
     def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
@@ -205,6 +232,8 @@ def _problem(file: RclpyFile, entity: Entity, argument: Argument) -> str:
         problem = (
             "this is an instance, not the message type; remove the parentheses" if is_made else ""
         )
+    elif name == "action_type":
+        problem = _action_problem(file, node)
     elif isinstance(entity, Service | Client) and name == "srv_type":
         problem = _service_problem(file, node)
     elif name in _NAMES and value is not UNKNOWN and not isinstance(value, str):
@@ -238,4 +267,14 @@ def _default_problem(value: object) -> str:
         if len(kinds) > 1 or kinds & {list, dict, tuple}:
             names = ", ".join(sorted(kind.__name__ for kind in kinds))
             return f"a list parameter cannot mix {names}: TypeError"
+    return ""
+
+
+def _action_problem(file: RclpyFile, node: ast.expr) -> str:
+    """Return the message for a wrong type of an action server or client."""
+    full = file.module.qualified_name(node) or ""
+    if re.fullmatch(r"(?!rclpy\.)\w+\.action\.[A-Z][A-Za-z0-9]*\.(Goal|Result|Feedback)", full):
+        return f"this is only a part of an action; pass {full.split('.')[2]}"
+    if re.fullmatch(r"\w+\.(msg|srv)\.[A-Z][A-Za-z0-9]*", full) and file.interface(node):
+        return f"{full.rpartition('.')[2]!r} is not an action type"
     return ""

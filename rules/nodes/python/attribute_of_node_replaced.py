@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, RclpyRule
+from scaffold.api import Report, Diagnostic, Example, RclpyRule, Severity
 from scaffold.api.python import FunctionNode
 from scaffold.api.rclpy import NodeClass, RclpyFile
 
@@ -31,19 +31,36 @@ _NODE = (
 )
 
 
+_NODE_DESTROY = (
+    "from rclpy.node import Node\n\n\n"
+    "class Driver(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('driver')\n\n"
+    "    def destroy_node(self):\n"
+    "        self.port.close()\n"
+    "        {}\n"
+)
+
+
 class AttributeOfNodeReplaced(RclpyRule):
     """A node assigns to a property of Node, or overrides a method that rclpy calls.
 
     **Why.** ``AttributeError: property 'publishers' of 'Talker' object has no setter``; an
-    ``executor`` of another kind fails with ``has no attribute 'add_node'``.
+    ``executor`` of another kind fails with ``has no attribute 'add_node'``. After a
+    ``destroy_node`` that does not call the one of rclpy, the node stays in the graph, and its
+    callbacks run with what is closed.
 
-    **Fix.** Choose another name, such as ``self._publishers``.
+    **Fix.** Choose another name, such as ``self._publishers``; end ``destroy_node`` with
+    ``super().destroy_node()``.
 
-    **Source.** ``rclpy/node.py``, the properties of ``Node``.
+    **Source.** ``rclpy/node.py``, the properties of ``Node`` and ``destroy_node``.
     """
 
     code = "ND013"
     name = "attribute-of-node-replaced"
+    other_severities = {
+        Severity.WARNING: "it is ``destroy_node``, which does not call the one of rclpy"
+    }
     examples = (
         Example("another name", {"talker.py": _NODE.format("my_publishers")}),
         Example(
@@ -62,9 +79,21 @@ class AttributeOfNodeReplaced(RclpyRule):
             "name",
             "9:9: 'timers' overrides an attribute of rclpy's Node; choose another name",
         ),
+        Example("complete", {"driver.py": _NODE_DESTROY.format("super().destroy_node()")}),
+        Example(
+            "incomplete",
+            {"driver.py": _NODE_DESTROY.format("self.port = None")},
+            Report(
+                "8:9",
+                "super().destroy_node() is not called: publishers, timers and "
+                "subscriptions stay; call it at the end",
+                severity=Severity.WARNING,
+            ),
+        ),
     )
 
     def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        yield from self._check_destroy(file)
         for node in file.classes:
             for target in _targets(node):
                 at = file.module.location(target)
@@ -78,6 +107,25 @@ class AttributeOfNodeReplaced(RclpyRule):
                         f"{name!r} overrides an attribute of rclpy's Node; choose another name"
                     )
                     yield self.report(at, message)
+
+    def _check_destroy(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        for node in file.classes:
+            method = node.methods.get("destroy_node")
+            if method is None or method.decorator_list or any(map(_raises, method.body)):
+                continue
+            calls = [
+                func
+                for reached in file.reached(method)
+                for func in file.module.below(reached, ast.Attribute)
+                if func.attr in {"destroy_node", "__getattribute__"}
+            ]
+            if not calls and not file.module.mentions("super(Node", "super().__getattr"):
+                message = (
+                    "super().destroy_node() is not called: publishers, timers and subscriptions "
+                    "stay; call it at the end"
+                )
+                at = file.module.name_location(method)
+                yield self.report(at, message, severity=Severity.WARNING)
 
 
 def _breaks(name: str, method: FunctionNode) -> bool:
@@ -123,3 +171,7 @@ def _is_usable(node: NodeClass, target: ast.Attribute) -> bool:
         return True
     name = node.file.module.qualified_name(value.func) or ""
     return not name.startswith("concurrent.futures.")
+
+
+def _raises(statement: ast.stmt) -> bool:
+    return isinstance(statement, ast.Raise)

@@ -1,4 +1,4 @@
-"""ND005: rclpy is initialized once, with the command line."""
+"""ND005: rclpy is initialized once, with the command line, by a plain call."""
 
 from __future__ import annotations
 
@@ -6,8 +6,9 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, RclpyRule, Report, Severity
+from scaffold.api.distributions import target
 from scaffold.api.python import FunctionNode
-from scaffold.api.rclpy import RclpyCall, RclpyFile
+from scaffold.api.rclpy import RclpyCall, RclpyFile, known_names
 
 _MAIN = (
     "import rclpy\n\n\ndef main(args=None):\n    rclpy.init(args=args)\n{}    rclpy.shutdown()\n"
@@ -19,18 +20,23 @@ _MAIN_ARGUMENTS = (
 )
 
 
+_WITH = "import rclpy\n\n\ndef main():\n    with rclpy.init():\n        pass\n"
+_PLAIN = "import rclpy\n\n\ndef main():\n    rclpy.init()\n"
+
+
 class InitMisused(RclpyRule):
-    """``rclpy.init()`` is called twice in a row, or gets an empty list of arguments.
+    """``rclpy.init()`` is called twice in a row, gets no arguments, or is a context manager.
 
     **Why.** ``RuntimeError: Context.init() must only be called once``. An empty list replaces the
     command line: ``--ros-args``, with the remappings and parameters of a launch file, have no
-    effect.
+    effect. On Humble and Jazzy ``init`` returns None: ``TypeError: 'NoneType' object does not
+    support the context manager protocol``.
 
     **Fix.** Keep the first call; write ``rclpy.init(args=args)``, where ``None`` means the command
-    line.
+    line, and ``rclpy.try_shutdown()`` in a ``finally``.
 
-    **Source.** ``rclpy/context.py``; ROS 2 documentation, "Passing ROS arguments to nodes via the
-    command line".
+    **Source.** ``rclpy/context.py``; rclpy 7.4.0 (pull request 1298); ROS 2 documentation, "Passing
+    ROS arguments to nodes via the command line".
     """
 
     code = "ND005"
@@ -103,11 +109,23 @@ class InitMisused(RclpyRule):
                 severity=Severity.WARNING,
             ),
         ),
+        Example("a plain call", {"talker.py": _PLAIN}),
+        Example(
+            "a with statement",
+            {"talker.py": _WITH},
+            "5:10: rclpy.init() is not a context manager on Jazzy: TypeError at start",
+        ),
     )
 
     def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
         yield from self._check_again(file)
         yield from self._check_arguments(file)
+        if "rclpy.InitContextManager" not in known_names():
+            title = target().title
+            for call in file.init_calls:
+                if call.in_with:
+                    message = "rclpy.init() is not a context manager on"
+                    yield self.report(call, f"{message} {title}: TypeError at start")
 
     def _check_again(self, file: RclpyFile) -> Iterator[Diagnostic]:
         started: RclpyCall | None = None

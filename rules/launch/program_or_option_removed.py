@@ -1,12 +1,19 @@
-"""LF083: programs are given options that they have."""
+"""LF083: programs that stay are started, with options that they have."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
+from scaffold.api import Diagnostic, Edit, Example, Fix, Location, Package, Report, Rule, Severity
 from scaffold.api.distributions import of_kind
-from scaffold.api.launch import CommandLine, Word, command_lines, processes
+from scaffold.api.launch import (
+    CommandLine,
+    Word,
+    command_lines,
+    markup_files,
+    package_uses,
+    processes,
+)
 
 _LAUNCH = (
     "from launch.actions import ExecuteProcess\n\n"
@@ -31,21 +38,39 @@ _OF_SPAWN_ENTITY = {
 """What gazebo_ros had, and what to write instead."""
 
 
-class OptionRemoved(Rule):
-    """A launch file starts a program with an option that the distribution no longer has.
+_LAUNCH_DEPRECATED = (
+    "from launch import LaunchDescription\n"
+    "from launch_ros.actions import ComposableNodeContainer\n\n\n"
+    "def generate_launch_description():\n"
+    "    return LaunchDescription([\n"
+    "        ComposableNodeContainer(\n"
+    "            name='container', namespace='', package='rclcpp_components',\n"
+    "            executable='{}'),\n    ])\n"
+)
+_XML_DEPRECATED = (
+    "<launch>\n  <node_container pkg='rclcpp_components' exec='{}' name='a'/>\n</launch>\n"
+)
+
+
+class ProgramOrOptionRemoved(Rule):
+    """A launch file starts a program that will go, or with an option that it no longer has.
 
     **Why.** The program ends at once, with ``ambiguous option`` or ``unrecognized arguments``, or
-    ignores the option: a robot gets another name in the simulation.
+    ignores the option: a robot gets another name in the simulation. A deprecated program warns at
+    each start, and a later distribution does not have it: the launch stops.
 
     **Fix.** Use its replacement.
 
-    **Source.** rosbag2, ``ros2bag/verb/record.py``; ros_gz_sim, ``create.cpp``.
+    **Source.** rosbag2, ``ros2bag/verb/record.py``; ros_gz_sim, ``create.cpp``; the pull requests
+    that ``scaffold/data/changes.toml`` names.
     """
 
     code = "LF083"
-    name = "option-removed"
+    name = "program-or-option-removed"
     is_fixed_for_all = True
     since = "0.2"
+    is_deprecation = True
+    other_severities = {Severity.INFO: "it is a program that a later distribution will not have"}
     examples = (
         Example("a robot with a name", {"launch/a.launch.py": _CREATE.format("-name")}),
         Example(
@@ -94,9 +119,41 @@ class OptionRemoved(Rule):
                 "launch/c.launch.xml": _XML.format("--exclude-regex=/tf"),
             },
         ),
+        Example(
+            "still usual",
+            {"launch/a.launch.py": _LAUNCH_DEPRECATED.format("component_container_mt")},
+        ),
+        Example(
+            "what stays",
+            {"launch/a.launch.py": _LAUNCH_DEPRECATED.format("component_container")},
+            distro="lyrical",
+        ),
+        Example(
+            "containers with executors of their own",
+            {
+                "launch/a.launch.py": _LAUNCH_DEPRECATED.format("component_container_mt"),
+                "launch/b.launch.xml": _XML_DEPRECATED.format("component_container_isolated"),
+            },
+            Report(
+                "launch/a.launch.py:9:24",
+                "component_container_mt is deprecated since Lyrical: it warns at each "
+                "start; use component_container with the arguments --executor-type "
+                "multi-threaded (rclcpp 3134)",
+                severity=Severity.INFO,
+            ),
+            Report(
+                "launch/b.launch.xml:2:49",
+                "component_container_isolated is deprecated since Lyrical: it warns at "
+                "each start; use component_container with the arguments --isolated "
+                "--executor-type single-threaded (rclcpp 3134)",
+                severity=Severity.INFO,
+            ),
+            distro="lyrical",
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
+        yield from self._check_deprecated(package)
         yield from self._check_removed(package)
         for line in command_lines(package, "create"):
             for word in line.words:
@@ -125,6 +182,21 @@ class OptionRemoved(Rule):
                     fix = Fix(f"write {change.use}", (edit,)) if edit and is_fixed else None
                     yield self.report(word.location, message, fix)
 
+    def _check_deprecated(self, package: Package) -> Iterator[Diagnostic]:
+        changes = {
+            name: change
+            for change in of_kind("executable")
+            for name in change.names
+            if change.is_deprecated
+        }
+        for name, location in _started(package) if changes else ():
+            change = changes.get(name)
+            if change is not None:
+                program = name.rpartition("/")[2]
+                message = f"{program} {change.state}: it warns at each start; "
+                message += f"{change.instead(change.use)} ({change.source})"
+                yield self.report(location, message, severity=Severity.INFO)
+
 
 def _edit(package: Package, line: CommandLine, word: Word, old: str, new: str) -> Edit | None:
     """Return the edit of the option, where it is written as it is read."""
@@ -139,3 +211,13 @@ def _edit(package: Package, line: CommandLine, word: Word, old: str, new: str) -
     else:
         return None
     return Edit(path, start, start + len(old), new) if text.startswith(old, start) else None
+
+
+def _started(package: Package) -> Iterator[tuple[str, Location]]:
+    """Yield what launch files start, as ``package/program``, with the place."""
+    for use in package_uses(package):
+        yield f"{use.name}/{use.executable}", use.executable_location
+    for file in markup_files(package):
+        for node in file.containers:
+            if node.package is not None and node.executable is not None:
+                yield f"{node.package.value}/{node.executable.value}", node.executable.location

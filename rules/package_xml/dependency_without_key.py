@@ -1,11 +1,12 @@
-"""PX081: a dependency is one key, and nothing else."""
+"""PX081: a dependency is one key of rosdep, or one package, and nothing else."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Fix, Package, Report, Rule
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, ViewError
+from scaffold.api.catalog import keys_of_module, module_of_key
 
 from ._debian import key_of_debian
 
@@ -20,20 +21,22 @@ _MANIFEST = (
 )
 
 
-class DependencyMalformed(Rule):
+class DependencyWithoutKey(Rule):
     """The text of a dependency is empty, or neither a rosdep key nor the name of a package.
 
     **Why.** ``rosdep install`` stops: ``Cannot locate rosdep definition for [std_msgs.msg]``, and
     colcon does not build packages in the right order. bloom stops at an empty one.
 
     **Fix.** Write the name of the package, one in each element; versions are attributes such as
-    ``version_gte``. ``ament_python`` is a build type and no package.
+    ``version_gte``. The rosdep key of a library of Python is usually ``python3-`` and its name.
+    ``ament_python`` is a build type and no package.
 
-    **Source.** REP 149, dependencies; REP 111.
+    **Source.** REP 149, dependencies; REP 111; ROS 2 documentation, "Using Python packages with
+    ROS 2".
     """
 
     code = "PX081"
-    name = "dependency-malformed"
+    name = "dependency-without-key"
     examples = (
         Example("a package", {"package.xml": _MANIFEST.format("std_msgs")}),
         Example(
@@ -85,9 +88,50 @@ class DependencyMalformed(Rule):
             "4:16: rosdep keys have dashes: use 'python3-numpy'",
             "5:16: 'python-numpy' belongs to Python 2; closest: 'python3-numpy'",
         ),
+        Example(
+            "the rosdep key",
+            {"package.xml": "<package><exec_depend>python3-numpy</exec_depend></package>\n"},
+        ),
+        Example(
+            "a library in C++ of the same name",
+            {
+                "package.xml": "<package>\n  <depend>serial</depend>\n</package>\n",
+                "CMakeLists.txt": "project(talker)\nfind_package(serial REQUIRED)\n",
+            },
+        ),
+        Example(
+            "what only the documentation needs, which rosdep does not install",
+            {"package.xml": "<package>\n  <doc_depend>numpy</doc_depend>\n</package>\n"},
+        ),
+        Example(
+            "the name for pip",
+            {"package.xml": "<package>\n  <exec_depend>numpy</exec_depend>\n</package>\n"},
+            Report(
+                "2:16",
+                "rosdep has no key 'numpy'; its key is 'python3-numpy'",
+                fix="write python3-numpy",
+            ),
+            fixed={
+                "package.xml": "<package>\n  <exec_depend>python3-numpy</exec_depend>\n</package>\n"
+            },
+        ),
+        Example(
+            "OpenCV, for C++",
+            {
+                "package.xml": "<package>\n  <depend>opencv</depend>\n</package>\n",
+                "CMakeLists.txt": "project(talker)\nfind_package(OpenCV REQUIRED)\n",
+            },
+            Report(
+                "package.xml:2:11",
+                "rosdep has no key 'opencv'; its key is 'libopencv-dev'",
+                fix="write libopencv-dev",
+            ),
+            fixed={"package.xml": "<package>\n  <depend>libopencv-dev</depend>\n</package>\n"},
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
+        yield from self._check_index_names(package)
         manifest = package.manifest
         for dependency in manifest.dependencies:
             if not dependency.name and not dependency.element.children:
@@ -98,6 +142,21 @@ class DependencyMalformed(Rule):
             problem = _problem(dependency.name) if dependency.active else ""
             if problem and package.workspace.get(dependency.name) is None:
                 yield self.report(dependency, problem)
+
+    def _check_index_names(self, package: Package) -> Iterator[Diagnostic]:
+        for dependency in package.manifest.dependencies:
+            module = module_of_key(dependency.name)
+            if module is None or package.workspace.get(dependency.name) is not None:
+                continue
+            if dependency.kind == "doc_depend" or not dependency.may_be_active:
+                continue  # which rosdep does not install
+            if _is_found_by_cmake(package, dependency.name):
+                continue
+            key = _key(package, module)
+            message = f"rosdep has no key {dependency.name!r}; its key is {key!r}"
+            edit = Edit("package.xml", *dependency.element.text_span, key)
+            fix = Fix(f"write {key}", (edit,))
+            yield self.report(dependency, message, fix, cause=f"dependency {key}")
 
 
 def _problem(name: str) -> str:
@@ -121,3 +180,21 @@ def _problem(name: str) -> str:
     elif name in _NO_KEYS:
         problem = f"{name!r} is a build type, not a package: rosdep cannot resolve it; remove it"
     return problem
+
+
+def _is_found_by_cmake(package: Package, name: str) -> bool:
+    """Tell whether a name is that of a C++ library: serial is one, too."""
+    try:
+        return bool(package.cmake.finds(name))
+    except ViewError:
+        return False
+
+
+def _key(package: Package, module: str) -> str:
+    """Return the key of a library; code in C++ needs that of OpenCV for C++."""
+    keys = keys_of_module(module)
+    try:
+        is_compiled = module == "cv2" and package.cmake.finds("OpenCV")
+    except ViewError:
+        is_compiled = False
+    return "libopencv-dev" if is_compiled else keys[0]

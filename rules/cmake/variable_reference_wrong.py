@@ -1,4 +1,4 @@
-"""CM091: the variable with the name of the package is PROJECT_NAME."""
+"""CM091: references to variables are closed, and PROJECT_NAME has its name."""
 
 from __future__ import annotations
 
@@ -14,19 +14,26 @@ _KNOWN = frozenset({"CMAKE_PROJECT_NAME", "PROJECT_NAME"})
 _LISTS = "project(talker)\n{}install(FILES a.yaml DESTINATION share/${{{}}})\nament_package()\n"
 
 
-class VariableMisspelled(Rule):
-    """An undefined variable is used instead of ``PROJECT_NAME``.
+_LISTS_CLOSED = (
+    "project(talker)\ninstall(PROGRAMS talker/node.py\n"
+    '  DESTINATION lib/{}\n)\nset(pattern [[a${{b]] "\\${{c" \'d$\' "@${{PROJECT_NAME}}")\n'
+)
 
-    **Why.** CMake silently treats it as empty: files are installed in ``lib/`` or
-    ``share/`` instead of the directory of the package.
 
-    **Fix.** Write ``${PROJECT_NAME}``; variables of CMake are case-sensitive.
+class VariableReferenceWrong(Rule):
+    """A reference to a variable has no ``}``, or names an undefined one instead of PROJECT_NAME.
 
-    **Source.** CMake documentation, "cmake-language", variables.
+    **Why.** CMake stops: ``There is an unterminated variable reference``. An undefined variable is
+    silently empty: files are installed in ``lib/`` or ``share/`` instead of the directory of the
+    package.
+
+    **Fix.** Close it; write ``${PROJECT_NAME}``: variables of CMake are case-sensitive.
+
+    **Source.** CMake documentation, "cmake-language", variables and variable references.
     """
 
     code = "CM091"
-    name = "variable-misspelled"
+    name = "variable-reference-wrong"
     examples = (
         Example(
             "set",
@@ -45,9 +52,19 @@ class VariableMisspelled(Rule):
             ),
             fixed={"CMakeLists.txt": _LISTS.format("", "PROJECT_NAME")},
         ),
+        Example(
+            "closed",
+            {"CMakeLists.txt": _LISTS_CLOSED.format("${PROJECT_NAME}"), "talker/node.py": ""},
+        ),
+        Example(
+            "not closed",
+            {"CMakeLists.txt": _LISTS_CLOSED.format("${PROJECT_NAME"), "talker/node.py": ""},
+            "CMakeLists.txt:3:15: missing '}' in 'lib/${PROJECT_NAME': CMake stops",
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
+        yield from self._check_closed(package)
         cmake = package.cmake
         if cmake.find("include", "add_subdirectory"):
             return
@@ -68,6 +85,13 @@ class VariableMisspelled(Rule):
         message = f"{name} is never set, so it is empty; did you mean ${{{_WANTED}}}?"
         return self.report(argument, message, fix)
 
+    def _check_closed(self, package: Package) -> Iterator[Diagnostic]:
+        for command in package.cmake.commands:
+            for argument in command.arguments:
+                if not argument.bracket and _is_open(argument):
+                    message = f"missing '}}' in {argument.raw.splitlines()[0]!r}: CMake stops"
+                    yield self.report(argument, message)
+
 
 def _variables(argument: Argument) -> Iterator[str]:
     """Yield the variables that an argument refers to."""
@@ -87,3 +111,22 @@ def _is_meant(name: str) -> bool:
 def _is_made(cmake: CMakeLists, name: str) -> bool:
     """Tell whether a variable is a parameter of a function, or of a loop."""
     return any(name in command.values for command in cmake.find("function", "macro", "foreach"))
+
+
+def _is_open(argument: Argument) -> bool:
+    """Tell whether more references are opened than closed; escaped signs do not count."""
+    text = argument.text
+    if "${" not in text:
+        return False
+    depth, at = 0, 0
+    while at < len(text):
+        if text[at] == "\\":
+            at += 2
+        elif text.startswith("${", at) or text.startswith("$ENV{", at):
+            depth += 1
+            at = text.index("{", at) + 1
+        else:
+            if text[at] == "}" and depth:
+                depth -= 1
+            at += 1
+    return depth > 0

@@ -5,8 +5,17 @@ from __future__ import annotations
 from collections.abc import Iterator
 from difflib import get_close_matches
 
-from scaffold.api import Diagnostic, Effect, Example, Package, Rule
-from scaffold.api.cmake import BUILT_IN, OF_AMENT, CMakeLists, uses_ament
+from scaffold.api import Diagnostic, Effect, Example, Package, Rule, closest_name
+from scaffold.api.cmake import (
+    BUILT_IN,
+    OF_AMENT,
+    TAKING_TARGETS,
+    CMakeLists,
+    defined_targets,
+    has_unknown_commands,
+    targets_named_once,
+    uses_ament,
+)
 
 _OF_ROS1 = {
     "add_action_files": "rosidl_generate_interfaces",
@@ -73,20 +82,27 @@ _CALL = "project(talker)\nfind_package(ament_cmake REQUIRED)\n{}()\n"
 _LISTS = "project(talker)\n{}ament_add_pytest_test(talk test/test_talk.py)\n"
 
 
-class CommandUndefined(Rule):
-    """A command is called that neither CMake nor a package found before defines.
+_LISTS_TARGETS = (
+    "project(talker)\nadd_executable(talk src/talk.cpp)\nament_target_dependencies({} rclcpp)\n"
+)
 
-    **Why.** CMake stops: ``Unknown CMake command "ament_pakage"``.
 
-    **Fix.** Call ``find_package`` for the package first, or correct the name; the commands of
-    catkin have successors in ament.
+class CommandOrTargetUndefined(Rule):
+    """A command or target is used that neither CMake nor a package found before defines.
+
+    **Why.** CMake stops: ``Unknown CMake command "ament_pakage"``, or the first argument
+    must be a valid target name.
+
+    **Fix.** Write the name of the target. Call ``find_package`` for the package of the command
+    first, or correct the name; the commands of catkin have successors in ament.
 
     **Source.** CMake documentation, "cmake-commands"; ``ament_cmake``, ``ament_lint``, ``rosidl``
-    and ``rclcpp``: the files that define the commands; ROS 2 documentation, "Migrating from ROS 1".
+    and ``rclcpp``: the files that define the commands; ROS 2 documentation, "Migrating from ROS 1";
+    ``ament_cmake_target_dependencies/cmake/ament_target_dependencies.cmake``.
     """
 
     code = "CM022"
-    name = "command-undefined"
+    name = "command-or-target-undefined"
     effect = Effect.STOPS_BUILD
     examples = (
         Example(
@@ -145,9 +161,38 @@ class CommandUndefined(Rule):
             {"CMakeLists.txt": _CALL.format("catkin_package")},
             "3:1: catkin_package() is a command of ROS 1: CMake stops; use ament_package",
         ),
+        Example("defined", {"CMakeLists.txt": _LISTS_TARGETS.format("talk")}),
+        Example(
+            "not defined",
+            {"CMakeLists.txt": _LISTS_TARGETS.format("talks")},
+            "3:27: nothing defines the target 'talks'; closest: 'talk'",
+        ),
+        Example(
+            "Python scripts are no targets",
+            {
+                "CMakeLists.txt": "project(talker)\n"
+                "install(TARGETS talk listen DESTINATION lib/${PROJECT_NAME})\n",
+                "talker/talk.py": "",
+            },
+            "CMakeLists.txt:2:17: nothing defines the target 'talk': CMake stops",
+            "CMakeLists.txt:2:22: nothing defines the target 'listen': CMake stops",
+        ),
+        Example(
+            "of an unknown command",
+            {
+                "CMakeLists.txt": "project(talker)\nfind_package(maker REQUIRED)\n"
+                "make_some(talk)\ninstall(TARGETS talk DESTINATION lib/${PROJECT_NAME})\n"
+            },
+        ),
+        Example(
+            "not defined, but named elsewhere",
+            {"CMakeLists.txt": _LISTS_TARGETS.format("talks") + "message(STATUS talks)\n"},
+            "3:27: nothing defines the target 'talks'; closest: 'talk'",
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
+        yield from self._check_targets(package)
         cmake = package.cmake
         if cmake.find("include"):
             return
@@ -190,6 +235,29 @@ class CommandUndefined(Rule):
                 for closest in _closest(name):
                     message = f"unknown command {name}(): CMake stops; closest: {closest}()"
                     yield self.report(command.name_location, message)
+
+    def _check_targets(self, package: Package) -> Iterator[Diagnostic]:
+        cmake = package.cmake
+        if has_unknown_commands(package) or cmake.find("function", "macro", "foreach"):
+            return
+        defined = defined_targets(cmake)
+        if defined is None:
+            return
+        targets = sorted(defined)
+        never_named = targets_named_once(cmake)
+        for target, argument in never_named:
+            closest = closest_name(package, target, targets, 0.75)
+            hint = f"; closest: {closest!r}" if closest else ": CMake stops"
+            yield self.report(argument, f"nothing defines the target {target!r}{hint}")
+        reported = {target for target, _ in never_named}
+        for command in cmake.find(*TAKING_TARGETS):
+            name = cmake.expand(command.arguments[0], command) if command.arguments else None
+            if name is None or name in defined | reported or "::" in name or command.blocks:
+                continue
+            closest = closest_name(package, name, targets, 0.75)
+            if closest:
+                message = f"nothing defines the target {name!r}; closest: {closest!r}"
+                yield self.report(command.arguments[0], message)
 
 
 def _closest(name: str) -> list[str]:

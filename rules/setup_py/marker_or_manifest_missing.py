@@ -1,10 +1,10 @@
-"""SP006: the marker of the ament index is there and installed."""
+"""SP006: the marker of the ament index and package.xml are there and installed."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import CreateFile, Diagnostic, Example, Fix, Package, Report, Rule, Severity
+from scaffold.api import CreateFile, Diagnostic, Edit, Example, Fix, Package, Report, Rule, Severity
 from scaffold.api.manifest import name_used_elsewhere
 
 INDEX = "share/ament_index/resource_index/packages"
@@ -15,20 +15,29 @@ _SETUP = "from setuptools import setup\n\nsetup(\n    name='talker',\n    data_f
 _BOTH = f"('{INDEX}', ['resource/talker']), ('share/talker', ['package.xml'])"
 
 
-class MarkerMissing(Rule):
-    """The file ``resource/<package>`` is missing, or data_files do not install it.
+_SETUP_MANIFEST = (
+    "from setuptools import setup\n\nsetup(\n    name='talker',\n    data_files=[\n{}    ],\n)\n"
+)
+_MARKER = "        ('share/ament_index/resource_index/packages', ['resource/talker']),\n"
+_LINE = "        ('share/talker', ['package.xml']),\n"
 
-    **Why.** Without the file the build stops: ``can't copy 'resource/talker'``. Without the line,
-    colcon warns and adds it, but the released Debian package is not found by ``ros2``.
 
-    **Fix.** Create the empty file, and install it to the ament index.
+class MarkerOrManifestMissing(Rule):
+    """The file ``resource/<package>`` is missing, or data_files do not install it or package.xml.
+
+    **Why.** Without the file the build stops: ``can't copy 'resource/talker'``. Without the lines,
+    colcon warns and adds them, but the released Debian package is not found by ``ros2``, and lacks
+    the manifest that tools read.
+
+    **Fix.** Create the empty file, install it to the ament index, and add
+    ``('share/' + package_name, ['package.xml'])``.
 
     **Source.** ROS 2 documentation, "Creating a package";
     ``colcon_ros/task/ament_python/build.py``.
     """
 
     code = "SP006"
-    name = "marker-missing"
+    name = "marker-or-manifest-missing"
     other_severities = {
         Severity.WARNING: "setup.py does not install it: colcon still does; or it installs another"
     }
@@ -98,9 +107,33 @@ class MarkerMissing(Rule):
                 severity=Severity.WARNING,
             ),
         ),
+        Example(
+            "installed",
+            {
+                "package.xml": _MANIFEST,
+                "resource/talker": "",
+                "setup.py": _SETUP_MANIFEST.format(_MARKER + _LINE),
+            },
+        ),
+        Example(
+            "forgotten",
+            {
+                "package.xml": _MANIFEST,
+                "resource/talker": "",
+                "setup.py": _SETUP_MANIFEST.format(_MARKER),
+            },
+            Report(
+                "setup.py:5:16",
+                "data_files does not install package.xml to share/talker",
+                fix="install package.xml",
+                severity=Severity.WARNING,
+            ),
+            fixed={"setup.py": _SETUP_MANIFEST.format(_LINE + _MARKER)},
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
+        yield from self._check_manifest(package)
         if package.build_type != "ament_python" or not package.manifest.name:
             return
         setup = package.setup_py
@@ -135,3 +168,27 @@ class MarkerMissing(Rule):
             yield self.report(
                 setup.keywords.get("data_files", setup), message, severity=Severity.WARNING
             )
+
+    def _check_manifest(self, package: Package) -> Iterator[Diagnostic]:
+        setup = package.setup_py
+        keyword = setup.keywords.get("data_files")
+        if package.build_type != "ament_python" or not setup.data_files_complete:
+            return
+        if keyword is None or any("package.xml" in data.sources for data in setup.data_files):
+            return
+        message = f"data_files does not install package.xml to share/{package.name}"
+        fix = self._fix(package)
+        yield self.report(keyword, message, fix, severity=Severity.WARNING)
+
+    def _fix(self, package: Package) -> Fix | None:
+        data = package.setup_py.data_files
+        if not data:
+            return None
+        source = package.source("setup.py")
+        at = data[0].location
+        line = source.lines[at.line - 1]
+        if line[: at.column - 1].strip():
+            return None
+        start = source.offset(at.line)
+        text = f"{line[: at.column - 1]}('share/{package.name}', ['package.xml']),{source.newline}"
+        return Fix("install package.xml", (Edit("setup.py", start, start, text),))
