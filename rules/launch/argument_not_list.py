@@ -151,10 +151,7 @@ def _parameters(launch: LaunchFile, call: LaunchCall, argument: str) -> _Judgeme
 
 
 def _kind_of_parameters(launch: LaunchFile, node: ast.expr) -> str | None:
-    if isinstance(node, ast.Name):
-        lookup = launch.module.index.lookup(node.id, node)
-        values = [binding.value for binding in lookup[1]] if lookup else []
-        node = values[0] if len(values) == 1 and values[0] is not None else node
+    node = launch.module.index.only_value(node) or node
     if isinstance(node, ast.Dict | ast.DictComp):
         return "a dictionary"
     if isinstance(node, ast.Tuple):

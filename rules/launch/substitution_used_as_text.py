@@ -168,11 +168,10 @@ def _default(launch: LaunchFile, node: ast.expr) -> str | None:
 def _performed(launch: LaunchFile, node: ast.expr) -> ast.expr | None:
     """Return the launch configuration of ``configuration.perform(context)``."""
     if isinstance(node, ast.Name):
-        lookup = launch.module.index.lookup(node.id, node)
-        values = [binding.value for binding in lookup[1]] if lookup else []
-        if len(values) != 1 or values[0] is None:
+        value = launch.module.index.only_value(node)
+        if value is None:
             return None
-        node = values[0]
+        node = value
     match node:
         case ast.Call(func=ast.Attribute(value=holder, attr="perform"), args=[_]):
             call = launch.call_of(holder)

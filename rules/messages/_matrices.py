@@ -128,8 +128,7 @@ def _has_rows(types: MessageTypes, message: ast.expr) -> bool:
     """Tell whether the data of a message is in rows by its definition."""
     type_ = types.type_of(message)
     if type_ is None and isinstance(message, ast.Name):
-        lookup = types.module.index.lookup(message.id, message)
-        for binding in lookup[1] if lookup is not None else ():
+        for binding in types.module.index.bindings_of(message):
             annotation = getattr(binding.node, "annotation", None)
             type_ = types.class_of(annotation) if annotation is not None else None
     return type_ is not None and (type_.name, "width") in _WIDTHS

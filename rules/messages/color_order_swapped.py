@@ -183,10 +183,10 @@ def _is_gray(types: MessageTypes, image: ast.Name) -> bool:
 
 def _thresholded(types: MessageTypes, image: ast.Name) -> ast.Call | None:
     """Return the call of ``_, mask = cv2.threshold(...)`` that gives an image its only value."""
-    lookup = types.module.index.lookup(image.id, image)
-    if lookup is None or len(lookup[1]) != 1:
+    bound = types.module.index.only_node(image)
+    if bound is None:
         return None
-    match types.module.parent(types.module.parent(lookup[1][0].node) or image):
+    match types.module.parent(types.module.parent(bound) or image):
         case ast.Assign(
             targets=[ast.Tuple(elts=[_, ast.Name(id=name)])], value=ast.Call() as made
         ) if name == image.id:
@@ -279,10 +279,10 @@ _SEVERAL = 2
 
 def _is_frame(types: MessageTypes, image: ast.Name) -> bool:
     """Tell whether an image comes from a camera of OpenCV: ``ok, frame = capture.read()``."""
-    lookup = types.module.index.lookup(image.id, image)
-    if lookup is None or len(lookup[1]) != 1:
+    bound = types.module.index.only_node(image)
+    if bound is None:
         return False
-    match types.module.parent(types.module.parent(lookup[1][0].node) or image):
+    match types.module.parent(types.module.parent(bound) or image):
         case ast.Assign(
             targets=[ast.Tuple(elts=[_, ast.Name(id=name)])],
             value=ast.Call(func=ast.Attribute(attr="read", value=camera), args=[], keywords=[]),

@@ -335,9 +335,8 @@ def _values(types: MessageTypes, node: ast.Name | ast.Attribute) -> list[ast.exp
     """Return what a name or an attribute of the object is assigned."""
     if isinstance(node, ast.Attribute):
         return [*(types.file.evaluator.attribute_values(node) or ())]
-    lookup = types.module.index.lookup(node.id, node)
     values: list[ast.expr] = []
-    for binding in lookup[1] if lookup else ():
+    for binding in types.module.index.bindings_of(node):
         unpacked = types.module.parent(types.module.parent(binding.node) or binding.node)
         if binding.value is not None:
             values.append(binding.value)

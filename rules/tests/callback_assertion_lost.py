@@ -88,8 +88,7 @@ def _assertions(module: PythonModule, argument: ast.expr) -> Iterator[ast.AST]:
     """Yield the assertions in a function that is given as a callback."""
     if not isinstance(argument, ast.Name):
         return
-    lookup = module.index.lookup(argument.id, argument)
-    for binding in lookup[1] if lookup else ():
+    for binding in module.index.bindings_of(argument):
         if isinstance(binding.node, ast.FunctionDef):
             yield from (
                 node

@@ -217,11 +217,7 @@ def _data(package: Package, paths: Iterable[str]) -> Iterator[bytes]:
 
 def constructed_class(module: PythonModule, node: ast.expr) -> str:
     """Return the full name of what is called for the only value of a name."""
-    if not isinstance(node, ast.Name):
-        return ""
-    lookup = module.index.lookup(node.id, node)
-    values = [binding.value for binding in lookup[1]] if lookup else []
-    made = values[0] if len(values) == 1 else None
+    made = module.index.only_value(node)
     return (module.qualified_name(made.func) or "") if isinstance(made, ast.Call) else ""
 
 

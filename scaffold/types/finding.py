@@ -238,8 +238,7 @@ class TypeFinding:
             return self._is_replaced(call.func)
         if call is None or not isinstance(call.func, ast.Name):
             return False
-        lookup = module.index.lookup(call.func.id, call.func)
-        kinds = [binding.kind for binding in lookup[1]] if lookup else []
+        kinds = [binding.kind for binding in module.index.bindings_of(call.func)]
         is_inside = module.enclosing_function(node) is not None
         return is_inside and len(kinds) > 1 and not {"function", "class"}.isdisjoint(kinds)
 
@@ -258,8 +257,7 @@ class TypeFinding:
 
     def _imports_of(self, name: ast.Name) -> list[str]:
         """Return from which packages a name is imported, one after the other, and nothing else."""
-        lookup = self.module.index.lookup(name.id, name)
-        bindings = lookup[1] if lookup else ()
+        bindings = self.module.index.bindings_of(name)
         if any(binding.kind != "import" for binding in bindings):
             return []
         statements = (self.module.parent(binding.node) for binding in bindings)
@@ -305,8 +303,7 @@ class TypeFinding:
         """Yield where the names and the attributes of ``self`` below a node are set."""
         index = self.module.index
         for name in self.module.below(node, ast.Name):
-            lookup = index.lookup(name.id, name)
-            yield from (binding.node for binding in (lookup[1] if lookup else ()))
+            yield from (binding.node for binding in index.bindings_of(name))
         for attribute in self.module.below(node, ast.Attribute):
             if isinstance(attribute.value, ast.Name) and attribute.value.id == "self":
                 stores = index.attributes(attribute.attr)

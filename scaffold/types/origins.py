@@ -69,8 +69,7 @@ def _origins(module: PythonModule, node: ast.AST, depth: int = 0) -> Iterator[as
 
 def _assigned(module: PythonModule, name: ast.Name) -> Iterator[ast.expr]:
     """Yield the entries of containers that a variable is given."""
-    lookup = module.index.lookup(name.id, name)
-    for binding in lookup[1] if lookup is not None else ():
+    for binding in module.index.bindings_of(name):
         statement = module.parent(binding.node)
         if not isinstance(statement, ast.Assign) or binding.node not in statement.targets:
             continue
@@ -197,8 +196,7 @@ def _is_static(decorator: ast.expr) -> bool:
 
 def _looped_over(module: PythonModule, name: ast.Name) -> ast.expr | None:
     """Return what the loop that binds a name runs over."""
-    lookup = module.index.lookup(name.id, name)
-    for binding in lookup[1] if lookup is not None else ():
+    for binding in module.index.bindings_of(name):
         target = binding.node
         while isinstance(parent := module.parent(target), ast.Tuple | ast.List):
             target = parent  # for name, value in

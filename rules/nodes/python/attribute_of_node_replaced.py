@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Report, Diagnostic, Example, RclpyRule, Severity
+from scaffold.api import Diagnostic, Example, RclpyRule, Report, Severity
 from scaffold.api.python import FunctionNode
 from scaffold.api.rclpy import NodeClass, RclpyFile
 

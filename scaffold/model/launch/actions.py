@@ -128,9 +128,7 @@ def describe(launch: LaunchFile, node: ast.expr) -> str:
 
 
 def _value_of(launch: LaunchFile, node: ast.Name) -> ast.expr | None:
-    lookup = launch.module.index.lookup(node.id, node)
-    values = [binding.value for binding in lookup[1]] if lookup else []
-    return values[0] if len(values) == 1 else None
+    return launch.module.index.only_value(node)
 
 
 def _is_action_class(name: str) -> bool:

@@ -59,15 +59,11 @@ class Conditions:
             return UNKNOWN
         if isinstance(node, ast.List | ast.Tuple):
             return joined(self.text(item, depth + 1) for item in node.elts)
-        if isinstance(node, ast.Name) and (value := self._assigned(node)) is not None:
+        value = self._launch.module.index.only_value(node)
+        if value is not None:
             return self.text(value, depth + 1)
         call = self._launch.call_of(node)
         return self._plain(node) if call is None else self._substituted(call, depth)
-
-    def _assigned(self, node: ast.Name) -> ast.expr | None:
-        lookup = self._launch.module.index.lookup(node.id, node)
-        values = [binding.value for binding in lookup[1]] if lookup else []
-        return values[0] if len(values) == 1 else None
 
     def _plain(self, node: ast.expr) -> Text:
         """Return what an expression gives while Python reads the file."""

@@ -129,7 +129,6 @@ def _reads(launch: LaunchFile, node: ast.expr, depth: int) -> Iterator[LaunchCal
             if is_read and call is not None and "default" not in call.given and not call.is_open:
                 yield call
         elif isinstance(part, ast.Name) and depth < _DEEPEST:
-            lookup = launch.module.index.lookup(part.id, part)
-            values = [binding.value for binding in lookup[1]] if lookup else []
-            if len(values) == 1 and values[0] is not None:
-                yield from _reads(launch, values[0], depth + 1)
+            value = launch.module.index.only_value(part)
+            if value is not None:
+                yield from _reads(launch, value, depth + 1)

@@ -69,10 +69,8 @@ def _dictionary(launch: LaunchFile, node: ast.expr) -> ast.Dict | None:
 
 def _read_once(launch: LaunchFile, name: ast.Name) -> ast.expr | None:
     """Return what a name holds, to which nothing is added: it is read in one place alone."""
-    lookup = launch.module.index.lookup(name.id, name)
     uses = [use for use in launch.module.index.names(name.id) if isinstance(use.ctx, ast.Load)]
-    values = [binding.value for binding in lookup[1]] if lookup else []
-    return values[0] if len(uses) == len(values) == 1 else None
+    return launch.module.index.only_value(name) if len(uses) == 1 else None
 
 
 def included(package: Package, launch: LaunchFile, call: LaunchCall) -> Included | None:

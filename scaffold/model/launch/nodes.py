@@ -220,11 +220,7 @@ def parameters_given(
 ) -> Iterator[tuple[str, ast.expr, ast.expr]]:
     """Yield name, name's place and value of the parameters that are given one by one."""
     for node in parameter_items(launch, call):
-        literal: ast.expr | None = node
-        if isinstance(node, ast.Name):
-            lookup = launch.module.index.lookup(node.id, node)
-            values = [binding.value for binding in lookup[1]] if lookup else []
-            literal = values[0] if len(values) == 1 else None
+        literal = launch.module.index.only_value(node) or node
         if isinstance(literal, ast.Dict):
             yield from _given_in(launch, literal, "")
 
@@ -272,8 +268,7 @@ def _is_dictionary(launch: LaunchFile, node: ast.expr) -> bool:
     """
     values: list[ast.expr] = [node]
     if isinstance(node, ast.Name):
-        lookup = launch.module.index.lookup(node.id, node)
-        values = [x.value for x in (lookup[1] if lookup else ()) if x.value is not None]
+        values = [x.value for x in launch.module.index.bindings_of(node) if x.value is not None]
     return bool(values) and all(
         isinstance(value, ast.Dict)
         and all(isinstance(launch.evaluator.text(key), str) for key in value.keys)

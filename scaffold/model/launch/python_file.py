@@ -132,11 +132,7 @@ class LaunchFile:
         for _ in range(10):
             if isinstance(node, ast.Call):
                 return launch_call(self.module, node)
-            if not isinstance(node, ast.Name):
-                return None
-            lookup = self.module.index.lookup(node.id, node)
-            values = [binding.value for binding in lookup[1]] if lookup else []
-            node = values[0] if len(values) == 1 else None
+            node = self.module.index.only_value(node)
         return None
 
     def text(self, call: LaunchCall, name: str) -> str | Unknown | None:

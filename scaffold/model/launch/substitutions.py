@@ -53,7 +53,8 @@ def text_uses(launch: LaunchFile) -> Iterator[TextUse]:
     for comparison in module.walk(ast.Compare):
         yield from _in_comparison(launch, comparison)
     for item in module.walk(ast.Subscript):
-        if isinstance(_value_of(launch, item.value), ast.Dict):
+        holder = item.value
+        if isinstance(module.index.only_value(holder) or holder, ast.Dict):
             yield from _single(launch, item.slice, "as a key")
     for test in truth_tests(module):
         if not _is_reported_as_condition(launch, test):
@@ -147,14 +148,6 @@ def _single(launch: LaunchFile, node: ast.expr, use: str) -> Iterator[TextUse]:
     kind = _kind(launch, node)
     if kind:
         yield TextUse(node, kind, use)
-
-
-def _value_of(launch: LaunchFile, node: ast.expr) -> ast.expr | None:
-    if not isinstance(node, ast.Name):
-        return node
-    lookup = launch.module.index.lookup(node.id, node)
-    values = [binding.value for binding in lookup[1]] if lookup else []
-    return values[0] if len(values) == 1 else None
 
 
 def _kind(launch: LaunchFile, node: ast.expr) -> str:

@@ -277,9 +277,8 @@ class MessageTypes:
         """Return the goal for ``goal_handle.request`` in the callback of an action server."""
         if node.attr != "request" or not isinstance(node.value, ast.Name):
             return None
-        lookup = self.module.index.lookup(node.value.id, node.value)
-        bindings = lookup[1] if lookup else ()
-        return self._goal_handles.get(bindings[0].node) if len(bindings) == 1 else None
+        bound = self.module.index.only_node(node.value)
+        return self._goal_handles.get(bound) if bound is not None else None
 
     @cached_property
     def action_messages(self) -> ActionMessages:

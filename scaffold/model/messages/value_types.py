@@ -153,8 +153,9 @@ class ValueTypes:
         return None
 
     def _of_name(self, node: ast.Name) -> str | None:
-        lookup = self._module.index.lookup(node.id, node)
-        bindings = [item for item in (lookup[1] if lookup else ()) if item.kind != "annotation"]
+        bindings = [
+            item for item in self._module.index.bindings_of(node) if item.kind != "annotation"
+        ]
         if not bindings or any(b.kind != "assignment" or b.value is None for b in bindings):
             return None
         return self._agreed([b.value for b in bindings if b.value is not None])

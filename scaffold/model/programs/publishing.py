@@ -173,8 +173,7 @@ def _stored_references(file: RclpyFile, entity: Entity) -> Iterator[ast.expr]:
         for node in file.module.index.names(entity.variable):
             if not isinstance(node.ctx, ast.Load):
                 continue
-            lookup = file.module.index.lookup(node.id, node)
-            bindings = lookup[1] if lookup else ()
+            bindings = file.module.index.bindings_of(node)
             if any(binding.value is entity.call for binding in bindings):
                 if len(bindings) > 1:
                     raise _Doubt
@@ -274,8 +273,7 @@ def _method_references(file: RclpyFile, function: FunctionNode) -> Iterator[ast.
 def _function_references(file: RclpyFile, function: FunctionNode) -> Iterator[ast.expr]:
     for name in file.module.index.names(function.name):
         if isinstance(name.ctx, ast.Load):
-            lookup = file.module.index.lookup(name.id, name)
-            bindings = lookup[1] if lookup else ()
+            bindings = file.module.index.bindings_of(name)
             if any(binding.node is function for binding in bindings):
                 if len(bindings) > 1:
                     raise _Doubt

@@ -140,11 +140,8 @@ class AttributeEvaluator(Evaluator):
 
     def named_class(self, node: ast.expr) -> ast.ClassDef | None:
         """Return the class of the file that an expression names."""
-        if isinstance(node, ast.Name):
-            lookup = self.module.index.lookup(node.id, node)
-            if lookup and len(lookup[1]) == 1 and isinstance(lookup[1][0].node, ast.ClassDef):
-                return lookup[1][0].node
-        return None
+        class_ = self.module.index.only_node(node)
+        return class_ if isinstance(class_, ast.ClassDef) else None
 
     def single_value(self, node: ast.expr) -> ast.expr:
         """Follow names and attributes of ``self`` with one assignment to what is assigned.
@@ -169,8 +166,7 @@ class AttributeEvaluator(Evaluator):
         if isinstance(node, ast.Attribute):
             stored: Sequence[ast.expr | None] = self.attribute_values(node) or ()
         else:
-            lookup = self.module.index.lookup(node.id, node)
-            bindings = [x for x in (lookup[1] if lookup else ()) if x.kind != "annotation"]
+            bindings = [x for x in self.module.index.bindings_of(node) if x.kind != "annotation"]
             is_open = any(x.kind != "assignment" for x in bindings)
             is_open = is_open or len(bindings) > MOST_ASSIGNMENTS
             stored = () if is_open else [binding.value for binding in bindings]
@@ -196,10 +192,9 @@ class AttributeEvaluator(Evaluator):
         for _ in range(10):
             values: Iterable[ast.expr | None] | None = None
             if isinstance(node, ast.Name):
-                lookup = self.module.index.lookup(node.id, node)
                 values = (
                     binding.value
-                    for binding in (lookup[1] if lookup else ())
+                    for binding in self.module.index.bindings_of(node)
                     if binding.kind != "annotation"
                 )
             elif isinstance(node, ast.Attribute):

@@ -113,9 +113,8 @@ def worth(module: SyntaxTree, value: ast.expr) -> tuple[object, bool]:
 
 def _only_value(module: SyntaxTree, test: ast.expr) -> ast.expr | None:
     """Return what a name is set to, if that happens once."""
-    lookup = module.index.lookup(test.id, test) if isinstance(test, ast.Name) else None
-    match lookup:
-        case (_, [binding]) if binding.kind == "assignment":
+    match module.index.bindings_of(test):
+        case [binding] if binding.kind == "assignment":
             return binding.value
     return None
 
@@ -171,8 +170,8 @@ class _DistributionEvaluator(Evaluator):
             return True
         match node:
             case ast.Attribute(value=ast.Name() as holder, attr="environment"):
-                lookup = self.module.index.lookup(holder.id, holder)
-                return lookup is not None and [item.kind for item in lookup[1]] == ["parameter"]
+                bindings = self.module.index.bindings_of(holder)
+                return [item.kind for item in bindings] == ["parameter"]
         return False
 
     def _returned(self, name: str, at: ast.expr) -> object:

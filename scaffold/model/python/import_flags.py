@@ -43,8 +43,7 @@ def _attempts(module: PythonModule, test: ast.expr) -> Iterator[ast.Try]:
 
 
 def _bindings(module: PythonModule, name: ast.AST) -> Sequence[Binding]:
-    lookup = module.index.lookup(name.id, name) if isinstance(name, ast.Name) else None
-    return lookup[1] if lookup else ()
+    return module.index.bindings_of(name)
 
 
 def _imports(body: Sequence[ast.stmt], package: str) -> bool:

@@ -233,6 +233,21 @@ class ScopeIndex:
             self._looked_up[key] = self._look_up(*key)
         return self._looked_up[key]
 
+    def bindings_of(self, node: ast.AST | None) -> Sequence[Binding]:
+        """Return what binds the name that an expression is; nothing for other expressions."""
+        found = self.lookup(node.id, node) if isinstance(node, ast.Name) else None
+        return found[1] if found else ()
+
+    def only_node(self, node: ast.AST | None) -> ast.AST | None:
+        """Return what binds the name that an expression is, if that happens once."""
+        bindings = self.bindings_of(node)
+        return bindings[0].node if len(bindings) == 1 else None
+
+    def only_value(self, node: ast.AST | None) -> ast.expr | None:
+        """Return what the name that an expression is stands for, if it is bound once."""
+        bindings = self.bindings_of(node)
+        return bindings[0].value if len(bindings) == 1 else None
+
     def _look_up(self, name: str, scope: ast.AST) -> tuple[ast.AST, Sequence[Binding]] | None:
         first = True
         while True:

@@ -35,9 +35,7 @@ def resolve(file: RclpyFile, node: ast.expr) -> Callback:
         is_bound = method is not None and not _is_static_method(method)
         return Callback(node, node.attr, method, module, is_called=False, is_bound=is_bound)
     if isinstance(node, ast.Name):
-        lookup = file.module.index.lookup(node.id, node)
-        nodes = [binding.node for binding in lookup[1]] if lookup else []
-        function = nodes[0] if len(nodes) == 1 else None
+        function = file.module.index.only_node(node)
         if not isinstance(function, ast.FunctionDef | ast.AsyncFunctionDef):
             function = None
         return Callback(node, node.id, function, module, is_called=False, is_bound=False)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeVar
 
 from scaffold.model.python.values import UNKNOWN, Unknown
 from scaffold.record import NamedTuple
@@ -104,6 +104,9 @@ class Entity:
     def argument(self, name: str) -> Argument | None:
         """Return an argument by the name of its parameter."""
         return self.arguments.get(name)
+
+
+AnyEntity = TypeVar("AnyEntity", bound=Entity)
 
 
 class Endpoint(Entity):

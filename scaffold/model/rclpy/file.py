@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Callable, Container, Iterator, Mapping, Sequence
+from collections.abc import Container, Iterator, Mapping, Sequence
 from contextlib import suppress
 from functools import cached_property
-from typing import Any, Protocol, TypeVar
+from typing import Any
 
 from scaffold.model import reads
 from scaffold.model.package import Package
@@ -14,11 +14,12 @@ from scaffold.model.python.module import PythonModule, is_in_tests
 from scaffold.model.python.scopes import FunctionNode
 from scaffold.model.python.values import UNKNOWN
 from scaffold.model.rclpy import callbacks as node_callbacks
-from scaffold.model.rclpy.constants import constants_of
+from scaffold.model.rclpy.class_relations import ClassRelations
 from scaffold.model.rclpy.creation import NODE_METHODS, Creation
 from scaffold.model.rclpy.entities import (
     ActionClient,
     ActionServer,
+    AnyEntity,
     Callback,
     Client,
     Endpoint,
@@ -35,6 +36,7 @@ from scaffold.model.rclpy.entities import (
 from scaffold.model.rclpy.evaluator import NodeEvaluator
 from scaffold.model.rclpy.init_and_spin import rclpy_calls
 from scaffold.model.rclpy.nodes import NodeClass, NodeDefinition, NodeObject
+from scaffold.model.rclpy.own_modules import Modules, OwnModules
 from scaffold.model.rclpy.parameters.declarations import Declarations
 from scaffold.source import ViewError
 
@@ -49,8 +51,6 @@ __all__ = [
     "rclpy_files",
 ]
 
-View = TypeVar("View")
-
 NODE_CLASSES = frozenset(
     {"rclpy.node.Node", "rclpy.Node", "rclpy.create_node"}
     | {"rclpy.lifecycle.LifecycleNode", "rclpy.lifecycle.Node"}
@@ -59,19 +59,6 @@ NODE_CLASSES = frozenset(
 
 MAX_BASES = 40
 """Limit on classes that inherit from each other; real code has fewer."""
-
-
-class Modules(Protocol):
-    """A source of the other modules of a package, such as a ``Package``."""
-
-    def has(self, path: str) -> bool:
-        """Tell whether a file exists."""
-
-    def module(self, path: str) -> PythonModule:
-        """Return a parsed Python file; raises ViewError."""
-
-    def remember(self, key: object, build: Callable[[], View]) -> View:
-        """Return what ``build`` makes; it is made once for a key."""
 
 
 def rclpy_file(modules: Modules, path: str) -> RclpyFile:
@@ -104,6 +91,11 @@ def rclpy_files(package: Package, *, mentioning: Sequence[str] = ()) -> Iterator
         yield rclpy_file(package, module.path)
 
 
+def _entities(kind: type[AnyEntity]) -> cached_property[Sequence[AnyEntity]]:
+    """Return the property of a file with what it creates of a kind."""
+    return cached_property(lambda file: [item for item in file.entities if isinstance(item, kind)])
+
+
 class RclpyFile:
     """The rclpy code of one file."""
 
@@ -112,9 +104,12 @@ class RclpyFile:
         self.modules = modules
         """Where other files come from: the package."""
         self._reads = reads.current()
+        self._own = OwnModules(module, modules)
+        self.related_classes = ClassRelations(module).related
+        """Returns a class with the bases and descendants it has in the file."""
         self.declarations = Declarations(self)
         self.evaluator = NodeEvaluator(
-            module, self.declarations.default_of, self.related_classes, self._constant
+            module, self.declarations.default_of, self.related_classes, self._own.constant
         )
         self.parameter_callbacks: dict[ast.arg, FunctionNode | ast.Lambda] | None = None
         """Kept by `parameters.objects`."""
@@ -206,10 +201,9 @@ class RclpyFile:
 
     def _base_class(self, expression: ast.expr, names: frozenset[str]) -> NodeClass | None:
         if not names and isinstance(expression, ast.Name):
-            lookup = self.module.index.lookup(expression.id, expression)
-            nodes = [binding.node for binding in lookup[1]] if lookup else []
-            if len(nodes) == 1 and isinstance(nodes[0], ast.ClassDef):
-                return self.node_class(nodes[0])
+            class_ = self.module.index.only_node(expression)
+            if isinstance(class_, ast.ClassDef):
+                return self.node_class(class_)
         for name in names:
             module, _, class_name = name.rpartition(".")
             file = self._file_of(module)
@@ -220,16 +214,12 @@ class RclpyFile:
 
     def _file_of(self, module: str) -> RclpyFile | None:
         """Return the view of another module of the package."""
-        if self.modules is None or not module:
+        path = next(self._own.paths_of(module), None)
+        if self.modules is None or path is None:
             return None
-        for path in _module_paths(self.module.path, module):
-            if path != self.module.path and self.modules.has(path):
-                try:
-                    # The analysis of the other file is kept here, for all callers.
-                    with reads.recorded(self._reads):
-                        return rclpy_file(self.modules, path)
-                except ViewError:
-                    return None
+        with suppress(ViewError), reads.recorded(self._reads):
+            # The analysis of the other file is kept here, for all callers.
+            return rclpy_file(self.modules, path)
         return None
 
     def definition_of(self, node: ast.expr) -> tuple[RclpyFile, ast.FunctionDef | ast.expr] | None:
@@ -256,54 +246,9 @@ class RclpyFile:
             return file, definition
         return (file, bindings[0].value) if bindings[0].value is not None else None
 
-    def _constant(self, name: str) -> object:
-        """Return the value of a dotted name if it is a constant of another module."""
-        package = self.modules
-        module, _, names = name.rpartition(".")
-        while module.strip(".") and isinstance(package, Package):
-            for path in _module_paths(self.module.path, module):
-                if path != self.module.path and package.has(path):
-                    with reads.recorded(self._reads), suppress(ViewError):
-                        return constants_of(package, path).get(names, UNKNOWN)
-            module, _, last = module.rpartition(".")
-            names = f"{last}.{names}"
-        return UNKNOWN
-
     def is_own_module(self, module: str) -> bool:
-        """Tell whether a dotted name is a module of the package."""
-        modules = self.modules
-        paths = _module_paths(self.module.path, module)
-        return modules is not None and any(modules.has(path) for path in paths)
-
-    def related_classes(self, node: ast.ClassDef) -> Sequence[ast.ClassDef]:
-        """Return a class with the bases and descendants it has in the file."""
-        related = [node]
-        bases = self._local_bases
-        pending = [node]
-        while pending:
-            for base in bases.get(pending.pop(), ()):
-                if base not in related:
-                    related.append(base)
-                    pending.append(base)
-        below = [node]
-        for current in below:
-            for other in self.module.walk(ast.ClassDef):
-                if current in bases.get(other, ()) and other not in related:
-                    related.append(other)
-                    below.append(other)
-        return related
-
-    @cached_property
-    def _local_bases(self) -> Mapping[ast.ClassDef, Sequence[ast.ClassDef]]:
-        result: dict[ast.ClassDef, list[ast.ClassDef]] = {}
-        for node in self.module.walk(ast.ClassDef):
-            for expression in node.bases:
-                if isinstance(expression, ast.Name):
-                    bound = self.module.index.lookup(expression.id, expression)
-                    for binding in bound[1] if bound else ():
-                        if isinstance(binding.node, ast.ClassDef):
-                            result.setdefault(node, []).append(binding.node)
-        return result
+        """Tell whether a dotted name is another module of the package."""
+        return next(self._own.paths_of(module), None) is not None
 
     def owner_of(self, node: ast.expr) -> NodeDefinition | None:
         """Return the node that an expression such as ``self`` refers to."""
@@ -354,11 +299,9 @@ class RclpyFile:
 
     def _classes_named(self, expression: ast.expr) -> Iterator[tuple[RclpyFile, ast.ClassDef]]:
         """Yield the classes of the package that an expression may name."""
-        if isinstance(expression, ast.Name):
-            lookup = self.module.index.lookup(expression.id, expression)
-            for binding in lookup[1] if lookup else ():
-                if isinstance(binding.node, ast.ClassDef):
-                    yield self, binding.node
+        for binding in self.module.index.bindings_of(expression):
+            if isinstance(binding.node, ast.ClassDef):
+                yield self, binding.node
         for name in self.module.qualified_names(expression):
             module, _, class_name = name.rpartition(".")
             file = self._file_of(module)
@@ -368,11 +311,8 @@ class RclpyFile:
 
     def parameter_of(self, node: ast.expr | None) -> ast.arg | None:
         """Return the function parameter that an expression is the name of."""
-        if isinstance(node, ast.Name):
-            lookup = self.module.index.lookup(node.id, node)
-            if lookup and len(lookup[1]) == 1 and isinstance(lookup[1][0].node, ast.arg):
-                return lookup[1][0].node
-        return None
+        bound = self.module.index.only_node(node)
+        return bound if isinstance(bound, ast.arg) else None
 
     # -- what is created
 
@@ -385,55 +325,26 @@ class RclpyFile:
         """Everything created, in the order of the text."""
         return list(self._creation.entities())
 
-    @cached_property
-    def publishers(self) -> Sequence[Publisher]:
-        """All publishers, also those of nodes that are not known."""
-        return [item for item in self.entities if isinstance(item, Publisher)]
-
-    @cached_property
-    def subscriptions(self) -> Sequence[Subscription]:
-        """All subscriptions."""
-        return [item for item in self.entities if isinstance(item, Subscription)]
-
-    @cached_property
-    def services(self) -> Sequence[Service]:
-        """All services."""
-        return [item for item in self.entities if isinstance(item, Service)]
-
-    @cached_property
-    def clients(self) -> Sequence[Client]:
-        """All service clients."""
-        return [item for item in self.entities if isinstance(item, Client)]
-
-    @cached_property
-    def action_servers(self) -> Sequence[ActionServer]:
-        """All action servers."""
-        return [item for item in self.entities if isinstance(item, ActionServer)]
-
-    @cached_property
-    def action_clients(self) -> Sequence[ActionClient]:
-        """All action clients."""
-        return [item for item in self.entities if isinstance(item, ActionClient)]
-
-    @cached_property
-    def endpoints(self) -> Sequence[Endpoint]:
-        """Publishers, subscriptions, services, clients, action servers and clients."""
-        return [item for item in self.entities if isinstance(item, Endpoint)]
-
-    @cached_property
-    def timers(self) -> Sequence[Timer]:
-        """All timers."""
-        return [item for item in self.entities if isinstance(item, Timer)]
-
-    @cached_property
-    def parameters(self) -> Sequence[Parameter]:
-        """All declared parameters."""
-        return [item for item in self.entities if isinstance(item, Parameter)]
-
-    @cached_property
-    def parameter_reads(self) -> Sequence[ParameterRead]:
-        """All places where parameters are read by name."""
-        return [item for item in self.entities if isinstance(item, ParameterRead)]
+    publishers = _entities(Publisher)
+    """All publishers, also those of nodes that are not known."""
+    subscriptions = _entities(Subscription)
+    """All subscriptions."""
+    services = _entities(Service)
+    """All services."""
+    clients = _entities(Client)
+    """All service clients."""
+    action_servers = _entities(ActionServer)
+    """All action servers."""
+    action_clients = _entities(ActionClient)
+    """All action clients."""
+    endpoints = _entities(Endpoint)
+    """Publishers, subscriptions, services, clients, action servers and clients."""
+    timers = _entities(Timer)
+    """All timers."""
+    parameters = _entities(Parameter)
+    """All declared parameters."""
+    parameter_reads = _entities(ParameterRead)
+    """All places where parameters are read by name."""
 
     def interface(self, node: ast.expr) -> str | None:
         """Return the interface type that an expression names: ``std_msgs/msg/String``."""
@@ -491,10 +402,8 @@ class RclpyFile:
             (entity, callback) for entity in self.entities for callback in _callbacks_of(entity)
         ]
 
-    @cached_property
-    def synchronizers(self) -> Sequence[Synchronizer]:
-        """What waits for messages of several topics."""
-        return [item for item in self.entities if isinstance(item, Synchronizer)]
+    synchronizers = _entities(Synchronizer)
+    """What waits for messages of several topics."""
 
     def calls_in(self, function: FunctionNode | ast.Lambda) -> Sequence[ast.Call]:
         """Return the calls in the body of a function, except those of functions inside."""
@@ -556,20 +465,3 @@ def _callbacks_of(entity: Entity) -> Sequence[Callback]:
 
 def _is_lifecycle(names: frozenset[str]) -> bool:
     return any("lifecycle" in name for name in names)
-
-
-def _module_paths(path: str, module: str) -> Iterator[str]:
-    """Yield the files that a module seen from a file may be in."""
-    directory = path.rpartition("/")[0]
-    if module.startswith("."):
-        name = module.lstrip(".")
-        for _ in range(len(module) - len(name) - 1):
-            directory = directory.rpartition("/")[0]
-        bases = [directory]
-    else:
-        name = module
-        bases = ["", "src", directory]
-    for base in dict.fromkeys(bases):
-        stem = "/".join(part for part in (base, *name.split(".")) if part)
-        yield f"{stem}.py"
-        yield f"{stem}/__init__.py"

@@ -53,8 +53,7 @@ def _is_executor(file: RclpyFile, node: ast.expr) -> bool:
 
 def _entered(file: RclpyFile, node: ast.Name) -> ast.expr | None:
     """Return what ``with ... as name`` is entered with."""
-    lookup = file.module.index.lookup(node.id, node)
-    for binding in lookup[1] if lookup else ():
+    for binding in file.module.index.bindings_of(node):
         parent = file.module.parent(binding.node)
         if isinstance(parent, ast.withitem):
             return parent.context_expr
@@ -134,8 +133,8 @@ class _Outside:
         return self._catches[function]
 
     def _is_name_of(self, name: ast.Name, function: FunctionNode) -> bool:
-        lookup = self._file.module.index.lookup(name.id, name)
-        return lookup is not None and any(binding.node is function for binding in lookup[1])
+        bindings = self._file.module.index.bindings_of(name)
+        return any(binding.node is function for binding in bindings)
 
 
 def _caught(file: RclpyFile, node: ast.Try) -> Iterator[str]:

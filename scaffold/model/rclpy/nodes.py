@@ -12,8 +12,8 @@ from scaffold.model.python.values import UNKNOWN, Unknown
 from scaffold.model.rclpy.entities import (
     ActionClient,
     ActionServer,
+    AnyEntity,
     Client,
-    Entity,
     Parameter,
     ParameterRead,
     Publisher,
@@ -28,6 +28,17 @@ if TYPE_CHECKING:
     from scaffold.source import Location
 
 
+def _own(kind: type[AnyEntity]) -> cached_property[Sequence[AnyEntity]]:
+    """Return the property of a node with what it creates of a kind, its base classes aside."""
+    return cached_property(
+        lambda node: [
+            item
+            for item in node.file.entities
+            if item.owner is node and type(item) is kind and isinstance(item, kind)
+        ]
+    )
+
+
 class NodeDefinition:
     """A node that the code creates: from its own class, or as an object."""
 
@@ -38,54 +49,24 @@ class NodeDefinition:
         self.location = location
         self.is_lifecycle = False
 
-    def _own(self, kind: type[Entity]) -> list[Entity]:
-        return [item for item in self.file.entities if item.owner is self and type(item) is kind]
-
-    @cached_property
-    def publishers(self) -> Sequence[Publisher]:
-        """What it publishes, those of base classes not included."""
-        return [item for item in self._own(Publisher) if isinstance(item, Publisher)]
-
-    @cached_property
-    def subscriptions(self) -> Sequence[Subscription]:
-        """What it subscribes to."""
-        return [item for item in self._own(Subscription) if isinstance(item, Subscription)]
-
-    @cached_property
-    def services(self) -> Sequence[Service]:
-        """The services it offers."""
-        return [item for item in self._own(Service) if isinstance(item, Service)]
-
-    @cached_property
-    def clients(self) -> Sequence[Client]:
-        """The services it calls."""
-        return [item for item in self._own(Client) if isinstance(item, Client)]
-
-    @cached_property
-    def action_servers(self) -> Sequence[ActionServer]:
-        """The actions it offers."""
-        return [item for item in self._own(ActionServer) if isinstance(item, ActionServer)]
-
-    @cached_property
-    def action_clients(self) -> Sequence[ActionClient]:
-        """The actions it calls."""
-        return [item for item in self._own(ActionClient) if isinstance(item, ActionClient)]
-
-    @cached_property
-    def timers(self) -> Sequence[Timer]:
-        """Its timers."""
-        return [item for item in self._own(Timer) if isinstance(item, Timer)]
-
-    @cached_property
-    def parameters(self) -> Sequence[Parameter]:
-        """The parameters it declares."""
-        return [item for item in self._own(Parameter) if isinstance(item, Parameter)]
-
-    @cached_property
-    def parameter_reads(self) -> Sequence[ParameterRead]:
-        """Where it reads parameters."""
-        return [item for item in self._own(ParameterRead) if isinstance(item, ParameterRead)]
-
+    publishers = _own(Publisher)
+    """What it publishes, those of base classes not included."""
+    subscriptions = _own(Subscription)
+    """What it subscribes to."""
+    services = _own(Service)
+    """The services it offers."""
+    clients = _own(Client)
+    """The services it calls."""
+    action_servers = _own(ActionServer)
+    """The actions it offers."""
+    action_clients = _own(ActionClient)
+    """The actions it calls."""
+    timers = _own(Timer)
+    """Its timers."""
+    parameters = _own(Parameter)
+    """The parameters it declares."""
+    parameter_reads = _own(ParameterRead)
+    """Where it reads parameters."""
     # -- what its constructor is given
 
     @cached_property

@@ -331,13 +331,8 @@ def _after_docstring(module: PythonModule) -> int:
 
 def literal_span(setup: SetupPy, keyword: Keyword) -> tuple[int, int]:
     """Return the offsets of the literal of a keyword: through ``name=package_name``, too."""
-    node: ast.expr = keyword.node
-    if isinstance(node, ast.Name):
-        lookup = setup.module.index.lookup(node.id, node)
-        bindings = lookup[1] if lookup else ()
-        if len(bindings) == 1 and isinstance(bindings[0].value, ast.Constant):
-            node = bindings[0].value
-    return setup.module.span(node)
+    value = setup.module.index.only_value(keyword.node)
+    return setup.module.span(value if isinstance(value, ast.Constant) else keyword.node)
 
 
 def span(setup: SetupPy, name: str) -> tuple[int, int] | None:

@@ -162,9 +162,7 @@ class SetupPy:
         if isinstance(node, ast.Name):
             if not isinstance(self.evaluator.evaluate(node), dict):
                 return None
-            lookup = self.module.index.lookup(node.id, node)
-            values = [binding.value for binding in lookup[1]] if lookup else []
-            node = values[0] if len(values) == 1 and values[0] else node
+            node = self.module.index.only_value(node) or node
         return node if isinstance(node, ast.Dict) else None
 
     # -- what the keywords say
@@ -246,12 +244,7 @@ class SetupPy:
 
     def _literal(self, node: ast.expr) -> ast.expr:
         """Return the only value assigned to a name, else the expression itself."""
-        if isinstance(node, ast.Name):
-            lookup = self.module.index.lookup(node.id, node)
-            values = [binding.value for binding in lookup[1]] if lookup else []
-            if len(values) == 1 and values[0] is not None:
-                return values[0]
-        return node
+        return self.module.index.only_value(node) or node
 
     # -- data_files
 

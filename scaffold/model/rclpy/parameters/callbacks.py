@@ -50,8 +50,7 @@ def _wrong_result(file: RclpyFile, value: ast.expr | None) -> str:
 
 def _one_of_constants(file: RclpyFile, value: ast.expr) -> ast.Constant | None:
     """Return one of the constants that a variable is set to, if it is set to nothing else."""
-    lookup = file.module.index.lookup(value.id, value) if isinstance(value, ast.Name) else None
-    values = [binding.value for binding in lookup[1]] if lookup else []
+    values = [binding.value for binding in file.module.index.bindings_of(value)]
     constants = [item for item in values if isinstance(item, ast.Constant)]
     return constants[0] if constants and len(constants) == len(values) else None
 

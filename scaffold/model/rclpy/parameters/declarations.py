@@ -68,8 +68,7 @@ class Declarations:
             One iteration without variables if it is not a loop over a literal list.
         """
         index = self._file.module.index
-        lookup = index.lookup(node.id, node) if isinstance(node, ast.Name) else None
-        target = lookup[1][0].node if lookup and len(lookup[1]) == 1 else None
+        target = index.only_node(node)
         loop = index.parent(target) if target is not None else None
         if isinstance(loop, ast.Tuple):
             target, loop = loop, index.parent(loop)

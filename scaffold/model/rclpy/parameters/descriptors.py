@@ -141,10 +141,9 @@ def _kept(file: RclpyFile, node: ast.expr) -> ast.expr:
 
 def _assigned_before(file: RclpyFile, node: ast.Name) -> Binding | None:
     """Return the assignment a name has its value from: all are in the same block as the use."""
-    lookup = file.module.index.lookup(node.id, node)
     block = _block(file, node)
     last: Binding | None = None
-    for binding in lookup[1] if lookup else ():
+    for binding in file.module.index.bindings_of(node):
         if binding.kind != "assignment" or _block(file, binding.node) != block:
             return None
         if _line(binding.node) < node.lineno:

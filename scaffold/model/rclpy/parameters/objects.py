@@ -95,8 +95,7 @@ def is_listed_parameter(file: RclpyFile, node: ast.expr) -> bool:
         return is_number and is_parameter_list(file, node.value)
     if not isinstance(node, ast.Name):
         return False
-    lookup = file.module.index.lookup(node.id, node)
-    loops = [file.module.parent(binding.node) for binding in lookup[1]] if lookup else []
+    loops = [file.module.parent(binding.node) for binding in file.module.index.bindings_of(node)]
     return bool(loops) and all(
         isinstance(loop, ast.For | ast.comprehension)
         and isinstance(loop.target, ast.Name)
@@ -248,11 +247,10 @@ def _texts(
 
 def _looped(file: RclpyFile, node: ast.expr) -> list[ast.expr]:
     """Return what a name refers to in a loop over a literal list."""
-    lookup = file.module.index.lookup(node.id, node) if isinstance(node, ast.Name) else None
-    loops = [file.module.parent(item.node) for item in lookup[1]] if lookup else []
-    if len(loops) != 1 or not isinstance(loops[0], ast.For | ast.comprehension):
+    bound = file.module.index.only_node(node)
+    loop = file.module.parent(bound) if bound is not None else None
+    if not isinstance(loop, ast.For | ast.comprehension):
         return []
-    loop = loops[0]
     is_plain = isinstance(loop.target, ast.Name) and isinstance(loop.iter, ast.List | ast.Tuple)
     return list(loop.iter.elts) if is_plain and isinstance(loop.iter, ast.List | ast.Tuple) else []
 
