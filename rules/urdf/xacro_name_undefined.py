@@ -112,6 +112,15 @@ class XacroNameUndefined(Rule):
             },
         ),
         Example(
+            "a macro that writes the element of its name",
+            {
+                "robot.xacro": '<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">\n'
+                '  <xacro:macro name="contact"><contact mu="1"/></xacro:macro>\n'
+                '  <link name="base">\n    <collision><xacro:contact/></collision>\n  </link>\n'
+                "</robot>\n"
+            },
+        ),
+        Example(
             "a property; an expression",
             {
                 "a.xacro": _robot(1, "${radus}"),

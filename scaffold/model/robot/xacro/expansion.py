@@ -107,7 +107,8 @@ class Expansion:
             else:
                 self._call(element.tag[6:], element, holder, frame)
             return
-        is_macro = element.tag in frame.macros and not is_for_others(holder)
+        macro = frame.macros.get(element.tag)
+        is_macro = macro is not None and not macro.is_shorthand and not is_for_others(holder)
         if is_macro or (element.tag in _UNPREFIXED and holder is self.root):
             self.problems.note("tag", element.tag, frame.file, element.name_location, ())
         part = Part(element.tag, element, frame.file, holder, is_certain=frame.is_certain)

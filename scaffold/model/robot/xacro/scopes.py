@@ -32,6 +32,12 @@ class Macro(NamedTuple):
     macros: dict[str, Macro] | None = None
     """What its body can call, where it was included with a namespace."""
 
+    @property
+    def is_shorthand(self) -> bool:
+        """Whether it writes an element of its own name, which is no call of it then."""
+        name = (self.element.get("name") or "").removeprefix("xacro:")
+        return any(part.tag == name for part in self.element.descendants())
+
 
 class Lazy(NamedTuple):
     """The value of a property, evaluated where it is used."""
