@@ -162,6 +162,16 @@ class TreeBroken(Rule):
             "it",
         ),
         Example(
+            "a sensor on a link that a gazebo element adds",
+            {
+                "robot.urdf": _ROBOT_LINKS.format("base_link", "wheel").replace(
+                    "</robot>",
+                    '  <gazebo><link name="lidar"/></gazebo>\n'
+                    '  <gazebo reference="lidar"><sensor name="a"/></gazebo>\n</robot>',
+                )
+            },
+        ),
+        Example(
             "a file of two robots that both lack a link",
             {
                 "simulation.xacro": _SIMULATION,
@@ -281,9 +291,16 @@ class TreeBroken(Rule):
                 if _is_here(package, end):
                     yield self.report(end.at("link"), message)
             yield from self._check_mimic(package, joint, joints)
-        for part in robot.root.all("gazebo"):
+        extensions = [*robot.root.all("gazebo")]
+        added = [
+            part.get("name") or ""
+            for extension in extensions
+            for part in extension.children
+            if part.tag in {"link", "joint"}
+        ]
+        for part in extensions:
             reference = part.get("reference")
-            if reference and links and not _is_among(reference, [*links, *joints]):
+            if reference and links and not _is_among(reference, [*links, *joints, *added]):
                 hint = _hint(package, reference, links)
                 message = (
                     f"gazebo reference {reference!r} is not a link or joint of this robot: "
