@@ -76,6 +76,8 @@ def _argument(finding: TypeFinding, callee: str, expected: str, given: str) -> s
     is_misfit = is_certain_misfit(expected, given) or is_uncallable(finding, expected, given)
     if not is_misfit or callee.endswith(_UNCHECKED) or is_unpacked(finding):
         return ""
+    if given == "None" and isinstance(finding.expression(), ast.Attribute):
+        return ""  # of a module or an object: other code sets it
     is_for_others = has_too_many(finding, callee)  # which TY004 reports
     is_for_others = is_for_others or is_one_of_publishers(finding)
     is_for_others = is_for_others or (given == "float" and is_int_as_well(finding))

@@ -637,6 +637,16 @@ class ArgumentTypeUnfit(TypeRule):
             "TypeError when it is called",
         ),
         Example(
+            "a variable of another module that is None at first",
+            {
+                "package.xml": "<package><name>rover</name></package>\n",
+                "rover/__init__.py": "",
+                "rover/state.py": "from rclpy.node import Node\n\nnode = None\n",
+                "rover/main.py": "import rclpy\n\nfrom . import state\n\n"
+                "state.node = state.Node('rover')\nrclpy.spin(state.node)\n",
+            },
+        ),
+        Example(
             "text sent by a method that another module inherits",
             {
                 "package.xml": "<package><name>rover</name></package>\n",
