@@ -57,7 +57,10 @@ class BridgeDiffersFromNodes(Rule):
 
     code = "BR003"
     name = "bridge-differs-from-nodes"
-    other_severities = {Severity.WARNING: "it carries the data in the other direction"}
+    other_severities = {
+        Severity.WARNING: "it carries the data in the other direction, or a parameter of the node "
+        "names the topic"
+    }
     examples = (
         Example(
             "the same type; the other direction; another topic",
@@ -79,6 +82,21 @@ class BridgeDiffersFromNodes(Rule):
             {"driver.py": _NODE, "a.yaml": _ENTRY.format("/cmd_vel", "Twist", "ROS_TO_GZ")},
             "a.yaml:3:18: '/cmd_vel' has type geometry_msgs/msg/Twist here, but "
             "geometry_msgs/msg/TwistStamped in driver.py:8: they never connect",
+        ),
+        Example(
+            "another type, on a topic that a parameter names",
+            {
+                "driver.py": _NODE.replace(
+                    "'cmd_vel'", "self.declare_parameter('output', 'cmd_vel').value"
+                ),
+                "a.yaml": _ENTRY.format("/cmd_vel", "Twist", "ROS_TO_GZ"),
+            },
+            Report(
+                "a.yaml:3:18",
+                "'/cmd_vel' has type geometry_msgs/msg/Twist here, but "
+                "geometry_msgs/msg/TwistStamped in driver.py:8: they never connect",
+                severity=Severity.WARNING,
+            ),
         ),
         Example(
             "both ways",
@@ -152,7 +170,8 @@ class BridgeDiffersFromNodes(Rule):
                     f"{entry.ros_topic!r} has type {type_.text} here, but {endpoint.interface} in "
                     f"{at.path}:{at.line}: they never connect"
                 )
-                yield self.report(type_, message)
+                is_set = endpoint.from_parameter is not None  # by whoever starts it with the bridge
+                yield self.report(type_, message, severity=Severity.WARNING if is_set else None)
 
     def _check_direction(self, package: Package) -> Iterator[Diagnostic]:
         for entry in bridge_entries(package):
