@@ -17,7 +17,7 @@ from scaffold.model.install.unused import (
     is_never_run,
     is_out_of_reach,
 )
-from scaffold.model.launch.parameter_files import is_left_alone
+from scaffold.model.launch.unused_files import is_left_alone
 from scaffold.model.package import Package
 from scaffold.model.python.facts import paths_importing
 from scaffold.model.python.guards import all_conditions, is_unevaluated
@@ -30,7 +30,11 @@ from scaffold.source import ViewError
 _OF_LINTERS = ("E9", "F")
 _OF_PROGRAMS = ("IM", "LF", "MS", "ND", "TY")
 """Areas of rules about what happens when code runs."""
-_OF_PARAMETERS = "PF"
+_OF_DATA = ("PF", "UR")
+"""Areas of rules about files that launch files give to programs."""
+_ENDINGS_OF_DATA = (".yaml", ".yml", ".urdf", ".xacro", ".sdf")
+_RAISED_ANYWAY = "F901"
+"""``raise NotImplemented()`` raises another exception."""
 _OF_TESTS = frozenset({"LY020", "LY021", "PX050"})
 """Errors only where a test of the package looks at the file, whatever it is for."""
 _QUOTED = re.compile(r"'([^']+)'")
@@ -121,7 +125,7 @@ def _is_of_unused_code(package: Package, diagnostic: Diagnostic) -> bool:
     path, code = diagnostic.location.path, diagnostic.code
     if code == _UNDECLARED:
         return _is_needed_by_unused_code(package, diagnostic)
-    if code.startswith(_OF_PARAMETERS) and path.endswith((".yaml", ".yml")):
+    if code.startswith(_OF_DATA) and path.endswith(_ENDINGS_OF_DATA):
         return is_copy_of_old_code(package, path) or is_left_alone(package, path)
     is_copy = code not in _OF_TESTS and is_copy_of_old_code(package, path)
     if not path.endswith(".py") or is_copy:
@@ -134,7 +138,8 @@ def _is_of_unused_code(package: Package, diagnostic: Diagnostic) -> bool:
 def _is_unreached(package: Package, diagnostic: Diagnostic) -> bool:
     """Tell whether nothing runs the Python code that an error is in."""
     path, code = diagnostic.location.path, diagnostic.code
-    if code not in _OF_TESTS and path.startswith(("doc/", "docs/")):
+    is_of_example = code not in _OF_TESTS and path.startswith(("doc/", "docs/"))
+    if is_of_example or code == _RAISED_ANYWAY:
         return True
     if code.startswith(_OF_LINTERS):
         return is_out_of_reach(package, path) or _is_hardly_reached(package, diagnostic)

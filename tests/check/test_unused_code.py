@@ -54,14 +54,16 @@ def main():
 
 @pytest.fixture
 def package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    home = tmp_path / "talker"  # apart from the packages of other tests
+    home.mkdir()
     for path, text in {
         "package.xml": MANIFEST.format(""),
         "setup.py": SETUP,
         "talker/__init__.py": "",
     }.items():
-        write(tmp_path / path, text)
-    monkeypatch.chdir(tmp_path)
-    return tmp_path
+        write(home / path, text)
+    monkeypatch.chdir(home)
+    return home
 
 
 def write(path: Path, text: str) -> None:
@@ -335,6 +337,41 @@ def test_parameter_file_not_launched(
     assert severities(capsys, "PF007") == {"params/talk.yaml": "error"}  # passed by hand
     write(package / "launch" / "talk.launch.py", LAUNCH.format(given))
     assert severities(capsys, "PF007") == {"params/talk.yaml": severity}
+
+
+def test_robot_that_is_not_launched(package: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    mesh = "<mesh filename='package://talker/arm.stl'/>"
+    link = f"<link name='arm'><visual><geometry>{mesh}</geometry></visual></link>"
+    for name in ("arm", "hand"):
+        write(package / "urdf" / f"{name}.urdf", f"<robot name='{name}'>{link}</robot>\n")
+    data = ", data_files=[('share/talker/urdf', ['urdf/arm.urdf', 'urdf/hand.urdf'])])\n"
+    write(package / "setup.py", SETUP.replace(")\n", data))
+    write(package / "launch" / "talk.launch.py", LAUNCH.format("'urdf/arm.urdf'"))
+    assert severities(capsys, "UR001") == {"urdf/arm.urdf": "error", "urdf/hand.urdf": "warning"}
+
+
+@pytest.mark.parametrize(
+    ("severity", "path", "text"),
+    [
+        ("warning", "talker/other.py", "def tell():\n    pass\n"),
+        ("error", "talker/other.py", "from talker.words import *\n\ntell()\n"),
+        ("error", "src/talk.cpp", 'auto tell = words.attr("tell");\n'),
+    ],
+)
+def test_uncalled_function_of_a_library(
+    package: Path, capsys: pytest.CaptureFixture[str], severity: str, path: str, text: str
+) -> None:
+    write(package / "talker" / "words.py", "def tell():\n    return undefined\n")
+    write(package / path, text)
+    assert severities(capsys, "F821") == {"talker/words.py": "error"}  # a library for others
+    entry = ", entry_points={'console_scripts': ['talk = talker.talk:main']})\n"
+    write(package / "setup.py", SETUP.replace(")\n", entry))
+    assert severities(capsys, "F821") == {"talker/words.py": severity}
+
+
+def test_exception_that_is_no_exception(package: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    write(package / "talker" / "talk.py", "raise NotImplemented('later')\n")
+    assert severities(capsys, "F901") == {"talker/talk.py": "warning"}
 
 
 def test_uncalled_launch_helper(package: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -24,8 +24,6 @@ if TYPE_CHECKING:
 _ALIKE = 0.75
 # linear: it matches from the start of a run of these characters only
 _FILE_NAME = re.compile(r"(?<![\w.-])[\w.-]+\.ya?ml")
-_NAMING = (".py", ".xml", ".yaml", ".yml", ".launch", ".sh", ".md", ".rst", ".cpp", ".hpp")
-"""The endings of files that start nodes, or tell people how to."""
 _LAUNCH_ENDINGS = ("launch.xml", "launch.yaml", "launch.yml", ".launch", ".py")
 
 
@@ -76,34 +74,6 @@ def _use_of(package: Package, path: str) -> FileUse:
                 passed = passed or is_handed_on
     launch_files = {node.launch for node in result}
     return FileUse(result, not passed and not _is_mentioned(package, path, launch_files))
-
-
-def is_left_alone(package: Package, path: str) -> bool:
-    """Tell whether the package has launch files, and nothing in the workspace names a YAML file.
-
-    A launch file that puts the name together may name any.
-    """
-    name = path.rpartition("/")[2].encode("utf-8", "surrogateescape")
-    launching = re.compile(rb"(?<![\w.-])%b|[\"'})]\.ya?ml" % re.escape(name))
-    if not any(map(_is_launch_file, package.files)):
-        return False
-    return not any(
-        launching.search(data)
-        for other in package.workspace
-        for file in other.files
-        if file.endswith(_NAMING) and (other.name != package.name or file != path)
-        if (data := _bytes(other, file)) and not file.endswith("setup.py")
-    )
-
-
-def _is_launch_file(path: str) -> bool:
-    return "launch" in path.rpartition("/")[2] and path.endswith((".py", ".xml", ".yaml", ".yml"))
-
-
-def _bytes(package: Package, path: str) -> bytes:
-    with contextlib.suppress(ViewError):
-        return package.data(path)
-    return b""
 
 
 def nodes_for(package: Package, path: str, section: Section) -> list[KnownNode]:

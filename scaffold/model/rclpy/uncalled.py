@@ -8,6 +8,7 @@ from collections import Counter
 from typing import TYPE_CHECKING
 
 from scaffold.formats.hash_comments import without_comments
+from scaffold.model.cmake.ament import programs
 from scaffold.model.rclpy.api import NODE, has
 from scaffold.source import ViewError
 
@@ -19,6 +20,8 @@ if TYPE_CHECKING:
 _WORD = re.compile(r"\w+")
 _DEFINITION = re.compile(r"\bdef\s+(\w+)")
 _ENTRIES = frozenset({"main", "generate_launch_description"})
+_NAMING = (".py", ".cfg", ".toml", ".cpp", ".hpp")
+"""The endings of files that may call a function of Python, or tell who does."""
 _LAUNCH = frozenset({"launch", "launch_ros"})
 _LOOKUPS = ("getattr(", "globals(", "locals(", "vars(", "__dict__", "eval(", "exec(")
 """What finds a function by a name that is only made when the program runs."""
@@ -36,11 +39,8 @@ def may_be_in_uncalled_function(package: Package, path: str, line: int) -> bool:
             text = package.data(path).decode()
         except UnicodeDecodeError:
             return (1,)
-        is_launch_file = path.endswith("launch.py")
-        if is_launch_file and "__main__" in text:
+        if path.endswith("launch.py") and "__main__" in text:
             return (1,)
-        if not is_launch_file and "main" not in text and "launch" not in text:
-            return ()
         count = Counter(_WORD.findall(without_comments(text)))
         return tuple(
             text.count("\n", 0, match.start()) + 1
@@ -55,18 +55,20 @@ def may_be_in_uncalled_function(package: Package, path: str, line: int) -> bool:
 def is_in_uncalled_function(package: Package, module: PythonModule, line: int) -> bool:
     """Tell whether a line is in a function of a program or launch file that nothing names.
 
-    A library is used from elsewhere, but for what helps the launch files of a workspace; a class
-    may be called by a base of which nothing is known.
+    A library is used from elsewhere, but for what helps the programs of its package, or launch
+    files; a class may be called by a base of which nothing is known.
     """
     is_launch_file = module.path.endswith("launch.py")
     if is_launch_file and _is_in_unused_guard(module, line):
         return True
     is_program = module.has_main_guard or "main" in module.functions
-    is_helper = not is_program and not _LAUNCH.isdisjoint(module.imports_by_root)
-    if module.in_tests or not (is_program or is_launch_file or is_helper):
+    is_helper = not (is_program or is_launch_file)
+    if module.in_tests or (is_helper and not _helps_programs(package, module)):
         return False
     function = _outermost_function(module, line)
     if function is None or function.decorator_list or not _is_called_by_name(module, function):
+        return False
+    if is_helper and module.enclosing_class(function) is not None:
         return False
     if module.mentions(*_LOOKUPS):
         return False
@@ -75,6 +77,17 @@ def is_in_uncalled_function(package: Package, module: PythonModule, line: int) -
     names = (function.name,) if is_helper else (stem, function.name)
     users = package.workspace if is_helper else [package]
     return named == 1 and not any(_is_named_in(user, module, names) for user in users)
+
+
+def _helps_programs(package: Package, module: PythonModule) -> bool:
+    """Tell whether a module is there for launch files, or for programs of its own package."""
+    if not _LAUNCH.isdisjoint(module.imports_by_root):
+        return True
+    try:
+        is_cmake = package.build_type == "ament_cmake"
+        return bool(programs(package) if is_cmake else package.setup_py.console_scripts)
+    except ViewError:
+        return False
 
 
 def _is_in_unused_guard(module: PythonModule, line: int) -> bool:
@@ -111,15 +124,21 @@ def _is_called_by_name(module: PythonModule, function: FunctionNode) -> bool:
 def _is_named_in(package: Package, module: PythonModule, names: tuple[str, ...]) -> bool:
     """Tell whether another module of a package has all of some names."""
     for path in package.files:
-        if not path.endswith(".py") or path == module.path:
+        if not path.endswith(_NAMING) or path == module.path:
             continue
         try:
             text = package.data(path).decode(errors="replace")
         except ViewError:
             return True
-        if all(name in text for name in names) and _named_in(without_comments(text), *names):
+        if all(name in text for name in names) and _uses(without_comments(text), names):
             return True
     return False
+
+
+def _uses(text: str, names: tuple[str, ...]) -> bool:
+    """Tell whether a text has all of some names, and the last one not as its own function."""
+    own = len(re.findall(rf"\bdef\s+{re.escape(names[-1])}\b", text))
+    return _named_in(text, *names) > 0 and _named_in(text, names[-1]) > own
 
 
 def _named_in(text: str, *names: str) -> int:
