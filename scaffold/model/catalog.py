@@ -112,7 +112,7 @@ BUILD_TOOLS = frozenset(
     {"ament_cmake", "ament_cmake_auto", "ament_cmake_python", "ament_cmake_ros"}
     | {"rosidl_default_generators"}
 )
-"""What builds packages, and is of no use on a robot."""
+"""Packages that are only needed to build others."""
 
 _OTHER_MODULES = {
     "PIL": "python3-pil",
@@ -209,7 +209,7 @@ _BROUGHT = {
     "python3-transforms3d": "python3-numpy",
     "python3-uvicorn": "python3-click",
 }
-"""Libraries of the system whose packages in Ubuntu depend on others with a key of their own."""
+"""System libraries whose Ubuntu packages depend on others with rosdep keys."""
 
 ROS1_PACKAGES = {
     "actionlib": "rclpy or rclcpp_action",
@@ -246,7 +246,7 @@ ROS1_PACKAGES = {
     "tf_conversions": "tf_transformations",
     "xmlrpcpp": "rclcpp",
 }
-"""Packages of ROS 1 that ROS 2 Jazzy does not have, and what took their place."""
+"""Packages of ROS 1 that ROS 2 Jazzy does not have, and their replacements."""
 
 OTHER_NAMES = {
     "ign_ros2_control": "gz_ros2_control",
@@ -258,7 +258,7 @@ OTHER_NAMES = {
     "ros_ign_image": "ros_gz_image",
     "ros_ign_interfaces": "ros_gz_interfaces",
 }
-"""Names that no package of Jazzy has, and the package that has what they stand for."""
+"""Names of no package of Jazzy, with the package that is probably meant."""
 
 
 def keys_of_module(root: str) -> tuple[str, ...]:
@@ -268,7 +268,7 @@ def keys_of_module(root: str) -> tuple[str, ...]:
         root: The first part of the imported name.
 
     Returns:
-        Nothing when the module is not known.
+        Nothing if the module is unknown.
     """
     if root in _OTHER_MODULES:
         return tuple(_OTHER_MODULES[root].split())
@@ -276,10 +276,10 @@ def keys_of_module(root: str) -> tuple[str, ...]:
 
 
 def keys_brought(keys: Iterable[str]) -> set[str]:
-    """Return the keys of the libraries that come along with declared ones.
+    """Return the keys of the libraries that declared ones depend on.
 
     Args:
-        keys: What a manifest declares.
+        keys: The declared keys.
     """
     result: set[str] = set()
     pending = [*keys]
@@ -296,7 +296,7 @@ def module_keys() -> frozenset[str]:
 
 
 def similar_key(key: str) -> str | None:
-    """Return the key of a Python module that a misspelled one means, if it is near enough."""
+    """Return the key of a Python module closest to a misspelled one, if it is close enough."""
     if not key.startswith(_PYTHON) or key in _OF_DEBIAN or key in module_keys():
         return None
     name = key.removeprefix(_PYTHON)
@@ -313,13 +313,13 @@ _OF_DEBIAN = frozenset(
     f"{_PYTHON}{name}"
     for name in ("gwebsockets", "network", "opengv", "pykml", "scapy", "simpy", "unicorn")
 ) | {f"{_PYTHON}websocketd"}
-"""Packages of Debian with names that resemble those of keys."""
+"""Debian packages with names similar to keys."""
 
 
 def module_of_key(key: str) -> str | None:
-    """Return the module that a key of Python's package index names, if rosdep calls it otherwise.
+    """Return the module of a name of the Python package index, if its rosdep key differs.
 
-    ``numpy`` is such a key: the manifest has to say ``python3-numpy``.
+    ``numpy`` is such a name: the manifest needs ``python3-numpy``.
     """
     if key in _SYSTEM_KEYS:
         return None
@@ -331,7 +331,7 @@ def module_of_key(key: str) -> str | None:
 
 
 _SYSTEM_KEYS = frozenset({"git", "graphviz", "lark", "yaml"})
-"""Keys of rosdep that look like names of the package index."""
+"""Rosdep keys that look like names of the package index."""
 
 _INDEX_NAMES = {
     "PIL": "pillow",
@@ -348,7 +348,7 @@ _INDEX_NAMES = {
 
 
 def is_near(name: str, other: str) -> bool:
-    """Tell whether a name is another one misspelled: see ``similar_package``."""
+    """Tell whether a name is a misspelling of another one; see ``similar_package``."""
     if name == other or len(name) < 5:  # noqa: PLR2004  short names resemble by chance
         return False
     plain = name.replace("-", "").replace("_", "").lower()
@@ -356,9 +356,9 @@ def is_near(name: str, other: str) -> bool:
 
 
 def similar_package(name: str) -> str | None:
-    """Return the known package that a misspelled name means, if it is near enough to be sure.
+    """Return the known package closest to a misspelled name, if it is close enough.
 
-    Near is one letter added, missing, changed or swapped, or other separators; a digit is no typo
+    A close name has one letter added, missing, changed or swapped, or other separators; no digit
     (``turtlebot4_msgs`` is not ``turtlebot3_msgs``).
     """
     if name in ROS_PACKAGES or is_released(name):
@@ -376,7 +376,7 @@ _ALIKE: defaultdict[tuple[int, str], list[str]] = defaultdict(list)
 
 
 def _alike() -> Mapping[tuple[int, str], list[str]]:
-    """Return the packages by length with first letter, last letter, or all letters."""
+    """Index the packages by length with first letter, last letter, or all letters."""
     if not _ALIKE:
         for name in ROS_PACKAGES:
             plain = name.replace("_", "")
@@ -392,7 +392,7 @@ def is_one_slip(text: str, other: str, *, digits: bool = True) -> bool:
     Args:
         text: A name.
         other: Another one.
-        digits: Whether a digit more or other counts as a slip.
+        digits: Whether a changed or additional digit counts as a typo.
     """
     if abs(len(text) - len(other)) > 1:
         return False

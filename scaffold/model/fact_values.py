@@ -12,9 +12,9 @@ _PLAIN = (str, int, bytes, type(None))
 
 
 def encode(value: object) -> object:
-    """Return a value as something that marshal can write and ``decode`` reads.
+    """Encode a value for marshal, to be read by ``decode``.
 
-    Values of different types are different here, also 1 and 1.0.
+    Values of different types are distinguished, also 1 and 1.0.
     """
     kind = type(value)
     if kind in _PLAIN:
@@ -30,7 +30,7 @@ def encode(value: object) -> object:
 
 
 _names: dict[type, str] = {}
-"""Each once: marshal writes what is the same object once."""
+"""Interned names, as marshal writes an object only once."""
 _ENCODERS: Mapping[type, Callable[[Any], object]] = {
     tuple: lambda value: ("", *map(encode, value)),
     list: lambda value: ("[", *map(encode, value)),
@@ -43,7 +43,7 @@ _ENCODERS: Mapping[type, Callable[[Any], object]] = {
 
 
 def decode(stored: Any) -> Any:  # noqa: ANN401  of any type
-    """Return the value that was encoded."""
+    """Decode a value."""
     if not isinstance(stored, tuple):
         return stored
     kind, *items = stored

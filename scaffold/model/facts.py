@@ -21,11 +21,11 @@ Store = TypeVar("Store", bound="FactStore")
 
 
 class FactStore:
-    """The facts about one package, those of an earlier run included."""
+    """The facts about one package, including those of an earlier run."""
 
     def __init__(self, directory: str) -> None:
         self.directory = directory
-        """Path of the root as the user wrote it; empty for a package in memory."""
+        """The path of the root as given by the user; empty for a package in memory."""
         self._facts: dict[Key, Fact] = {}
         self._recalls: list[Callable[[Key], Fact | None]] = []
 
@@ -43,25 +43,25 @@ class FactStore:
         return value  # type: ignore[no-any-return]  # what make made
 
     def known_fact(self, key: Key) -> Fact | None:
-        """Return a fact that was asked for, or that is known from an earlier run."""
+        """Return a fact that was requested, or is known from an earlier run."""
         return self._facts.get(key) or self._recall(key)
 
     @property
     def facts(self) -> Sequence[Fact]:
-        """The facts that were asked for."""
+        """The requested facts."""
         return [*self._facts.values()]
 
     def assume_facts(self, recall: Callable[[Key], Fact | None]) -> None:
-        """Take over what an earlier run found out, as far as it is the same."""
+        """Use the facts of an earlier run that are still valid."""
         self._recalls.append(recall)
 
     def forget_facts(self) -> None:
-        """Drop the facts, and what an earlier run knew of them."""
+        """Drop the facts, including those of an earlier run."""
         self._facts.clear()
         self._recalls.clear()
 
     def end_assumptions(self) -> None:
-        """Drop what an earlier run knew of the facts, and those that are made of such facts."""
+        """Drop the facts of an earlier run, and those that depend on them."""
         self._recalls.clear()
         self._facts = {key: fact for key, fact in self._facts.items() if fact.is_of_files}
 
@@ -77,9 +77,9 @@ class FactStore:
 def fact(
     function: Callable[Concatenate[Store, Words], Value],
 ) -> Callable[Concatenate[Store, Words], Value]:
-    """Let a function of a package and words return a fact.
+    """Decorate a function of a package and strings to return a fact.
 
-    Its value is made of texts, numbers, enumerations, and collections and records of these;
+    Its value consists of strings, numbers, enumerations, and collections and records of these;
     it must not be changed. The function may raise ViewError.
     """
     name = f"{function.__module__}:{function.__qualname__}"
@@ -92,7 +92,7 @@ def fact(
 
 
 def ask_again(package: FactStore, key: Key) -> None:
-    """Ask for a fact by its key; raises ViewError as its provider, LookupError without one."""
+    """Compute a fact by its key; raises ViewError like its provider, LookupError without one."""
     module, _, name = str(key[0]).partition(":")
     provider: Any = sys.modules.get(module) or import_module(module)
     for part in name.split("."):

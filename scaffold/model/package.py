@@ -46,7 +46,7 @@ class Identity(NamedTuple):
 class Package(PackageFiles):
     """A ROS 2 package as rules see it.
 
-    A view that cannot be had raises ViewError: MissingFileError when its file is not there,
+    An unavailable view raises ViewError: MissingFileError if its file does not exist,
     ParseError when it cannot be parsed. Rules let it pass: the runner silences the rule and
     reports the parse error once.
     """
@@ -70,8 +70,8 @@ class Package(PackageFiles):
 
         Args:
             directory: The directory.
-            workspace: What is around it.
-            disk: Records what was accessed in it, if the package itself is not to.
+            workspace: The workspace around it.
+            disk: Records accesses to it, if not the package itself.
         """
         tree = DiskTree(directory, disk)
         return cls(tree, directory=tree.root, workspace=workspace)
@@ -84,7 +84,7 @@ class Package(PackageFiles):
     # -- files
 
     def editable(self, path: str) -> Source:
-        """Return the text that the offsets of edits count in, in the file's own encoding."""
+        """Return the text that the offsets of edits refer to, in the file's own encoding."""
         if path == MANIFEST:
             return self.manifest.source
         if path.endswith(".py"):
@@ -108,7 +108,7 @@ class Package(PackageFiles):
 
     @property
     def _manifest(self) -> Manifest:
-        """The same for what is part of the identity: other changes of the file do not matter."""
+        """The manifest for the identity, which does not depend on its other content."""
 
         def parse() -> Manifest:
             from scaffold.model.manifest.manifest import Manifest, decode
@@ -119,7 +119,7 @@ class Package(PackageFiles):
 
     @property
     def cmake(self) -> CMakeLists:
-        """CMakeLists.txt, unless it is not used: colcon builds ament_python with setup.py."""
+        """CMakeLists.txt, if used: colcon builds ament_python with setup.py."""
 
         def parse() -> CMakeLists:
             from scaffold.model.cmake.lists import CMakeLists
@@ -189,7 +189,7 @@ class Package(PackageFiles):
 
         Args:
             paths: Only these.
-            mentioning: Words without which a file is of no interest; it is not even parsed.
+            mentioning: Words without which a file is skipped without parsing.
         """
         for path in self.python_files if paths is None else paths:
             try:
@@ -248,12 +248,12 @@ class Package(PackageFiles):
         return self._identity
 
     def identify(self, identity: Identity) -> None:
-        """Take over what another process or an earlier run found out."""
+        """Use the identity computed by another process or an earlier run."""
         self._identity = identity
 
     @property
     def build_type(self) -> str:
-        """``ament_cmake``, ``ament_python`` ...: as declared, else as the files show."""
+        """``ament_cmake``, ``ament_python`` ...: as declared, or implied by the files."""
         try:
             declared = self._manifest.build_type
         except ViewError:
@@ -297,7 +297,7 @@ class Package(PackageFiles):
             self._neighbourhood = None
 
     def change(self, tree: Tree) -> None:
-        """Put other files in place of those of the package; see `Workspace.forget`."""
+        """Replace the files of the package; see `Workspace.forget`."""
         self.tree = tree
         self._identity = None
         self._recalls.clear()

@@ -26,16 +26,16 @@ _FILES_OF_VIEWS = {
 
 
 class PackageFiles(FactStore):
-    """The files of a package; views and facts that are made of them are kept until they change."""
+    """The files of a package, with cached views and facts."""
 
     def __init__(self, tree: Tree, directory: str) -> None:
         super().__init__(directory)
         self.tree = tree
         self.is_repeatable = True
-        """False when the verdict may change although nothing does that was noted."""
+        """False if findings may change without a change of recorded accesses."""
         self._views: dict[object, object] = {}
         self._reads: dict[object, Reads] = {}
-        """What the remembered views were made of."""
+        """The dependencies of the cached views."""
         self._refused: dict[str, ParseError] = {}
 
     @property
@@ -89,7 +89,7 @@ class PackageFiles(FactStore):
         return self._view(("source", path), lambda: Source.decode(path, self._read(path)))
 
     def data(self, path: str) -> bytes:
-        """Return the bytes of a file, for what decodes them in its own way.
+        """Return the bytes of a file, to be decoded by the caller.
 
         Raises:
             MissingFileError: there is no such file.
@@ -100,26 +100,26 @@ class PackageFiles(FactStore):
         return self._view(("data", path), lambda: self._read(path))
 
     def bytes_of(self, path: str, most: int = MAX_BYTES) -> bytes:
-        """Return what is in a file that no view is wanted of; raises OSError."""
+        """Return the content of a file without a view; raises OSError."""
         self._note(path)
         return self.tree.read(path, most)
 
     def start_of(self, path: str) -> Location:
-        """Return the place for what concerns a whole file, or a file that is missing."""
+        """Return the location of findings about a whole or missing file."""
         return Location.start_of(path)
 
     # -- views
 
     @property
     def parse_errors(self) -> list[ParseError]:
-        """What could not be parsed among the views asked for so far."""
+        """The parse errors of the views requested so far."""
         return [error for error in self._views.values() if isinstance(error, ParseError)]
 
     def remember(self, key: object, build: Callable[[], View]) -> View:
-        """Return what ``build`` makes of the package; it is built once per key.
+        """Return the result of ``build``, which is called once per key.
 
-        For facts that several rules share and no view of this class has. What it reads only when
-        it is used, it must note itself, as ``RclpyFile`` does.
+        For data shared by several rules and not in a view of this class. What it reads only when
+        it is used, it must record itself, like ``RclpyFile``.
         """
         made_of = self._reads.get(key)
         if made_of is None:
@@ -131,10 +131,10 @@ class PackageFiles(FactStore):
             return self._view(("derived", key), build)
 
     def refuse(self, path: str, message: str) -> bool:
-        """Count a file as unparsable from now on, for what only a look at its contents shows.
+        """Mark a file as unparsable, for errors found later.
 
         Returns:
-            Whether it was not refused before.
+            Whether it was not marked before.
         """
         if path in self._refused:
             return False
@@ -145,15 +145,15 @@ class PackageFiles(FactStore):
         return True
 
     def forget(self) -> None:
-        """Drop the facts, the views and the list of files: they are made again when asked for."""
+        """Drop the facts, the views and the list of files, to be computed again."""
         self._facts.clear()
         self.forget_views()
 
     def forget_views(self, kept: Collection[str] = ()) -> None:
-        """Drop the views and the list of files, but no facts: other packages may ask for those.
+        """Drop the views and the list of files, but no facts, which other packages may need.
 
         Args:
-            kept: The files, by ``full_path``, that stay parsed.
+            kept: The files, by ``full_path``, to keep parsed.
         """
         if self._refused:  # which the facts know of
             self._facts.clear()
@@ -170,7 +170,7 @@ class PackageFiles(FactStore):
             self.tree.forget()
 
     def full_path(self, path: str) -> str:
-        """Return how a file is called where there are several packages."""
+        """Return the path of a file that is unique among packages."""
         return f"{self.directory}/{path}"
 
     def _note(self, path: str) -> None:
@@ -179,7 +179,7 @@ class PackageFiles(FactStore):
 
     @property
     def _by_depth(self) -> Mapping[int, Sequence[str]]:
-        """The files by the number of directories that they lie in."""
+        """The files by depth."""
 
         def build() -> dict[int, list[str]]:
             result: dict[int, list[str]] = {}
@@ -212,7 +212,7 @@ class PackageFiles(FactStore):
         return data
 
     def _path_of(self, key: object) -> str | None:
-        """Return the file that a view is built from, if its key names one."""
+        """Return the file of a view, if its key has one."""
         words = key if isinstance(key, tuple) else (key,)
         for word in words:
             if isinstance(word, tuple):
@@ -226,7 +226,7 @@ class PackageFiles(FactStore):
         return None
 
     def _view(self, key: object, build: Callable[[], View]) -> View:
-        """Build a view once; an error is remembered and raised again."""
+        """Build a view once; an error is cached and raised again."""
         if key not in self._views:
             try:
                 self._views[key] = build()

@@ -22,15 +22,15 @@ FactId = tuple[str, Key]
 _UNSET = object()
 _FAILED = "!"
 _FOLLOWED = (".py", ".xml", ".yaml", ".yml", ".urdf", ".xacro", CMAKE_LISTS, SETUP_CFG)
-"""What the paths of files end with that are read through views of the package alone."""
+"""The extensions of files that are only read through views of the package."""
 _recorders: list[Reads] = []
 
 
 class Reads:
     """The files that a result depends on, directly or through views.
 
-    A view may read more files when it is used; that counts for everything made of it, also if
-    that was before.
+    A view may read more files when it is used; they count for everything derived from it, even if
+    it was derived before.
     """
 
     __slots__ = ("facts", "files", "views")
@@ -39,11 +39,11 @@ class Reads:
         self.files: set[str] = set()
         """The files whose content was accessed."""
         self.facts: set[Fact] = set()
-        """What was asked of files without looking at them."""
+        """The facts used instead of files."""
         self.views: set[Reads] = set()
 
     def all(self) -> tuple[frozenset[str], frozenset[Fact]]:
-        """Return files and facts, those of the views included."""
+        """Return files and facts, including those of views."""
         seen = {self}
         pending = [self]
         while pending:
@@ -57,12 +57,12 @@ class Reads:
 
 
 class Fact:
-    """A value, and what it was made of.
+    """A value and its dependencies.
 
     Args:
         directory: The package.
         key: The provider and its arguments.
-        known: The same as an earlier run stored it.
+        known: The stored fact of an earlier run.
     """
 
     __slots__ = ("_encoded", "_known", "_value", "directory", "error", "key", "reads")
@@ -71,7 +71,7 @@ class Fact:
         self.directory = directory
         self.key = key
         self.error: ViewError | None = None
-        """Why there is no value."""
+        """The error, if there is no value."""
         self.reads = Reads()
         self._value: object = _UNSET
         self._known = known
@@ -79,19 +79,19 @@ class Fact:
 
     @property
     def id(self) -> FactId:
-        """What it is called among the facts of all packages."""
+        """Its id among the facts of all packages."""
         return self.directory, self.key
 
     @property
     def value(self) -> object:
-        """What the provider returned."""
+        """The value returned by the provider."""
         if self._value is _UNSET:
             self._value = decode(self._encoded)
         return self._value
 
     @property
     def encoded(self) -> object:
-        """Its value, or why there is none, as ``encode`` returns it: equal for equal values."""
+        """Its value or error, encoded with ``encode``: equal for equal values."""
         if self.error is not None:
             return _FAILED, str(self.error)
         if self._encoded is _UNSET:
@@ -99,7 +99,7 @@ class Fact:
         return self._encoded
 
     def stored(self) -> tuple[StoredFact, Iterable[Fact]]:
-        """Return what a later run may know of it, and the facts that it was made of."""
+        """Return the stored form for a later run, and the facts that it depends on."""
         if self._known is not None:
             return self._known, self.reads.facts
         files, facts = self.reads.all()
@@ -107,11 +107,11 @@ class Fact:
 
     @property
     def is_of_files(self) -> bool:
-        """Whether it was made in this run, of nothing but files."""
+        """Whether it was computed in this run, only from files."""
         return self._known is None and not self.reads.all()[1]
 
     def make(self, provide: Callable[[], object]) -> None:
-        """Ask its provider; what that looks at counts as the fact's own."""
+        """Call its provider, recording its dependencies."""
         with recorded(self.reads):
             try:
                 self._value = provide()
@@ -120,12 +120,12 @@ class Fact:
 
 
 class StoredFact(NamedTuple):
-    """A fact as a run remembers it."""
+    """A stored fact."""
 
     files: frozenset[str]
-    """The files that it was made of, by ``Package.full_path``."""
+    """The files that it depends on, by ``Package.full_path``."""
     facts: tuple[FactId, ...]
-    """The facts that it was made of."""
+    """The facts that it depends on."""
     encoded: Any
 
     @property
@@ -135,7 +135,7 @@ class StoredFact(NamedTuple):
 
 
 class recorded:  # noqa: N801  used like a function; a generator would take twice the time
-    """Note in ``reads``, and only there, what the block looks at."""
+    """Record accesses in the block in ``reads``, and only there."""
 
     __slots__ = ("_reads",)
 
@@ -155,23 +155,23 @@ def current() -> Reads:
 
 
 def note_file(path: str) -> None:
-    """Note that the content of a file was accessed."""
+    """Record that the content of a file was accessed."""
     if _recorders:
         _recorders[-1].files.add(path)
 
 
 def note_fact(fact: Fact) -> None:
-    """Note that a fact was used."""
+    """Record that a fact was used."""
     if _recorders:
         _recorders[-1].facts.add(fact)
 
 
 def note_view(reads: Reads) -> None:
-    """Note that something derived from ``reads`` was used."""
+    """Record that something derived from ``reads`` was used."""
     if _recorders and _recorders[-1] is not reads:
         _recorders[-1].views.add(reads)
 
 
 def is_followed(path: str) -> bool:
-    """Tell whether changes of the content of a file are followed."""
+    """Tell whether changes of the content of a file are tracked."""
     return path.endswith(_FOLLOWED)

@@ -17,7 +17,7 @@ def _lines() -> Mapping[str, str]:
 
 @cache
 def _by_distribution() -> Mapping[tuple[str, str], str]:
-    """Return the lines that hold for some distributions only."""
+    """Return the lines for some distributions only."""
     return {
         (name, distribution): brought
         for place, brought in _lines().items()
@@ -32,9 +32,9 @@ def is_released(name: str) -> bool:
 
 
 def dependencies(name: str) -> Iterable[str]:
-    """Return what a released package depends on when it runs or exports, on the target.
+    """Return the run and export dependencies of a released package on the target.
 
-    What another distribution has stands in for a package that the target does not have: people
+    Another distribution is used for a package that the target does not have, as users
     build it from source.
     """
     usual = _lines().get(name, "")
@@ -42,7 +42,7 @@ def dependencies(name: str) -> Iterable[str]:
 
 
 def transitive_dependencies(names: Iterable[str]) -> set[str]:
-    """Return what comes along with declared packages, on every machine that has these."""
+    """Return the transitive dependencies of declared packages."""
     result: set[str] = set()
     pending = list(names)
     while pending:

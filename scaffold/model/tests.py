@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from scaffold.model.python.scopes import FunctionNode
 
 LAUNCH = "generate_test_description"
-"""A file with this function is for launch_testing, which calls the tests in its own way."""
+"""The function of files for launch_testing, which runs tests in its own way."""
 
 _AROUND = ("setup", "teardown")
 _PLUGINS = ("pytestmark", "asyncio_mode", "anyio", "pytest_pyfunc_call", "python_functions")
@@ -26,24 +26,24 @@ _PLUGINS = ("pytestmark", "asyncio_mode", "anyio", "pytest_pyfunc_call", "python
 
 
 class Fixture(NamedTuple):
-    """A function that pytest calls for an argument of a test."""
+    """A function that pytest calls for a parameter of a test."""
 
     name: str
     node: FunctionNode
     module: PythonModule
     scope: str
-    """``function`` unless another is given; empty when it is computed."""
+    """The scope, by default ``function``; empty if it is computed."""
 
 
 class TestFunction(NamedTuple):
-    """A function that is collected as a test."""
+    """A function collected as a test."""
 
     node: FunctionNode
     class_: ast.ClassDef | None
 
 
 def files_of_tests(package: Package) -> list[str]:
-    """Return the Python files that are tests or belong to them."""
+    """Return the Python files of tests, including helpers."""
     return [path for path in package.python_files if is_in_tests(path)]
 
 
@@ -53,18 +53,18 @@ def test_modules(package: Package) -> list[PythonModule]:
 
 
 def test_paths(package: Package) -> list[str]:
-    """Return the paths of the same, whether they can be parsed or not."""
+    """Return their paths, whether they can be parsed or not."""
     return [path for path in files_of_tests(package) if is_collected(path.rpartition("/")[2])]
 
 
 def is_test_case(module: PythonModule, class_: ast.ClassDef) -> bool:
-    """Tell whether a class is one of unittest's."""
+    """Tell whether a class is a TestCase of unittest."""
     names = [name for base in class_.bases for name in module.qualified_names(base)]
     return any(name.startswith("unittest.") and name.endswith("TestCase") for name in names)
 
 
 def test_functions(module: PythonModule) -> Iterator[TestFunction]:
-    """Yield the functions and methods that are collected."""
+    """Yield the collected functions and methods."""
     for function in module.functions.values():
         if function.name.startswith("test") and not fixture_decorator(module, function.node):
             yield TestFunction(function.node, None)
@@ -77,9 +77,9 @@ def test_functions(module: PythonModule) -> Iterator[TestFunction]:
 
 
 def runs_around_tests(module: PythonModule, node: ast.AST) -> bool:
-    """Tell whether a node is in a test, a fixture, or what is set up and torn down around them.
+    """Tell whether a node is in a test, a fixture, or a setup or teardown function.
 
-    What is in a function or lambda within them may run at any time.
+    Nested functions and lambdas may run at any time.
     """
     for parent in module.parents(node):
         match parent:
@@ -115,7 +115,7 @@ def arguments(function: FunctionNode) -> list[str]:
 
 
 def fixture_decorator(module: PythonModule, function: FunctionNode) -> ast.expr | None:
-    """Return what makes a function a fixture."""
+    """Return the fixture decorator of a function."""
     for decorator in function.decorator_list:
         node = decorator.func if isinstance(decorator, ast.Call) else decorator
         if module.qualified_name(node) == "pytest.fixture":
@@ -124,7 +124,7 @@ def fixture_decorator(module: PythonModule, function: FunctionNode) -> ast.expr 
 
 
 def fixtures(package: Package, module: PythonModule) -> Mapping[str, Fixture]:
-    """Return the fixtures of a file of tests and of the conftest.py files around it, by name."""
+    """Return the fixtures of a test file and of its conftest.py files, by name."""
     result: dict[str, Fixture] = {}
     directory = module.path.rpartition("/")[0]
     paths = [
@@ -144,7 +144,7 @@ def _is_near(path: str, directory: str) -> bool:
 
 
 def own_fixtures(module: PythonModule) -> Iterator[Fixture]:
-    """Yield the fixtures that a file defines at its top or in classes."""
+    """Yield the fixtures that a file defines at module level or in classes."""
     for function in module.function_nodes:
         decorator = fixture_decorator(module, function)
         if decorator is not None:
@@ -173,7 +173,7 @@ def marks(
 
 
 def uses_pytest_plugins(package: Package) -> bool:
-    """Tell whether plugins or settings of pytest may run what it does not run by itself."""
+    """Tell whether plugins or settings of pytest may run other tests."""
     return settings_or_tests_mention(package, _PLUGINS)
 
 
@@ -204,27 +204,27 @@ def may_start(package: Package, name: str) -> bool:
 
 
 def is_named_elsewhere(package: Package, module: PythonModule, name: str) -> bool:
-    """Tell whether a name of a module occurs again: in a call, an import, an argument, a text."""
+    """Tell whether a name of a module occurs again: in a call, an import, an argument, a string."""
     return not package.is_mentioned_once(name, module.path)
 
 
 def _data(package: Package, paths: Iterable[str]) -> Iterator[bytes]:
-    """Yield the bytes of Python files; a name in them needs no parser."""
+    """Yield the bytes of Python files, to search for names without parsing."""
     for path in paths:
         with suppress(ViewError):
             yield package.data(path)
 
 
 def constructed_class(module: PythonModule, node: ast.expr) -> str:
-    """Return the full name of what is called for the only value of a name."""
+    """Return the full name of the class that constructs the only value of a name."""
     made = module.index.only_value(node)
     return (module.qualified_name(made.func) or "") if isinstance(made, ast.Call) else ""
 
 
 def node_tests(package: Package) -> Iterator[tuple[PythonModule, str]]:
-    """Yield the files with tests of nodes, and their text with that of the conftest.py files.
+    """Yield the files with tests of nodes, each with its text and that of its conftest.py files.
 
-    Tests with launch_testing, and files that run themselves, are skipped.
+    Tests with launch_testing, and scripts, are skipped.
     """
     conftests = [path for path in package.python_files if path.endswith("conftest.py")]
     around = [*package.modules(conftests)]

@@ -21,12 +21,12 @@ if TYPE_CHECKING:
     from scaffold.source import Location
 
 PACKAGE_COMMANDS = ("ament_package", "ament_auto_package", "autoware_package")
-"""Commands that make ament's files: the index entry, the environment hooks."""
+"""Commands that create the files of ament: the index entry, the environment hooks."""
 _MAKERS = (
     *("configure_file", "file", "add_custom_command", "add_custom_target", "execute_process"),
     *("externalproject_add", "fetchcontent_declare", "generate_parameter_library"),
 )
-"""Commands that may make files in the source directory."""
+"""Commands that may create files in the source directory."""
 
 
 class Program(NamedTuple):
@@ -34,7 +34,7 @@ class Program(NamedTuple):
 
     path: str
     name: str
-    """What it is called when it is installed."""
+    """The installed name."""
     destination: str | None
     location: Location
     command: Command
@@ -58,7 +58,7 @@ def is_built_for_ros1(package: Package) -> bool:
 
 
 def has_unknown_commands(package: Package) -> bool:
-    """Tell whether commands of another package may do anything, such as call ament_package."""
+    """Tell whether commands of other packages may do anything, such as call ament_package."""
     cmake = package.cmake
     own = {command.arguments[0].value.lower() for command in _definitions(cmake)}
     if cmake.find("include", "add_subdirectory"):
@@ -79,11 +79,11 @@ def _definitions(cmake: CMakeLists) -> list[Command]:
 def nested(
     package: Package, is_asked_for: Callable[[CMakeLists, Command], bool] | None = None
 ) -> Iterator[CMakeLists]:
-    """Yield the files that ``add_subdirectory`` and ``include`` name, and those that they name.
+    """Yield the files of ``add_subdirectory`` and ``include``, recursively.
 
     Args:
         package: The package.
-        is_asked_for: Tells whether a command is not to be followed.
+        is_asked_for: Tells whether a command must not be followed.
     """
     visited = {"CMakeLists.txt"}
     modules = [*_module_directories(package.cmake)]
@@ -109,7 +109,7 @@ def nested(
 def _named_file(
     package: Package, directory: str, lists: CMakeLists, command: Command, modules: list[str]
 ) -> str | None:
-    """Return the file of the package that a command continues with."""
+    """Return the file of the package that a command includes."""
     value = lists.expand(command.arguments[0], command) if command.arguments else None
     if value is None:
         return None
@@ -132,7 +132,7 @@ def _module_directories(lists: CMakeLists) -> Iterator[str]:
 
 
 def is_only_imported(package: Package, path: str) -> bool:
-    """Tell whether an installed Python file only defines things: others import it."""
+    """Tell whether an installed Python file only has definitions for import."""
     try:
         module = package.module(path)
     except ViewError:
@@ -163,7 +163,7 @@ def _only_defines(statement: ast.stmt) -> bool:
 
 
 def programs(package: Package) -> list[Program]:
-    """Return the files that are installed as programs, where it is known which."""
+    """Return the files that are installed as programs, as far as known."""
     result: list[Program] = []
     for install in package.cmake.installs:
         if install.kind != "PROGRAMS":
@@ -198,7 +198,7 @@ def _covers(item: InstallItem, directory: str) -> bool:
 
 
 def is_made_by_build(package: Package, path: str) -> bool:
-    """Tell whether the build itself may make a file in the source directory."""
+    """Tell whether the build itself may create a file in the source directory."""
     name = path.rpartition("/")[2]
     makers = package.cmake.find(*_MAKERS)
     if any(name in argument.value for maker in makers for argument in maker.arguments):
@@ -209,7 +209,7 @@ def is_made_by_build(package: Package, path: str) -> bool:
 
 
 def runs_if_exists(command: Command) -> bool:
-    """Tell whether a command runs only where a file is: ``if(EXISTS ...)``."""
+    """Tell whether a command runs only if a file exists: ``if(EXISTS ...)``."""
     at = command
     while at.parent is not None and at.branch is not None:
         asked = [at.branch, at.parent] if at.branch.name == "else" else [at.branch]
@@ -220,7 +220,7 @@ def runs_if_exists(command: Command) -> bool:
 
 
 def is_used_by_build(package: Package, path: str) -> bool:
-    """Tell whether a file is installed, alone or in a directory of programs, or handed on.
+    """Tell whether a file is installed, alone or in a directory of programs, or passed on.
 
     Also when an entry point starts it, when it lies deep in a directory of data, and when a comment
     says that it is excluded. A package without programs has scripts as data that Python is given.
@@ -249,18 +249,18 @@ def is_used_by_build(package: Package, path: str) -> bool:
 
 
 _TESTING = re.compile(r"_test$|^add_test$|^message$")
-"""Matches the names of commands that name a file without making anything of it."""
+"""Matches the names of commands that mention a file without processing it."""
 
 
 def _is_entry_point(package: Package, path: str) -> bool:
-    """Tell whether the setup.cfg of a package of CMake starts a function of a file."""
+    """Tell whether the setup.cfg of a CMake package has an entry point in a file."""
     entry = path.removesuffix(".py").replace("/", ".") + ":"
     files = [*package.glob("setup.cfg"), *package.glob("*/setup.cfg")]
     return any(entry in _text(package, file) for file in files)
 
 
 def runs_with_python(package: Package, path: str) -> bool:
-    """Tell whether a file of CMake gives a script to the Python that CMake has found."""
+    """Tell whether a CMake file runs a script with the Python found by CMake."""
     name = path.rpartition("/")[2]
     return any(
         name in line and "python" in line.partition(name)[0].lower()

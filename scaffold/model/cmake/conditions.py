@@ -20,19 +20,19 @@ _TEXTS: Mapping[str, Callable[[str, str], bool]] = {
     "LESS_EQUAL": lambda left, right: left <= right,
     "GREATER_EQUAL": lambda left, right: left >= right,
 }
-"""What follows ``STR`` and ``VERSION_``."""
+"""The suffixes of ``STR`` and ``VERSION_`` comparisons."""
 _VERSION = re.compile(r"\d+(?:\.\d+){0,3}")
 _FIXED_PARTS = 2
-"""The numbers of a version that releases of one distribution share; the third one moves."""
+"""The number of version components that are fixed within a distribution."""
 
 
 class Known(NamedTuple):
     """The value of a variable or a word on the target."""
 
     value: str | None
-    """``None`` if that is not known."""
+    """``None`` if unknown."""
     is_asked: bool = False
-    """Whether the distribution decides it."""
+    """Whether it depends on the distribution."""
 
 
 UNKNOWN = Known(None)
@@ -42,9 +42,9 @@ class Decision(NamedTuple):
     """Whether a condition is true on the target."""
 
     holds: bool | None
-    """``None`` if that is not known."""
+    """``None`` if unknown."""
     is_asked: bool = False
-    """Whether the distribution decides it."""
+    """Whether it depends on the distribution."""
 
 
 UNDECIDED = Decision(None)
@@ -54,7 +54,7 @@ class Word(NamedTuple):
     """An argument of a condition."""
 
     text: str
-    """As it is written, without quotes."""
+    """The text without quotes."""
     is_quoted: bool
 
 
@@ -65,11 +65,11 @@ class Scope:
         self._known: dict[str, Known] = {VARIABLE: Known(target().name, is_asked=True)}
 
     def set(self, name: str, value: Known) -> None:
-        """Give a variable another value."""
+        """Set a variable."""
         self._known[name] = value
 
     def lookup(self, name: str) -> Known:
-        """Return the value of a variable; the distribution's of ``rclcpp_VERSION_MAJOR``."""
+        """Return the value of a variable; ``rclcpp_VERSION_MAJOR`` is that of the distribution."""
         if name in self._known:
             return self._known[name]
         package, _, part = name.rpartition("_VERSION_")
@@ -79,11 +79,11 @@ class Scope:
         return Known(released.partition(".")[0], is_asked=True)
 
     def is_set(self, name: str) -> bool:
-        """Tell whether the file gives a variable a value that is followed."""
+        """Tell whether the file sets a variable to a tracked value."""
         return name in self._known
 
     def expand(self, text: str) -> Known:
-        """Return a text with the variables in it replaced."""
+        """Return a text with its variables replaced."""
         is_asked = False
         parts: list[str] = []
         for piece in re.split(r"(\$(?:ENV|CACHE)?\{[^{}$]*\})", text):  # linear: nothing nests
@@ -190,7 +190,7 @@ def _numeric(operator: str, left: Known, right: Known) -> Decision:
 
 
 def compare(operator: str, left: Known, right: Known) -> Decision:
-    """Return what ``STRLESS`` and the like say of two texts; ``LESS`` is what they end with."""
+    """Return the result of a comparison such as ``STRLESS``, given its suffix ``LESS``."""
     if left.value is None or right.value is None or operator not in _TEXTS:
         return UNDECIDED
     is_asked = left.is_asked or right.is_asked
@@ -198,7 +198,7 @@ def compare(operator: str, left: Known, right: Known) -> Decision:
 
 
 def _operand(word: Word, scope: Scope) -> Known:
-    """Return what a comparison compares: the value of a variable of that name, or the word."""
+    """Return an operand of a comparison: the value of a variable, or the word itself."""
     value = UNKNOWN if word.is_quoted else scope.lookup(word.text)
     is_variable = not word.is_quoted and (scope.is_set(word.text) or value.value is not None)
     return value if is_variable else scope.expand(word.text)
@@ -250,7 +250,7 @@ def _version(left: str, operator: str, words: Sequence[Word], scope: Scope) -> D
 
 
 def _between_releases(operator: str, wanted: tuple[int, ...]) -> Decision:
-    """Return what is sure of any release that a version shares the first numbers with."""
+    """Return the result if it is the same for all releases with the same first numbers."""
     if any(wanted[_FIXED_PARTS:]) or operator not in {"LESS", "GREATER_EQUAL"}:
         return UNDECIDED
     return Decision(operator == "GREATER_EQUAL", is_asked=True)

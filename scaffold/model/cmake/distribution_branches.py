@@ -22,18 +22,18 @@ from scaffold.model.cmake.parser import Argument, Command
 from scaffold.model.cmake.variables import HARMLESS
 
 WORDS = (VARIABLE, "_VERSION")
-"""Files without any of them have no such branches."""
+"""Words without which a file has no such branches."""
 _CONDITIONS = frozenset({"if", "elseif", "else", "endif"})
 _DEFINITIONS = frozenset({"function", "macro"})
 _BODIES = _DEFINITIONS | {"foreach", "while"}
-"""What opens a block that runs never, once or many times."""
+"""Commands that open a block that runs never, once or several times."""
 _CASES = {"TOLOWER": str.lower, "TOUPPER": str.upper}
 
 Lines = tuple[int, int]
 
 
 def lines_not_run(lists: CMakeLists) -> Iterator[Lines]:
-    """Yield the first and last lines of what does not run on the target distribution."""
+    """Yield the first and last lines of code that does not run on the target distribution."""
     dead = [*_Walk(lists).run()]
     pending = {name: body for name, body in _bodies(lists) if _calls(lists, name)}
     for _ in range(len(pending)):  # a function may be called by one that is not called
@@ -62,7 +62,7 @@ def _bodies(lists: CMakeLists) -> Iterator[tuple[str, Lines]]:
 
 
 def _calls(lists: CMakeLists, name: str) -> list[int]:
-    """Return the lines where a function of a file is called in it."""
+    """Return the lines of a file that call a function."""
     return [_line(lists, command) for command in lists.commands if command.name == name]
 
 
@@ -71,26 +71,26 @@ def _line(lists: CMakeLists, command: Command) -> int:
 
 
 class _Block:
-    """A block: an ``if`` up to the branch that is read, or the body of a function or loop."""
+    """A block: an ``if`` up to the current branch, or the body of a function or loop."""
 
     def __init__(self, name: str) -> None:
         self.name = name
         self.line = 0
-        """Of the command that opened the branch."""
+        """The line of the command that opened the branch."""
         self.is_dead = False
         self.is_sure = False
-        """Whether the distribution decides that the branch runs."""
+        """Whether the branch certainly runs on the target."""
         self.left_at = 0
-        """The line of a function after which nothing runs."""
+        """The line of a function after which no code runs."""
         self._is_decided = False
         self._is_open = False
 
     def enter(self, decision: Decision, line: int) -> None:
-        """Go on with a branch.
+        """Continue with a branch.
 
         Args:
-            decision: Of its condition; that of an ``else`` always holds.
-            line: Where it begins.
+            decision: The decision on its condition; that of an ``else`` always holds.
+            line: The first line.
         """
         holds = decision.holds if decision.is_asked else None
         self.line = line
@@ -100,12 +100,12 @@ class _Block:
         self._is_open = self._is_open or holds is None
 
     def enter_last(self, line: int) -> None:
-        """Go on with the ``else``, which runs if nothing before it does."""
+        """Continue with the ``else``, which runs if no earlier branch does."""
         self.enter(Decision(holds=True, is_asked=True), line)
 
 
 class _Walk:
-    """Reads a file from top to bottom, with the values of its variables."""
+    """Walks through a file from top to bottom, with the values of its variables."""
 
     def __init__(self, lists: CMakeLists) -> None:
         self._lists = lists
@@ -167,7 +167,7 @@ class _Walk:
 
     @property
     def _is_sure(self) -> bool:
-        """Tell whether a command is in a branch of its function that runs on the target."""
+        """Tell whether a command is in a branch that certainly runs on the target."""
         around: list[_Block] = []
         for block in reversed(self._blocks):
             if block.name == "function":
@@ -199,7 +199,7 @@ class _Walk:
                 self._forget(command)
 
     def _set(self, name: str, value: Known) -> None:
-        """Give a variable a value, if the command that does so runs."""
+        """Set a variable, if the command runs."""
         if any(block.is_dead for block in self._blocks):
             before = self._scope.lookup(name) if self._scope.is_set(name) else Known("")
             self._scope.set(name, before._replace(is_asked=True))
@@ -209,7 +209,7 @@ class _Walk:
             self._scope.set(name, UNKNOWN)
 
     def _forget(self, command: Command) -> None:
-        """Take variables for unknown that a command may write to."""
+        """Mark variables as unknown that a command may write to."""
         for argument in command.arguments:
             if not argument.quoted and self._scope.is_set(argument.value):
                 self._scope.set(argument.value, UNKNOWN)
@@ -234,7 +234,7 @@ def _word(argument: Argument) -> Word:
 
 
 def _leaves(command: Command) -> bool:
-    """Tell whether nothing of the file runs after a command."""
+    """Tell whether no command of the file runs after another one."""
     return command.name == "return" or (
         command.name == "message" and command.values[:1] == ["FATAL_ERROR"]
     )

@@ -1,7 +1,7 @@
 """Edits of CMakeLists.txt that keep comments, order and formatting.
 
 Each function returns ``None`` if the file has errors or no safe place for the edit, and no edits if
-nothing has to be done.
+nothing is to be done.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ def insert_find_package(lists: CMakeLists, name: str, *, testing: bool = False) 
     Args:
         lists: The file.
         name: The package.
-        testing: Only when tests are built, inside ``if(BUILD_TESTING)``.
+        testing: Whether to add it inside ``if(BUILD_TESTING)``.
     """
     if lists.errors:
         return None
@@ -49,12 +49,12 @@ def install_program(lists: CMakeLists, path: str) -> Edits | None:
 
 
 def install_directory(lists: CMakeLists, path: str) -> Edits | None:
-    """Install a directory, its name included, into ``share/${PROJECT_NAME}``."""
+    """Install a directory with its name to ``share/${PROJECT_NAME}``."""
     return _install(lists, "DIRECTORY", path.rstrip("/"), "share")
 
 
 def insert_before_end(lists: CMakeLists, lines: Sequence[str]) -> Edits | None:
-    """Add lines as a block of their own above the tests and ``ament_package()``."""
+    """Add lines as a separate block above the tests and ``ament_package()``."""
     if lists.errors:
         return None
     anchor = _end_anchor(lists)
@@ -68,7 +68,7 @@ def insert_before_end(lists: CMakeLists, lines: Sequence[str]) -> Edits | None:
 
 
 def insert_in_testing(lists: CMakeLists, lines: Sequence[str]) -> Edits | None:
-    """Add lines at the end of ``if(BUILD_TESTING)``, with the block when there is none."""
+    """Add lines at the end of ``if(BUILD_TESTING)``, creating the block if there is none."""
     if lists.errors:
         return None
     newline = lists.source.newline
@@ -124,7 +124,7 @@ def append_arguments(
         command: The command.
         last: The argument to add them after.
         values: The arguments.
-        raw: They are already quoted and escaped as in the file.
+        raw: Whether they are already quoted and escaped.
     """
     if lists.errors:
         return None
@@ -146,7 +146,7 @@ def append_arguments(
 
 
 def replace_argument(lists: CMakeLists, argument: Argument, value: str) -> Edits | None:
-    """Write something else for an argument; quotes stay when it has them."""
+    """Replace the value of an argument, keeping its quotes."""
     if lists.errors:
         return None
     text = f'"{value}"' if argument.quoted else quote(value)
@@ -154,14 +154,14 @@ def replace_argument(lists: CMakeLists, argument: Argument, value: str) -> Edits
 
 
 def remove_argument(lists: CMakeLists, argument: Argument) -> Edits | None:
-    """Take an argument out, with its line when it is alone there."""
+    """Remove an argument, with its line if it is alone there."""
     if lists.errors:
         return None
     return (_removal(lists, argument.start, argument.end),)
 
 
 def quote(value: str) -> str:
-    """Return a value as an argument is written."""
+    """Quote a value as an argument."""
     plain = value and not any(char in ' \t\r\n()#"\\;' for char in value)
     if plain and not value.startswith("["):
         return value
@@ -206,7 +206,7 @@ def _find_in_testing(lists: CMakeLists, name: str) -> Edits | None:
 
 
 def _looped_list(lists: CMakeLists) -> tuple[Command, Argument] | None:
-    """Return the ``set`` of the list that packages are found from in a loop, and its last part."""
+    """Return the ``set`` of the list of packages found in a loop, and its last element."""
     for call in lists.find("find_package"):
         loop = call.parent
         if loop is None or loop.name != "foreach" or loop.depth or not call.arguments:
@@ -225,7 +225,7 @@ def _looped_list(lists: CMakeLists) -> tuple[Command, Argument] | None:
 
 
 def _list_name(loop: Command) -> str | None:
-    """Return the name of the only list that a foreach goes through."""
+    """Return the name of the only list of a foreach."""
     rest = [argument.raw for argument in loop.arguments[1:]]
     if rest[:2] == ["IN", "LISTS"] and len(rest) == len(("IN", "LISTS", "name")):
         return rest[2]
@@ -237,7 +237,7 @@ def _list_name(loop: Command) -> str | None:
 
 
 def _insert_call(lists: CMakeLists, calls: Sequence[Command], name: str) -> Edits | None:
-    """Add a call like the ones that are there, the last run of them."""
+    """Add a call to the last group of similar calls."""
     source = lists.source
     like = calls[-1]
     opening = source.text[like.start : like.open_end]
@@ -256,7 +256,7 @@ def _insert_call(lists: CMakeLists, calls: Sequence[Command], name: str) -> Edit
 
 
 def _last_run(lists: CMakeLists, calls: Sequence[Command]) -> list[Command]:
-    """Return the last calls that follow each other without a blank line or another command."""
+    """Return the last group of calls without a blank line or another command between them."""
     run = [calls[-1]]
     for command in reversed(calls[:-1]):
         between = lists.source.text[command.end : run[0].start].replace("\r", "")
@@ -294,7 +294,7 @@ def _install(lists: CMakeLists, kind: str, path: str, base: str) -> Edits | None
 
 
 def insert_install(lists: CMakeLists, kind: str, path: str, base: str) -> Edits | None:
-    """Add an install of its own for a file or a directory, in ``<base>/${PROJECT_NAME}``."""
+    """Add a separate install for a file or a directory to ``<base>/${PROJECT_NAME}``."""
     opening = "install("
     if lists.find("install"):
         like = lists.find("install")[0]
@@ -313,7 +313,7 @@ def insert_install(lists: CMakeLists, kind: str, path: str, base: str) -> Edits 
 
 
 def _end_anchor(lists: CMakeLists) -> Command | None:
-    """Return the command to insert new ones before: the tests, else ament_package()."""
+    """Return the command to insert others before: the tests, else ament_package()."""
     calls = [
         command
         for name in LAST_CALLS
@@ -351,7 +351,7 @@ def _above_comments(lists: CMakeLists, command: Command) -> int:
 
 
 def _insert_line_after(lists: CMakeLists, command: Command, line: str) -> Edits:
-    """Add a line below a command; a comment at the end of its line stays with it."""
+    """Add a line below a command and the comment at the end of its line."""
     source = lists.source
     at = source.text.find("\n", command.end)
     at = len(source.text) if at < 0 else at
@@ -364,7 +364,7 @@ def _insert_line_after(lists: CMakeLists, command: Command, line: str) -> Edits:
 
 
 def _after_comment(lists: CMakeLists, at: int) -> int:
-    """Return the end of the comment that follows on the same line, if one does."""
+    """Return the end of the comment that follows on the same line, if any."""
     text = lists.source.text
     end = text.find("\n", at)
     rest = text[at : len(text) if end < 0 else end]

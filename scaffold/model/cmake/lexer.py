@@ -33,10 +33,10 @@ _ATTEMPTS = 16  # at guessing which quote is missing
 
 
 class Token(NamedTuple):
-    """A stretch of the file; the tokens joined are the file.
+    """A range of the file; all tokens joined are the file.
 
     Kinds: ``space newline comment bracket_comment open close identifier unquoted quoted bracket``,
-    and ``bad`` for what CMake refuses.
+    and ``bad`` for text that CMake rejects.
     """
 
     kind: str
@@ -53,12 +53,12 @@ class LexicalError(NamedTuple):
 
 
 class Tokens(Sequence[Token]):
-    """The tokens of a file; a million of them must not cost a million objects."""
+    """The tokens of a file, stored compactly."""
 
     def __init__(self) -> None:
         self.kinds: list[str] = []
         self.starts: list[int] = []
-        """Where each token starts; the last element is the end of the file."""
+        """The start of each token; the last element is the end of the file."""
 
     def __len__(self) -> int:
         return len(self.kinds)
@@ -77,7 +77,7 @@ class Tokens(Sequence[Token]):
 
 
 def tokenize(text: str) -> tuple[Tokens, list[LexicalError]]:
-    """Split a file into tokens; after an error it goes on where that makes sense."""
+    """Split a file into tokens; after an error, continue where that makes sense."""
     lexer = _Lexer(text)
     lexer.run()
     return lexer.tokens, lexer.errors
@@ -137,7 +137,7 @@ class _Lexer:
         return nul.end() if nul else start + 1
 
     def _quoted(self, start: int) -> int:
-        """Read a string that holds a backslash, or that does not end."""
+        """Read a string with a backslash, or an unterminated one."""
         at = start + 1
         while True:
             match = _SPECIAL.search(self.text, at)
@@ -162,10 +162,10 @@ class _Lexer:
         return end + len(closing)
 
     def _unterminated(self, start: int) -> int:
-        """Find the quote that is to blame, end its string on its line and go on from there.
+        """Find the wrong quote, end its string on its line and continue from there.
 
-        The string without an end is the last one; but when an earlier one spans lines on which
-        commands begin, a quote is missing there.
+        The unterminated string is the last one; but if an earlier one spans lines on which
+        commands start, a quote is missing there.
         """
         text = self.text
         self.attempts += 1
@@ -181,7 +181,7 @@ class _Lexer:
         return start + max(len(line.rstrip(" \t\r)")), 1)
 
     def _blame(self, last: int) -> int:
-        """Return where the first string starts that swallowed a command; forget what follows."""
+        """Return the start of the first string that contains a command; drop what follows."""
         kinds, starts = self.tokens.kinds, self.tokens.starts
         for number, kind in enumerate(kinds):
             if kind != "quoted" or starts[number] <= self.blamed:
@@ -196,7 +196,7 @@ class _Lexer:
 
 
 def unquoted_end(text: str, start: int) -> int:
-    """Return where the unquoted argument ends that begins at an offset; ``start`` if none does."""
+    """Return the end of the unquoted argument at an offset; ``start`` if there is none."""
     at = start
     if text.startswith("[", start):
         equals = _EQUALS.match(text, start + 1)
@@ -213,7 +213,7 @@ def unquoted_end(text: str, start: int) -> int:
 
 
 def _legacy_end(text: str, at: int) -> int:
-    """Return where one piece of an unquoted argument ends."""
+    """Return the end of one part of an unquoted argument."""
     run = _RUN.match(text, at)
     if run is not None:
         return _after_make_variable(text, run.end())
@@ -223,7 +223,7 @@ def _legacy_end(text: str, at: int) -> int:
 
 
 def _legacy_quoted_end(text: str, start: int) -> int:
-    """Return where quotes inside an unquoted argument end; ``start`` if they do not."""
+    """Return the end of quotes inside an unquoted argument; ``start`` if unterminated."""
     at = start + 1
     while at < len(text):
         run = _QUOTED_RUN.match(text, at)
@@ -240,7 +240,7 @@ def _legacy_quoted_end(text: str, start: int) -> int:
 
 
 def _after_make_variable(text: str, at: int) -> int:
-    r"""Return the offset after ``$(X)`` when ``(`` at the offset belongs to one.
+    r"""Return the offset after ``$(X)`` if ``(`` at the offset is part of one.
 
     The ``$`` is the last character of a run, so no ``\`` precedes it.
     """
@@ -284,4 +284,4 @@ KNOWN_COMMANDS = frozenset(
     while
     """.split()  # noqa: SIM905  a hundred quoted names would hide them
 )
-"""Names that, at the start of a line and before ``(``, begin a command even after an error."""
+"""Names that start a command after an error, at the start of a line and before ``(``."""

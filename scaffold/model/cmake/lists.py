@@ -26,7 +26,7 @@ FINDS_DEPENDENCIES = frozenset({"ament_auto_find_build_dependencies", "autoware_
 """Commands that find every build dependency of the manifest, or hide one that does."""
 
 LAST_CALLS = ("ament_package", "ament_auto_package", "autoware_ament_auto_package")
-"""Commands that register the package: ``ament_package`` and what calls it."""
+"""Commands that register the package: ``ament_package`` and those that call it."""
 
 _INSTALL_KINDS = ("PROGRAMS", "FILES", "DIRECTORY", "TARGETS", "SCRIPT", "CODE", "EXPORT")
 _INSTALL_KEYWORDS = frozenset(
@@ -53,21 +53,21 @@ class FoundPackage(NamedTuple):
 
     name: str
     location: Location
-    """The place of the name."""
+    """The location of the name."""
     command: Command
     required: bool
     in_testing: bool
-    """Whether that happens only when tests are built."""
+    """Whether it is only found when tests are built."""
 
 
 class InstallItem(NamedTuple):
-    """Something that is installed."""
+    """An installed item."""
 
     argument: Argument
     value: str | None
-    """As written, with variables replaced; ``None`` when one of them is not known."""
+    """The argument with variables replaced; ``None`` if one of them is unknown."""
     path: str | None
-    """Relative to the root of the package; ``None`` for a target or when not known."""
+    """The path relative to the root of the package; ``None`` for a target or if unknown."""
 
     @property
     def location(self) -> Location:
@@ -82,13 +82,13 @@ class Install(NamedTuple):
     """``PROGRAMS``, ``FILES``, ``DIRECTORY``, ``TARGETS`` …"""
     items: list[InstallItem]
     destination: str | None
-    """With variables replaced; ``None`` when there is none or a variable is not known."""
+    """The destination with variables replaced; ``None`` if missing or unknown."""
     destination_argument: Argument | None
     destinations: dict[str, str | None]
-    """Of TARGETS, by artifact: ``RUNTIME``, ``LIBRARY``, ``ARCHIVE``; ``""`` is for all."""
+    """The destinations of TARGETS by artifact, such as ``RUNTIME``; ``""`` is for all."""
     rename: str | None
     patterns: list[str]
-    """The patterns of a DIRECTORY that select what is installed."""
+    """The patterns that select files of a DIRECTORY."""
     excludes: list[str]
     command: Command
 
@@ -107,18 +107,18 @@ class CMakeLists:
         """All tokens; joined they are the file."""
         self.commands = parsed.commands
         self.errors = parsed.errors
-        """What CMake stops at, with a message each, in the order of the file."""
+        """The syntax errors, each a location and a message, in file order."""
 
     @classmethod
     def parse(cls, source: Source) -> CMakeLists:
-        """Read a file; mistakes are collected in ``errors``."""
+        """Parse a file; errors are collected in ``errors``."""
         return cls(source, cmake_parser.parse(source))
 
     def require(self) -> None:
-        """Insist on a file without mistakes.
+        """Raise an error unless the file is valid.
 
         Raises:
-            ParseError: the first mistake.
+            ParseError: the first error.
         """
         if self.errors:
             raise ParseError(*self.errors[0])
@@ -256,7 +256,7 @@ class CMakeLists:
         return False
 
     def is_off(self, command: Command) -> bool:
-        """Tell whether a command runs only for those who switch an option on."""
+        """Tell whether a command only runs if an option is switched on."""
         off = self._options_off
         at = command if off and command.depth <= _DEEPEST else None
         while at is not None and at.parent is not None and at.branch is not None:
@@ -289,21 +289,21 @@ class CMakeLists:
 
     @cached_property
     def found_packages(self) -> list[FoundPackage]:
-        """What ``find_package`` looks for, also in a loop over a known list."""
+        """The packages of ``find_package`` calls, also in a loop over a known list."""
         return list(self._found_packages())
 
     @property
     def finds_automatically(self) -> bool:
-        """Whether every build dependency of the manifest is found by one command."""
+        """Whether one command finds every build dependency of the manifest."""
         return any(self.find(name) for name in FINDS_DEPENDENCIES)
 
     @property
     def finds_tests_automatically(self) -> bool:
-        """Whether every test dependency of the manifest is found by one command."""
+        """Whether one command finds every test dependency of the manifest."""
         return bool(self.find("ament_auto_find_test_dependencies"))
 
     def finds(self, name: str) -> bool:
-        """Tell whether a package is looked for by its name."""
+        """Tell whether a package is found by name."""
         return any(package.name == name for package in self.found_packages)
 
     def _found_packages(self) -> Iterator[FoundPackage]:
@@ -324,7 +324,7 @@ class CMakeLists:
 
     @cached_property
     def installs(self) -> list[Install]:
-        """What is installed, with ``install`` and with ``ament_auto_package`` and its like."""
+        """The installed items of ``install``, ``ament_auto_package`` and similar commands."""
         result: list[Install] = []
         items = 0
         for command in self.find("install", *LAST_CALLS[1:]):
@@ -390,7 +390,7 @@ class CMakeLists:
         return install_items
 
     def _destinations(self, command: Command, bindings: Mapping[str, str]) -> dict[str, str | None]:
-        """Return where each kind of artifact of a target goes."""
+        """Return the destination of each kind of artifact of a target."""
         result: dict[str, str | None] = {}
         artifact = ""
         arguments = iter(command.arguments)
@@ -407,13 +407,13 @@ class CMakeLists:
     def _destination(
         self, argument: Argument | None, command: Command, bindings: Mapping[str, str]
     ) -> str | None:
-        """Return a destination relative to the prefix, which some people write in front."""
+        """Return a destination relative to the prefix, which may be written explicitly."""
         if argument is None:
             return None
         return self.expand(argument.text.removeprefix(_PREFIX), command, bindings)
 
     def _patterns(self, command: Command) -> tuple[list[str], list[str]]:
-        """Return what the patterns of install(DIRECTORY) select and what they skip."""
+        """Return the including and excluding patterns of install(DIRECTORY)."""
         selected: list[str] = []
         excluded: list[str] = []
         values = command.values
@@ -442,14 +442,14 @@ class CMakeLists:
 
 
 def _shown(value: str) -> str:
-    """Write paths below the root of the package the way people do."""
+    """Return paths below the root of the package in their usual form."""
     if ROOT not in value:
         return value
     return value.replace(f"{ROOT}/", "").replace(ROOT, ".") or "."
 
 
 def _asks_for_testing(condition: Command) -> bool | None:
-    """Tell whether a condition requires or excludes tests; else ``None``."""
+    """Tell whether a condition requires (true) or excludes (false) tests; else ``None``."""
     values = condition.values
     for number, value in enumerate(values):
         if value in {"BUILD_TESTING", "${BUILD_TESTING}"}:
@@ -458,7 +458,7 @@ def _asks_for_testing(condition: Command) -> bool | None:
 
 
 def _asks_for_ros(condition: Command) -> str | None:
-    """Return the version of ROS that a condition asks for, if it asks for nothing else."""
+    """Return the version of ROS that a condition tests, if it tests nothing else."""
     match condition.values:
         case [variable, "EQUAL" | "STREQUAL", version] if "ROS_VERSION" in variable:
             return version

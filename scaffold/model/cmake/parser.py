@@ -69,7 +69,7 @@ class Argument:
 
     @property
     def text(self) -> str:
-        """What CMake reads: without quotes or brackets, escapes and variables untouched."""
+        """The text without quotes or brackets, with escapes and variables as written."""
         raw = self.raw.replace("\r\n", "\n")
         if self.kind == "quoted":
             return _without_continuations(raw[1:-1])
@@ -86,7 +86,7 @@ class Argument:
 
     @property
     def location(self) -> Location:
-        """The place, quotes included."""
+        """The location, including quotes."""
         return self._source.location(self.start, self.end)
 
 
@@ -119,11 +119,11 @@ class Command:
         self.start = tokens.starts[name]
         self.written_name = source.text[self.start : tokens.starts[name + 1]]
         self.name = self.written_name.lower()
-        """In lower case: CMake does not tell them apart."""
+        """The name in lower case, as CMake ignores case."""
         self.open_end = self.end = tokens.starts[opening + 1]
         """The offset after ``(``."""
         self.closed = False
-        """Whether ``)`` is there."""
+        """Whether ``)`` exists."""
         self.index = 0
         """The number of the command in the file, from 0."""
         self.depth = 0
@@ -131,17 +131,17 @@ class Command:
         self.parent: Command | None = None
         """The command that opened the block around it: ``if``, ``foreach``, ``function`` …"""
         self.branch: Command | None = None
-        """Like ``parent``, but the ``elseif`` or ``else`` when it is after one."""
+        """Like ``parent``, but the ``elseif`` or ``else`` of its branch."""
 
     def __repr__(self) -> str:
         return f"{self.written_name}({' '.join(map(repr, self.arguments))})"
 
     def close(self, last: int, *, closed: bool) -> None:
-        """Note where the command ends; for the reader.
+        """Set the end of the command; for the reader.
 
         Args:
-            last: The number of the token after the last argument, which ``)`` is if it is there.
-            closed: Whether it is there.
+            last: The index of the token after the last argument, which is ``)`` if it exists.
+            closed: Whether it exists.
         """
         self._last = last
         self.closed = closed
@@ -172,7 +172,7 @@ class Command:
 
     @property
     def name_location(self) -> Location:
-        """The place of the name."""
+        """The location of the name."""
         return self._source.location(self.start, self.start + len(self.name))
 
     @property
@@ -193,8 +193,8 @@ class Command:
     def sections(self, keywords: Collection[str]) -> dict[str, list[Argument]]:
         """Split the arguments at keywords; those before the first one are under ``""``.
 
-        A keyword that is there without arguments has an empty list; the arguments of one that is
-        there twice are joined.
+        A keyword without arguments has an empty list; the arguments of one that occurs
+        twice are joined.
         """
         result: dict[str, list[Argument]] = {"": []}
         current = result[""]
@@ -229,7 +229,7 @@ class Parsed(NamedTuple):
 
 
 def parse(source: Source) -> Parsed:
-    """Read a file; what is wrong is in ``errors``, in the order of the file."""
+    """Parse a file; ``errors`` are in file order."""
     tokens, lexical = tokenize(source.text)
     parser = _Parser(source, tokens, broken=bool(lexical))
     parser.run()
@@ -245,7 +245,7 @@ def parse(source: Source) -> Parsed:
 
 
 def unescape(text: str) -> str:
-    r"""Replace escapes the way CMake does; ``\;`` stays, it matters to lists."""
+    r"""Replace escapes like CMake; ``\;`` is kept, as it matters in lists."""
 
     def replace(match: re.Match[str]) -> str:
         char = match[1]
@@ -257,14 +257,14 @@ def unescape(text: str) -> str:
 
 
 def _without_continuations(text: str) -> str:
-    """Take out each backslash at the end of a line together with the line's ending."""
+    """Remove each backslash at the end of a line together with the line ending."""
     if "\\\n" not in text:
         return text
     return re.sub(r"\\([\s\S])", lambda match: "" if match[1] == "\n" else match[0], text)
 
 
 class _Parser:
-    """Parses what CMake's parser accepts, and recovers after the first error."""
+    """Parses the grammar of CMake, and recovers after errors."""
 
     def __init__(self, source: Source, tokens: Tokens, *, broken: bool) -> None:
         self.source = source
@@ -296,7 +296,7 @@ class _Parser:
                 fresh_line = True
 
     def _stray(self, number: int) -> None:
-        """Skip what cannot begin a command, and the rest of its line."""
+        """Skip a token that cannot start a command, and the rest of its line."""
         if self.kinds[number] == "close":
             self._complain(number, 'no "(" belongs to this ")"')
             return
@@ -345,7 +345,7 @@ class _Parser:
         self._unclosed(command, first, at)
 
     def _unclosed(self, command: Command, first: int, end: int) -> None:
-        """Complain that ``)`` is missing; a command that was swallowed gets its turn."""
+        """Report a missing ``)``, and continue with a command inside of the arguments."""
         kinds = self.kinds
         if end < len(kinds) or kinds[-1] != "bad":  # else it is in what is not closed itself
             message = f'")" expected: {command.written_name}( is not closed'
@@ -358,7 +358,7 @@ class _Parser:
         self.at = end
 
     def _command_follows(self, number: int) -> bool:
-        """Tell whether a known command begins at a token, the first of its line."""
+        """Tell whether a known command starts at a token, the first of its line."""
         kinds, starts = self.kinds, self.tokens.starts
         number = self._behind_space(number)
         if number >= len(kinds) or kinds[number] != "identifier":

@@ -23,7 +23,7 @@ class Listed(NamedTuple):
     path: str
     """Relative to the package."""
     argument: Argument
-    """Where it is written: in the call, or in the ``set`` of the variable that holds it."""
+    """The argument with the file: of the call, or of the ``set`` of its variable."""
 
 
 class Generation(NamedTuple):
@@ -34,9 +34,9 @@ class Generation(NamedTuple):
     """The first argument, with variables replaced."""
     files: list[Listed]
     is_complete: bool
-    """Whether these are all files, and all are of this package."""
+    """Whether these are all files, and all are from this package."""
     dependencies: list[str] | None
-    """``None`` when a variable is not known."""
+    """``None`` if a variable is unknown."""
     options: frozenset[str]
     """``SKIP_INSTALL`` ..., and the names of the arguments with values."""
     for_tests: bool
@@ -106,7 +106,7 @@ def _generation(cmake: CMakeLists, command: Command) -> Generation:
 
 
 def _where_written(cmake: CMakeLists, command: Command, argument: Argument, value: str) -> Argument:
-    """Return the argument that holds a value, which may be in the ``set`` of a variable."""
+    """Return the argument with a value, which may be in the ``set`` of a variable."""
     if "$" not in argument.raw:
         return argument
     for other in cmake.find("set", "list"):

@@ -32,11 +32,11 @@ TAKING_TARGETS = (
     "target_link_libraries",
     "target_include_directories",
 )
-"""Commands whose first argument is a target that exists."""
+"""Commands whose first argument is an existing target."""
 
 
 def defined_targets(cmake: CMakeLists) -> set[str] | None:
-    """Return the targets that are defined; ``None`` when the name of one is not known."""
+    """Return the defined targets; ``None`` if the name of one is unknown."""
     defined: set[str] = set()
     for command in cmake.commands:
         if command.name in _DEFINING and command.arguments:
@@ -48,7 +48,7 @@ def defined_targets(cmake: CMakeLists) -> set[str] | None:
 
 
 def targets_named_once(cmake: CMakeLists) -> list[tuple[str, Argument]]:
-    """Return the targets, and where, that nothing names but commands that take one."""
+    """Return the arguments with targets that are only used once."""
     used: list[tuple[str, Argument]] = []
     named: set[str] = set()
     for command in cmake.commands:
@@ -69,13 +69,13 @@ def targets_named_once(cmake: CMakeLists) -> list[tuple[str, Argument]]:
 
 
 def _targets(command: Command) -> list[Argument]:
-    """Return the targets that ``install(TARGETS ...)`` begins with."""
+    """Return the targets of ``install(TARGETS ...)``."""
     taken = takewhile(lambda item: not item.value.isupper(), command.arguments[1:])
     return list(taken)
 
 
 def _words(cmake: CMakeLists, command: Command, taken: list[Argument]) -> Iterator[str]:
-    """Yield what a command names besides its targets, which may be built from it."""
+    """Yield the words of a command other than its targets, which may be parts of target names."""
     for argument in command.arguments:
         if argument not in taken:
             value = cmake.expand(argument, command) or argument.value
@@ -108,7 +108,7 @@ BUILT_IN = frozenset(
     use_mangled_mesa utility_source variable_requires variable_watch while write_file
     """.split()  # noqa: SIM905  a column of quoted names would hide them
 )
-"""Those of CMake itself, in lower case."""
+"""The commands of CMake itself, in lower case."""
 OF_AMENT = frozenset(
     """
     ament_add_gmock ament_add_gtest ament_add_gtest_executable ament_add_gtest_test
@@ -123,4 +123,4 @@ OF_AMENT = frozenset(
     add_ros_test pluginlib_export_plugin_description_file
     """.split()  # noqa: SIM905  a column of quoted names would hide them
 )
-"""Those of ament and of the packages that are used with it."""
+"""The commands of ament and of packages used with it."""

@@ -77,7 +77,7 @@ class Variables:
             if command.name in {"set", "list", "unset"}
             for argument in command.arguments[:2]
         }
-        """All variables that a value could be known of."""
+        """All variables with possibly known values."""
         if project is not None:
             if "$" in project:
                 self._follow_all(commands)
@@ -90,11 +90,11 @@ class Variables:
     # -- asking
 
     def evaluate(self, text: str, at: Command | None, bindings: Mapping[str, str]) -> str | None:
-        """Replace escapes and ``${…}`` in a text; ``None`` when anything is not known.
+        """Replace escapes and ``${…}`` in a text; ``None`` if anything is unknown.
 
         Args:
-            text: The text of an argument, as CMake reads it.
-            at: The command that it is an argument of; at the end of the file when ``None``.
+            text: The text of an argument.
+            at: The command with the argument; ``None`` means the end of the file.
             bindings: Values of the variables of loops.
         """
         if "$<" in text or "$ENV{" in text or "$CACHE{" in text:
@@ -123,7 +123,7 @@ class Variables:
     def argument(
         self, argument: Argument, at: Command | None, bindings: Mapping[str, str]
     ) -> list[str] | None:
-        """Return what an argument becomes: several values when it is an unquoted list."""
+        """Return the values of an argument, several for an unquoted list."""
         if argument.bracket:
             return [argument.text]
         value = self.evaluate(argument.text, at, bindings)
@@ -132,9 +132,9 @@ class Variables:
         return [value] if argument.quoted else split_list(value)
 
     def combinations(self, command: Command) -> Iterator[Mapping[str, str]] | None:
-        """Return the values that the variables of the loops around a command take.
+        """Return the combinations of values of the variables of the loops around a command.
 
-        One empty mapping when there is no loop; ``None`` when a loop is over something unknown.
+        One empty mapping without a loop; ``None`` if a loop is over unknown values.
         """
         if command.depth > _DEEPEST:
             return None
@@ -261,7 +261,7 @@ class Variables:
         return ";".join(parts) if len(parts) == len(values) else None
 
     def _forget(self, command: Command, arguments: Iterable[Argument]) -> None:
-        """Take a variable for unknown that a command may have written to."""
+        """Mark a variable as unknown that a command may have written to."""
         for argument in arguments:
             if argument.kind == "unquoted" and argument.raw in self._names:
                 self._note(command, argument.raw, None)
@@ -277,14 +277,14 @@ class Variables:
 
 
 def split_list(value: str) -> list[str]:
-    r"""Split a list at ``;`` the way CMake does: empty parts go, ``\;`` is a plain ``;``."""
+    r"""Split a list at ``;`` like CMake: empty parts are dropped, ``\;`` is a plain ``;``."""
     if ";" not in value:
         return [value] if value else []
     return [part.replace("\\;", ";") for part in _SPLIT.findall(value)]
 
 
 def _reaches(setter: Command, reader: Command | None) -> str:
-    """Tell whether what a command sets reaches another: ``certainly``, ``perhaps``, ``never``."""
+    """Tell whether a value reaches another command: ``certainly``, ``perhaps``, ``never``."""
     if max(setter.depth, reader.depth if reader is not None else 0) > _DEEPEST:
         return "perhaps"
     opens_own_scope = setter.name in {"foreach", "function", "macro"}

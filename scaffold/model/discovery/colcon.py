@@ -16,7 +16,7 @@ IGNORE_MARKERS = ("COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE")
 """Files that hide a directory from colcon."""
 
 _RESULTS = ("install", "build")
-"""What colcon makes next to the sources."""
+"""Directories that colcon creates next to the sources."""
 
 
 def package_directories(
@@ -24,14 +24,14 @@ def package_directories(
 ) -> list[str]:
     """Return the directories at and below one that hold a package.
 
-    What lies inside of a package is not searched. Of a package nothing but its manifest and the
-    markers are looked for, so that the answer stays the same when other files of it change.
+    Packages are not searched for others. Of a package, only its manifest and the
+    markers are accessed, so that the result does not depend on its other files.
 
     Args:
         disk: Records what was accessed.
         top: The directory; it is searched whether it is hidden from colcon or not.
-        ignored: Search hidden directories as well.
-        most: Directories to search at most; a larger tree is taken to hold none.
+        ignored: Whether to search ignored directories as well.
+        most: The maximum number of directories to search; a larger tree counts as empty.
     """
     if disk.is_file(os.path.join(top, MANIFEST)):
         return [top]
@@ -58,7 +58,7 @@ def _is_visible(disk: Disk, directory: str) -> bool:
 
 
 def package_around(disk: Disk, directory: str) -> str | None:
-    """Return the innermost package that a directory lies in, or is.
+    """Return the innermost package at or above a directory.
 
     Args:
         disk: Records what was accessed.
@@ -71,9 +71,9 @@ def package_around(disk: Disk, directory: str) -> str | None:
 
 
 def sources_around(disk: Disk, directory: str) -> str | None:
-    """Return the directory with the sources of the workspace that a directory lies in, or is.
+    """Return the source directory of the workspace at or above a directory.
 
-    The one next to the results of colcon, else the innermost that is called ``src``.
+    It is the one next to the results of colcon, else the innermost one named ``src``.
 
     Args:
         disk: Records what was accessed.
@@ -109,7 +109,7 @@ def packages_around(disk: Disk, directory: str, *, most: int) -> list[str]:
     Args:
         disk: Records what was accessed.
         directory: An absolute path without links.
-        most: Directories of a repository to search at most; a larger one is taken to hold none.
+        most: The maximum number of directories of a repository to search.
     """
     sources = sources_at(disk, directory)
     if sources is not None:
@@ -131,7 +131,7 @@ def packages_in(disk: Disk, directory: str, *, most: int) -> list[str]:
 
 
 def repository_around(disk: Disk, directory: str) -> str | None:
-    """Return the top of the git repository that a directory lies in, or is."""
+    """Return the top of the git repository at or above a directory."""
     tops = (item for item in _upwards(directory) if disk.exists(os.path.join(item, ".git")))
     return next(tops, None)
 

@@ -13,12 +13,12 @@ if TYPE_CHECKING:
 
 
 class Declaring(NamedTuple):
-    """How a dependency that is missing is declared."""
+    """How to declare a missing dependency."""
 
     advice: str
-    """What to do, for the end of a message."""
+    """The advice at the end of a message."""
     fix: Fix | None
-    """``None`` where colcon could not order the packages afterwards."""
+    """The fix; ``None`` if it would cause a dependency cycle."""
 
 
 def declaring(package: Package, tag: str, name: str) -> Declaring:
@@ -40,7 +40,7 @@ def declaring(package: Package, tag: str, name: str) -> Declaring:
 
 
 def way_back(package: Package, start: str) -> list[str]:
-    """Return the packages from another one back to a package, if it needs it in turn.
+    """Return the dependency path from another package back to a package, if there is one.
 
     Source: ``colcon_core/topological_order.py``, which takes dependencies for building and running.
     """

@@ -1,4 +1,4 @@
-"""Files that somebody else maintains, which `check` excludes by default.
+"""Foreign files, maintained by others, which `check` excludes by default.
 
 These are git submodules, files that git ignores, vendored code, and the copies that editors and
 file synchronization leave behind. They are checked if the user names them or a directory in them.
@@ -36,14 +36,14 @@ _VENDORED = frozenset(
 _LICENCES = ("LICENSE", "LICENCE", "COPYING")
 """Prefixes of license files, which vendored code includes."""
 _MOST_BYTES = 200_000
-"""Of a file of git with patterns or paths."""
+"""The size limit of git files with patterns or paths."""
 
 
 class Foreign:
-    """Decides which files somebody else maintains.
+    """Decides which files are foreign.
 
     Args:
-        kinds: What counts, of the keys of `WHERE`.
+        kinds: The kinds of foreign files, keys of `WHERE`.
     """
 
     def __init__(self, kinds: Sequence[str] = ()) -> None:
@@ -51,7 +51,7 @@ class Foreign:
         self._given: set[str] = set()
         self._around: dict[str, tuple[str, str]] = {}
         self.packages: list[str] = []
-        """What makes each of the packages foreign that are skipped."""
+        """The kind of each skipped foreign package."""
         self._kinds: dict[tuple[str, bool], str] = {}
         self._named: dict[tuple[str, bool], bool] = {}
         self._repositories: dict[str, str] = {}
@@ -60,12 +60,12 @@ class Foreign:
         self._tracked: dict[str, frozenset[str] | None] = {}
 
     def kind_of(self, disk: Disk, path: str, *, is_directory: bool) -> str:
-        """Return what makes a path foreign, empty if nothing does.
+        """Return the kind of a foreign path; empty if it is not foreign.
 
         Args:
-            disk: Notes what was looked at.
+            disk: Records accesses.
             path: The path, without links.
-            is_directory: What it is.
+            is_directory: Whether it is a directory.
         """
         if not self.kinds or path in self._given:
             return ""
@@ -75,13 +75,13 @@ class Foreign:
         return self._own_kind(disk, path, top, is_directory=is_directory)
 
     def name(self, paths: Iterable[str]) -> None:
-        """Learn which paths, without links, the user names: what is above them does not count."""
+        """Register the real paths given by the user: directories above them are not foreign."""
         self._given.update(paths)
         for cache in (self._around, self._kinds, self._named):
             cache.clear()
 
     def _kind_around(self, disk: Disk, directory: str) -> tuple[str, str]:
-        """Return what the user named at or above a directory, and what makes it foreign."""
+        """Return the path given by the user at or above a directory, and its kind."""
         if directory not in self._around:
             parent = os.path.dirname(directory)
             if directory in self._given:
@@ -137,7 +137,7 @@ class Foreign:
         return self._submodules[directory]
 
     def _is_named(self, disk: Disk, path: str, top: str, *, is_directory: bool) -> bool:
-        """Tell whether a pattern names a path, or a directory above it and below another."""
+        """Tell whether a pattern matches a path, or a directory above it and below another."""
         key = path, is_directory
         if key not in self._named:
             self._named[key] = False
@@ -180,7 +180,7 @@ class Foreign:
         return self._repositories[directory]
 
     def _is_untracked(self, disk: Disk, repository: str, path: str) -> bool:
-        """Tell whether a path that a pattern names was not added to git all the same."""
+        """Tell whether an ignored path is not tracked by git."""
         if repository not in self._tracked:
             self._tracked[repository] = _tracked(disk, repository)
         tracked = self._tracked[repository]
@@ -188,7 +188,7 @@ class Foreign:
 
 
 def _tracked(disk: Disk, repository: str) -> frozenset[str] | None:
-    """Return the files that git tracks, and the directories with them; ``None`` if unknown."""
+    """Return the tracked files with their directories; ``None`` if unknown."""
     from subprocess import SubprocessError
 
     from scaffold.programs import git
@@ -210,7 +210,7 @@ def _tracked(disk: Disk, repository: str) -> frozenset[str] | None:
 
 
 def _index_of(disk: Disk, repository: str) -> str:
-    """Return the file in which git notes what it tracks."""
+    """Return the index file of a checkout."""
     place = os.path.join(repository, ".git")
     if not disk.is_directory(place):
         matched = re.match(r"gitdir:\s*(.+)", _text(disk, place))

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from scaffold.model.package import Package
 
 _PLACES = ("", "docker", ".devcontainer")
-"""Directories of a repository that have files of requirements."""
+"""Directories of a repository with requirements files."""
 _NAME = re.compile(r"^[ \t]*([A-Za-z0-9][\w.-]*)", re.MULTILINE)
 # linear: few lines of a file begin with the key
 _PROJECT = re.compile(r"^dependencies\s*=\s*\[(.*?)\][ \t]*$", re.MULTILINE | re.DOTALL)
@@ -23,7 +23,7 @@ _MAX_BYTES = 100_000
 
 
 def is_in_requirements(package: Package, module: str) -> bool:
-    """Tell whether pip is asked for the package that a module comes from."""
+    """Tell whether the package of a module is listed for pip."""
     names = package.remember("names for pip", lambda: frozenset(_names(package)))
     return any(name == module.lower() or module_of_key(name) == module for name in names)
 

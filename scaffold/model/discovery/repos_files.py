@@ -14,14 +14,14 @@ if TYPE_CHECKING:
     from scaffold.model.package import Package
 
 _PLACES = ("", ".github")
-"""Directories of a repository that have such files."""
+"""Directories of a repository with such files."""
 _ENTRY = re.compile(r"^ {1,8}(?:[\w.-]{1,99}/){0,9}([\w.-]{1,99}):[ \t]*$", re.MULTILINE)
 """Matches the key of an entry; its last part is the directory, and mostly the package."""
 _MAX_BYTES = 100_000
 
 
 def is_fetched(package: Package, name: str) -> bool:
-    """Tell whether a file of the repository names a package that is fetched as source."""
+    """Tell whether a file of the repository lists a package to fetch as source."""
     return name in package.remember("fetched as source", lambda: frozenset(_names(package)))
 
 

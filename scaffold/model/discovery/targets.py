@@ -19,7 +19,7 @@ from scaffold.record import NamedTuple
 
 
 class Target(NamedTuple):
-    """A package to check; ``only`` limits what is reported to these files of it."""
+    """A package to check; ``only`` limits the report to some of its files."""
 
     package: Package
     only: frozenset[str] | None = None
@@ -57,17 +57,17 @@ def find(
     Args:
         paths: Directories and files.
         disk: Records what was accessed, now and later, outside of the packages.
-        are_saved: Whether files must be there; those of an editor may be new.
-        whole_packages: A file selects its package, if colcon finds that around or below the
+        are_saved: Whether files must exist; those of an editor may be new.
+        whole_packages: Whether a file selects its package, if colcon finds that around or below the
             current directory; other files are skipped.
         exclusion: Packages and files to skip; other packages still see these packages.
-        skipped: Gets the packages that are skipped, and the files of ``paths``.
-        foreign: Tells which packages are not the user's: they are skipped likewise, unless there
-            are no others. It learns what the user names.
-        policy: What the configuration says that rules have to know.
+        skipped: Receives the skipped packages, and the files of ``paths``.
+        foreign: Tells which packages are foreign: they are skipped as well, unless there
+            are no others. The given paths are registered.
+        policy: The configuration of rules.
 
     Raises:
-        InputError: a path does not exist, or holds no package.
+        InputError: a path does not exist, or has no package.
     """
     disk = disk or Disk()
     workspace = Workspace(disk=disk, policy=policy)
@@ -104,7 +104,7 @@ def find(
 def _whole_packages(
     disk: Disk, workspace: Workspace, directories: Sequence[str], exclusion: Exclusion
 ) -> tuple[dict[str, Target], dict[str, Package]]:
-    """Return the packages at and below directories, and those that are excluded, by place."""
+    """Return the packages at and below directories, and the excluded ones, by directory."""
     whole: dict[str, Target] = {}
     excluded: dict[str, Package] = {}
     for path in directories:
@@ -124,7 +124,7 @@ def _set_apart(
     excluded: dict[str, Package],
     foreign: Foreign,
 ) -> None:
-    """Move the packages that are not the user's to the excluded ones."""
+    """Move foreign packages to the excluded ones."""
     kinds = {real: foreign.kind_of(disk, real, is_directory=True) for real in whole}
     if all(kinds.values()):
         foreign.name(kinds)  # if there is nothing else, the user means these
@@ -136,7 +136,7 @@ def _set_apart(
 
 
 def _packages_of(disk: Disk, paths: Sequence[str]) -> list[str]:
-    """Return directories as they are, and the packages of files; see `find`."""
+    """Return directories unchanged, and the packages of files; see `find`."""
     around = colcon.package_around(disk, os.path.abspath(os.curdir))
     packages = [os.path.relpath(around)] if around else colcon.package_directories(disk, os.curdir)
     by_place = {os.path.join(disk.real(item), ""): os.path.normpath(item) for item in packages}
@@ -155,14 +155,14 @@ def _surroundings(
 ) -> UncheckedPackages | None:
     """Return the packages next to those given, unless the whole workspace was given.
 
-    Without a directory ``src``, the workspace is what lies side by side with a package, in the git
-    repository around it, and in the current directory. More is not searched: it may be a home.
+    Without a directory ``src``, the workspace is the packages next to a package, in the git
+    repository around it, and in the current directory. No more is searched: it may be a home.
 
     Args:
         disk: Records what was accessed.
         workspace: The packages given.
-        given: The directories that were searched for them.
-        tops: Directories whose packages belong together, besides those of the workspace.
+        given: The directories that were searched.
+        tops: Further directories whose packages belong together.
     """
     own = [
         disk.real(item.directory) for item in workspace if not isinstance(item.tree, _LooseFiles)
@@ -227,7 +227,7 @@ def _package_directories(disk: Disk, path: str) -> list[str]:
 
 
 def _package_of(disk: Disk, path: str) -> str | None:
-    """Return the package that a file lies in, as the user would write it."""
+    """Return the package of a file, as a path in the form given by the user."""
     package = colcon.package_around(disk, os.path.dirname(os.path.abspath(path)))
     return os.path.relpath(package) if package and not os.path.isabs(path) else package
 

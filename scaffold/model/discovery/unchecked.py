@@ -1,7 +1,7 @@
 """Packages of the same workspace that are not checked, but may be depended on.
 
-If only one package is given, for example by a hook, its dependencies on the others are checked as
-if all had been given. They are searched only for unknown names, by their manifests; other files of
+If only one package is checked, for example by a hook, its dependencies on others are checked as
+if all were checked. They are searched only for unknown names, by their manifests; other files of
 them are read when a rule needs them.
 """
 
@@ -21,18 +21,18 @@ if TYPE_CHECKING:
     from scaffold.model.workspace.workspace import Workspace
 
 MOST_DIRECTORIES = 2000
-"""A larger workspace is not searched: that would take longer than the check of a package."""
+"""The size limit of a searched workspace, so that a search is fast."""
 _NAME = rb"<name>\s*([A-Za-z][\w-]*)\s*</name>"
 
 
 class UncheckedPackages:
-    """The packages in and below some directories, except for those that are checked.
+    """The packages in and below some directories, except the checked ones.
 
     Args:
-        beside: Directories that hold packages side by side, and are not searched further.
-        sources: Directories that are searched.
-        own: The directories of the packages that are checked, without links.
-        workspace: What the packages belong to; all that is read of them is noted there.
+        beside: Directories with packages directly inside, not searched recursively.
+        sources: Directories to search recursively.
+        own: The real directories of the checked packages.
+        workspace: The workspace of the packages, which records all accesses.
     """
 
     def __init__(
@@ -50,7 +50,7 @@ class UncheckedPackages:
 
     @cached_property
     def directories(self) -> Mapping[str, str]:
-        """Where the packages are, by name; none if there are too many directories."""
+        """The directories of the packages by name; empty if there are too many directories."""
         result: dict[str, str] = {}
         for directory in self._names():
             name = None if directory in self._own else self._name_of(directory)
@@ -77,7 +77,7 @@ class UncheckedPackages:
         return matched[1].decode() if matched else None
 
     def get(self, name: str) -> Package | None:
-        """Return the package of a name, if it is there."""
+        """Return the package with a name, if it exists."""
         if name not in self._packages and name in self.directories:
             from scaffold.model.package import Package
 

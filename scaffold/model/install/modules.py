@@ -25,17 +25,17 @@ if TYPE_CHECKING:
     from scaffold.model.python.imports import Import
 
 _ELSEWHERE = ("ament_environment_hooks", "ament_python_install_module", "configure_file")
-"""Commands that put modules on Python's path in another way."""
+"""Commands that put modules on the Python path in another way."""
 
 _PROJECT = re.compile(r"(?i)\bproject\s*\(\s*([\w-]+)")
 """Matches the name of a project in a CMakeLists.txt."""
 
 _ON_PATH = re.compile(r"(?:.*(?:-packages/|\}/))([\w/]+)$")
-"""Matches a destination on Python's path, and what is below that."""
+"""Matches a destination on the Python path, with the path below it."""
 
 
 def absolute_name(path: str, node: Import) -> str:
-    """Return the full name of what an import means, without the dots in front."""
+    """Return the absolute name of a relative import."""
     if not node.level:
         return node.module
     directory = path.split("/")[: -node.level]
@@ -43,7 +43,7 @@ def absolute_name(path: str, node: Import) -> str:
 
 
 def names_imported(package: Package) -> set[str]:
-    """Return the full names of what modules of the package import: modules and what is in them."""
+    """Return the full names imported by modules of the package: modules and names in them."""
     result: set[str] = set()
     for path, imports in imports_by_path(package):
         for item in imports:
@@ -53,27 +53,27 @@ def names_imported(package: Package) -> set[str]:
 
 
 def paths_imported_by(package: Package, files: set[str]) -> list[str]:
-    """Return where modules lie that some files import, relative to a directory on Python's path."""
+    """Return the paths of modules imported by some files, relative to the Python path."""
     paths = sorted(files & set(package.python_files))
     names = {item.module for path in paths for item in imports_of(package, path)}
     return [f"{name.replace('.', '/')}.py" for name in sorted(names) if name]
 
 
 def own_roots(package: Package) -> set[str]:
-    """Return the names by which Python imports the packages in the root of a package."""
+    """Return the names of importable Python packages in the root of a package."""
     roots = {path.partition("/")[0] for path in package.glob("*/__init__.py")}
     others = {"test", "tests", "launch"} | (ROS_PACKAGES - {package.name})
     return {root for root in roots - others if root.isidentifier()}
 
 
 def file_of(package: Package, name: str) -> str:
-    """Return the file of a module; empty if the package has none."""
+    """Return the file of a module; empty if there is none."""
     base = name.replace(".", "/")
     return next((item for item in (f"{base}.py", f"{base}/__init__.py") if package.has(item)), "")
 
 
 def moved_to(package: Package, name: str) -> str:
-    """Return the directory to which a module was moved from the one above; empty if it was not."""
+    """Return the subdirectory to which a module was moved; empty if it was not."""
     parent, _, leaf = name.replace(".", "/").rpartition("/")
     for path in package.python_files:
         directory, _, file = path.rpartition("/")
@@ -85,7 +85,7 @@ def moved_to(package: Package, name: str) -> str:
 def is_elsewhere(package: Package, name: str) -> bool:
     """Tell whether a directory of the checkout above a package has a module.
 
-    Then the package is put together somewhere else, such as in a container.
+    Then the package is assembled elsewhere, such as in a container.
     """
     path = f"{name.replace('.', '/')}.py"
     disk = package.outside
@@ -150,9 +150,9 @@ def _modules_installed_by_path(package: Package) -> frozenset[str]:
 
 
 def _python_directory(package: Package, install: Install) -> str | None:
-    """Return where below a directory on Python's path something is installed; ``None`` if not.
+    """Return the destination relative to a directory on the Python path; ``None`` if elsewhere.
 
-    A variable that nothing in the package sets may be such a directory.
+    A variable that is not set in the package may be such a directory.
     """
     written = install.destination_argument
     if written is None:
@@ -164,7 +164,7 @@ def _python_directory(package: Package, install: Install) -> str | None:
 
 
 def _names_of(path: str) -> Iterator[str]:
-    """Yield the name of a module, and those of the packages that it lies in but the outermost."""
+    """Yield the name of a module, and those of its packages except the outermost."""
     if path.endswith(".py"):
         parts = path.removesuffix(".py").removesuffix("/__init__").split("/")
         yield from (".".join(parts[:depth]) for depth in range(2, len(parts)))
@@ -181,7 +181,7 @@ def modules_of(package: Package, root: str) -> list[str]:
 
 
 def intended_module(package: Package, path: str, name: str) -> str:
-    """Return the module of the package that a name in a file means and that is not on the path."""
+    """Return the module that a name in a file refers to and that is not on the path."""
     own = path.partition("/")[0]
     if path.count("/") != 1 or not package.has(f"{own}/__init__.py") or is_in_tests(path):
         return ""
@@ -202,9 +202,9 @@ def intended_module(package: Package, path: str, name: str) -> str:
 
 
 def uninstalled_import(package: Package, where: str, name: str) -> str:
-    """Return the file of the package that a program of CMake imports and that is not installed.
+    """Return the file that a program of a CMake package imports and that is not installed.
 
-    It is next to the program, or named from the root of the package. Empty where the module may be
+    It is next to the program, or relative to the root of the package. Empty if the module may be
     installed in another way, or come from elsewhere.
     """
     if package.build_type != "ament_cmake" or mentions(package, where, "sys.path"):
@@ -234,7 +234,7 @@ def _may_be_installed(package: Package, path: str) -> bool:
 
 
 def _python_packages(package: Package) -> set[str]:
-    """Return the names of what CMake installs as Python packages, and of the package itself."""
+    """Return the names of the Python packages installed by CMake, and of the package itself."""
     cmake = package.cmake
     calls = cmake.find("ament_python_install_package")
     names = {str(value) for call in calls for value in cmake.expand_list(call.arguments) or ()}
@@ -242,7 +242,7 @@ def _python_packages(package: Package) -> set[str]:
 
 
 def _lacks_package(package: Package, path: str, own: str, name: str) -> bool:
-    """Tell whether a module that an entry point starts imports without its package's name."""
+    """Tell whether the module of an entry point has imports without the name of its package."""
     root = name.partition(".")[0]
     setup = package.setup_py
     started = {script.module for script in setup.console_scripts}
@@ -257,10 +257,10 @@ def _lacks_package(package: Package, path: str, own: str, name: str) -> bool:
 
 @fact
 def is_started(package: Package, path: str) -> bool:
-    """Tell whether a file is a node of its own: a shebang, a main guard, rclpy.
+    """Tell whether a file is a program: a shebang, a main guard, rclpy.
 
-    A module of a CMake package that lies in a Python package, and has neither a ``main`` nor a node
-    that is spun, only shows what it can do when it is started: others import it.
+    A module in a Python package of a CMake package, without a ``main`` and without a node
+    that is spun, is only a demo when started: others import it.
     """
     if is_in_tests(path) or path.startswith(("examples/", "doc/", "docs/", "tools/")):
         return False

@@ -20,9 +20,9 @@ if TYPE_CHECKING:
     from scaffold.source import Location
 
 ROOT = "/<source>/"
-"""In front of paths that are relative to the root of the package."""
+"""The prefix of paths relative to the root of the package."""
 _DEEPEST = 50
-"""Directories above a file of a package; a longer path is not written by hand."""
+"""The maximum depth of paths in a package."""
 _MENTIONS = (b"__file__", b"resources", b"get_data", b"pkg_resources")
 _SAME = frozenset({"resolve", "absolute", "expanduser"})
 _READERS = frozenset(
@@ -51,7 +51,7 @@ class _FileEvaluator(Evaluator):
         return super().evaluate(node)
 
     def attribute(self, node: ast.Attribute) -> object:
-        """Return what an attribute of a path is."""
+        """Return the value of an attribute of a path."""
         if node.attr not in {"parent", "parents"}:
             return UNKNOWN
         path = self.evaluate(node.value)
@@ -66,7 +66,7 @@ class _FileEvaluator(Evaluator):
         return parents[0] if parents else UNKNOWN
 
     def call(self, node: ast.Call) -> object:
-        """Return what a call that gives a path gives."""
+        """Return the value of a call that returns a path."""
         names = self.module.qualified_names(node.func)
         name = next(iter(names), "")
         first = node.args[0] if node.args else None
@@ -92,7 +92,7 @@ class _FileEvaluator(Evaluator):
 
 
 def own_files(package: Package) -> Iterator[OwnFile]:
-    """Yield the files of the package that its modules read, with where they name them."""
+    """Yield the files of the package that its modules read, with the places."""
     for path in package.python_files:
         with suppress(ViewError):
             if not is_in_tests(path):
@@ -125,7 +125,7 @@ def _named_in(package: Package, module: PythonModule) -> Iterator[OwnFile]:
 
 
 def _is_tried(module: PythonModule, node: ast.expr) -> bool:
-    """Tell whether a path is one of several, of which the module takes one that exists."""
+    """Tell whether a path is one of several candidates, one of which need exist."""
     holder = module.parent(node)
     is_one_of_several = isinstance(holder, ast.List | ast.Tuple) and len(holder.elts) > 1
     return is_one_of_several and module.mentions("exists(", "isfile(", "is_file(")

@@ -20,22 +20,22 @@ if TYPE_CHECKING:
 
 
 class Share(NamedTuple):
-    """The share directory of a package, as far as it is known."""
+    """The share directory of a package, as far as known."""
 
     files: dict[str, str]
     """Source by path relative to ``share/<package>``."""
     complete: bool
-    """Whether these are all, but for those in ``unread``."""
+    """Whether these are all, except those in ``unread``."""
     unread: Sequence[str] = ()
-    """How paths begin in directories that git leaves out, such as what another tool builds."""
+    """Prefixes of paths in directories ignored by git, such as products of other tools."""
 
     def has(self, path: str) -> bool:
-        """Tell whether a file or a directory is there."""
+        """Tell whether a file or a directory exists."""
         return path in self.files or any(name.startswith(f"{path}/") for name in self.files)
 
 
 def share_of(package: Package) -> Share:
-    """Return what a package installs below its share directory."""
+    """Return the files that a package installs below its share directory."""
     return package.remember("share_files", lambda: _share(package))
 
 
@@ -94,7 +94,7 @@ def _by_cmake(package: Package) -> Share | None:
 def installed_files(
     package: Package, install: Install, item: InstallItem
 ) -> Iterator[tuple[str, str]]:
-    """Yield what an item installs: the path below the destination, and the source."""
+    """Yield the installed files of an item: the path below the destination, and the source."""
     path = item.path
     if path is None:
         return
@@ -109,20 +109,20 @@ def installed_files(
 
 
 def _base(item: InstallItem) -> str:
-    """Return where a directory goes below its destination: to its name, or ``""`` with a slash."""
+    """Return the path of a directory below its destination: its name, or ``""`` with a slash."""
     keeps = not (item.value or "").endswith("/") and item.path not in {".", None}
     return (item.path or "").rpartition("/")[2] + "/" if keeps else ""
 
 
 def _selected(install: Install, path: str) -> bool:
-    """Tell whether the patterns of install(DIRECTORY) let a file through; in doubt they do."""
+    """Tell whether the patterns of install(DIRECTORY) select a file; true in doubt."""
     if "FILES_MATCHING" not in install.command.values or "REGEX" in install.command.values:
         return True
     return any(fnmatchcase(path.rpartition("/")[2], pattern) for pattern in install.patterns)
 
 
 def _below_share(destination: object, name: str) -> str | None:
-    """Return where below ``share/<package>`` a destination is; ``None`` if elsewhere."""
+    """Return a destination relative to ``share/<package>``; ``None`` if elsewhere."""
     if not isinstance(destination, str):
         return None
     path = posixpath.normpath(destination)

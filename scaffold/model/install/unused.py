@@ -27,24 +27,24 @@ The last ones are of file managers: ``talk (copy).py``, ``talk (3rd copy).py``, 
 _UNUSED_DIRECTORY = re.compile(
     r"(?:^|[\W_])(?:unused|deprecated|backups?|bak|archived?|old)(?:$|[\W_])", re.IGNORECASE
 )
-"""Matches the name of a directory for code that is not used any more."""
+"""Matches the name of a directory with unused code."""
 _KEPT = (".py", ".xacro", ".urdf", ".launch", ".xml", ".yaml", ".yml")
-"""The endings of files whose copies are found by their names."""
+"""The extensions of files whose copies are recognized by name."""
 _RUNS_PYTHON = re.compile(rb"pytest|launch_test|nose|python|PYTHON|ament_lint_auto|\.py\b")
-"""Matches what a CMakeLists.txt calls when it runs or checks Python."""
+"""Matches commands of CMakeLists.txt that run or check Python."""
 _ADDS_DIRECTORY = re.compile(rb"\badd_subdirectory\s*\([^)]{0,200}\)")
 _TAKES_ALL = rb"GLOB_RECURSE|\bDIRECTORY\s+\./?\s|os\.walk|rglob|\*\*/"
-"""Matches what takes files of any directory."""
+"""Matches code that uses all files of a directory."""
 _BUILDING = ("CMakeLists.txt", "setup.py", "setup.cfg", "pyproject.toml")
 _NAMING = (*_KEPT, ".txt", ".cfg", ".toml", ".cmake", ".sh")
 _TEXTS = (".md", ".rst")
 _RUN_AS_THEY_ARE = frozenset({"setup.py", "__init__.py", "__main__.py"})
 _FOR_TESTS = "conftest.py"
-"""What pytest loads for the tests in a directory and below it."""
+"""The file that pytest loads for the tests in and below a directory."""
 
 
 def is_copy_of_old_code(package: Package, path: str) -> bool:
-    """Tell whether a file or its directory is named like a copy, and nothing names the file."""
+    """Tell whether a file or its directory is named like a copy, and is never mentioned."""
     *directories, name = path.split("/")
     stem, dot, _ = name.rpartition(".")
     if not dot or not name.endswith(_KEPT):
@@ -56,7 +56,7 @@ def is_copy_of_old_code(package: Package, path: str) -> bool:
 def is_never_run(package: Package, path: str) -> bool:
     """Tell whether a Python file is a copy of old code, or is not installed.
 
-    What people start from the sources needs no dependency of the package.
+    Scripts started from the sources need no dependency of the package.
     """
     return is_copy_of_old_code(package, path) or _is_out_of_reach(package, path, ())
 
@@ -99,7 +99,7 @@ def _is_built_by_cmake(package: Package) -> bool:
 
 
 def is_unrun_test(package: Package, path: str) -> bool:
-    """Tell whether a file of tests is neither run as a test nor used by one that is."""
+    """Tell whether a test file is neither run as a test nor used by one."""
     *directories, name = path.split("/")
     stem = name.removesuffix(".py")
     if not is_in_tests(path) or stem == name or name in _RUN_AS_THEY_ARE:
@@ -132,15 +132,15 @@ def _runs_in_cmake(package: Package, directories: Sequence[str]) -> bool:
 
 
 def is_named(package: Package, path: str, stem: str, texts: tuple[str, ...] = ()) -> bool:
-    """Tell whether any other file of the package has a name, such as that of a module.
+    """Tell whether any other file of the package mentions a name, such as that of a module.
 
-    The parameters of a node have its name, whether anything starts it or not.
+    Parameter files mention a node whether it is started or not.
 
     Args:
         package: The package.
-        path: The file that is not looked at.
+        path: The file to skip.
         stem: The name.
-        texts: The endings of more files to look at.
+        texts: The extensions of further files to search.
     """
     unused = _BUILDING[1:] if _is_built_by_cmake(package) else ()
     others = (
@@ -155,7 +155,7 @@ def is_named(package: Package, path: str, stem: str, texts: tuple[str, ...] = ()
 
 
 def _is_in_code(package: Package, path: str, name: str, directory: str) -> bool:
-    """Tell whether a file may have a name outside of comments; code too large to read may.
+    """Tell whether a file may mention a name outside of comments; too large code may.
 
     Large XML and YAML is data, such as the weights of a classifier.
     """
@@ -167,14 +167,14 @@ def _is_in_code(package: Package, path: str, name: str, directory: str) -> bool:
 
 
 def _mentions_directory(data: bytes, name: str) -> bool:
-    """Tell whether a build file names a directory, and not only files in it, or all of a kind."""
+    """Tell whether a build file mentions a directory itself, or all files of a kind."""
     word = re.escape(name.encode("utf-8", "surrogateescape"))
     pattern = rb"(?<![\w-])%b(?![\w-])(?!/[\w/-]+\.\w+)(?!/[\w/-]*\*\.(?!py\b)\w+)" % word
     return re.search(pattern, data) is not None
 
 
 def _mentions(data: bytes, name: str, directory: str) -> bool:
-    """Tell whether a text has a name, and not only that of a file in another directory."""
+    """Tell whether a text mentions a name, not only as a file in another directory."""
     word = name.encode("utf-8", "surrogateescape")
     if word not in data:
         return False

@@ -43,7 +43,7 @@ class Interface(NamedTuple):
     name: str
     sections: tuple[Section, ...]
     origin: str
-    """Which definition this is, in words for a message."""
+    """A description of the definition, for messages."""
 
     @property
     def full_name(self) -> str:
@@ -51,7 +51,7 @@ class Interface(NamedTuple):
         return f"{self.package}/{self.kind}/{self.name}"
 
     def section(self, name: str) -> Section:
-        """Return a part by its name; raises KeyError for one that the kind does not have."""
+        """Return a section by name; raises KeyError for one that the kind lacks."""
         for section in self.sections:
             if section.name == name:
                 return section
@@ -94,7 +94,7 @@ class Interface(NamedTuple):
 
 
 class Spelling(NamedTuple):
-    """A type as a user spells it."""
+    """A type as written by the user."""
 
     package: str | None
     kind: str | None
@@ -102,7 +102,7 @@ class Spelling(NamedTuple):
 
 
 def _is_of_another(prefix: str) -> bool:
-    """Tell whether a prefix is the installation of another distribution than the target."""
+    """Tell whether a prefix is an installation of a distribution other than the target."""
     name = os.path.basename(prefix.rstrip(os.sep))
     return name in distributions.NAMES and name != distributions.target().name
 
@@ -123,7 +123,7 @@ class Definitions:
 
         Args:
             workspace: The packages that are checked or generated together.
-            prefixes: Where packages are installed; ``None``: what ``AMENT_PREFIX_PATH`` says.
+            prefixes: The install prefixes; ``None``: those of ``AMENT_PREFIX_PATH``.
         """
         if prefixes is None:
             listed = os.environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep)
@@ -138,7 +138,7 @@ class Definitions:
     def find(self, full_name: str) -> Interface | None:
         """Return an interface by ``package/kind/Name``.
 
-        ``None`` when nothing is known about it, its file has problems, or it is IDL.
+        ``None`` if it is unknown, its file has problems, or it is IDL.
         """
         if full_name not in self._interfaces:
             self._interfaces[full_name] = self._read(full_name)
@@ -160,9 +160,9 @@ class Definitions:
         return text, parse(text.source, package, kind, name)
 
     def names(self, package: str, kind: str) -> Sequence[str] | None:
-        """Return the sorted names that a package has of a kind.
+        """Return the sorted names of a kind in a package.
 
-        ``None`` when the package is not known, or may have more than can be seen.
+        ``None`` if the package is unknown, or may have more.
         """
         source = self._package(package)
         return source.names(kind) if source is not None and kind in SECTIONS else None
@@ -189,7 +189,7 @@ class Definitions:
     # -- what users write
 
     def matches(self, spelling: str) -> list[str]:
-        """Return the full names that a spelling may mean, sorted.
+        """Return the full names that match a spelling, sorted.
 
         ``std_msgs/msg/String``, ``std_msgs/String``, ``std_msgs.msg.String`` or ``String``; the
         last is never the copy that example_interfaces has.
@@ -206,7 +206,7 @@ class Definitions:
         return [name for name in result if not _is_copy(name)] or result
 
     def resolve(self, spelling: str) -> Interface:
-        """Return the one interface that a spelling means.
+        """Return the only interface that matches a spelling.
 
         Raises:
             InputError: there is none, there are several, or its file cannot be read; the
@@ -235,7 +235,7 @@ class Definitions:
         return f"{parsed[0].origin}:{problem.location.line}: {problem.message}"
 
     def nearest(self, spelling: str, count: int = 3) -> list[str]:
-        """Return the full names that look most like a misspelt one, best first."""
+        """Return the full names closest to a misspelled one, best first."""
         wanted = spell(spelling)
         result: list[tuple[float, bool, str]] = []
         for full_name in self.all_names():
@@ -283,7 +283,7 @@ def _is_copy(full_name: str) -> bool:
 _ALIKE = 0.7
 _MOST_KNOWN = 300
 _LONGEST = 200
-"""Longer words are not compared: it takes long, and people do not write them."""
+"""The length of words from which they are not compared, to save time."""
 _SAME_KIND = 0.1
 _FAR = 0.5
 """Suggestions that are less similar than the best one by more than this are dropped."""
@@ -307,7 +307,7 @@ def closest_word(word: str, words: Sequence[str]) -> str:
 
 
 def spell(text: str) -> Spelling:
-    """Take the spelling of a type apart."""
+    """Split the spelling of a type."""
     parts = [part for part in text.replace(".", "/").split("/") if part]
     if len(parts) > 2 and parts[-2] in SECTIONS:  # noqa: PLR2004  package, kind and name
         return Spelling("/".join(parts[:-2]), parts[-2], parts[-1])
@@ -320,7 +320,7 @@ def spell(text: str) -> Spelling:
 
 
 def render(interface: Interface) -> str:
-    """Return a definition as text, without comments: what rosidl reads the same from."""
+    """Return a definition as text without comments, equivalent for rosidl."""
     parts = [_render_section(section, interface.package) for section in interface.sections]
     return f"{SEPARATOR}\n".join(parts)
 

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from scaffold.model.package import Package
 
 _USERS = (".py", ".cpp", ".hpp", ".cc", ".h", ".msg", ".srv", ".action")
-"""Endings of files that use interfaces."""
+"""Extensions of files that use interfaces."""
 
 
 class InterfaceFile(NamedTuple):
@@ -31,7 +31,7 @@ class InterfaceFile(NamedTuple):
 
 
 def ungenerated_candidates(package: Package) -> list[str]:
-    """Return the files in ``msg/``, ``srv/`` and ``action/`` whose ending is that name."""
+    """Return the files in ``msg/``, ``srv/`` and ``action/`` with that extension."""
     return [
         path
         for path in package.files
@@ -42,7 +42,7 @@ def ungenerated_candidates(package: Package) -> list[str]:
 
 
 def is_commented_out(package: Package, path: str) -> bool:
-    """Tell whether a comment of CMakeLists.txt names a file, so it is omitted on purpose."""
+    """Tell whether a comment of CMakeLists.txt mentions a file, which is omitted on purpose."""
     cmake = package.cmake
     name = path.rpartition("/")[2]
     return any(name in cmake.text(token) for token in cmake.comments)
@@ -86,7 +86,7 @@ def _names_used_in_python(package: Package, path: str, name: str) -> frozenset[s
 
 
 def _names_used_in(package: Package, path: str, name: str) -> frozenset[str]:
-    """Return the words in a file that may name a type of the package of a name."""
+    """Return the words in a file that may be names of types of a package."""
     text = package.source(path).text
     if name not in text:
         return frozenset()
@@ -130,7 +130,7 @@ def _read(package: Package) -> Iterator[InterfaceFile]:
 
 
 def problems(package: Package, *kinds: ProblemKind) -> Iterator[Problem]:
-    """Yield what is wrong with the interface files of a package, of some kinds."""
+    """Yield the problems of some kinds in the interface files of a package."""
     for file in interface_files(package):
         for problem in file.definition.problems:
             if problem.kind in kinds:

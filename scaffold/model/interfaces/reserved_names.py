@@ -27,7 +27,7 @@ _C_MACROS = frozenset(
 
 
 def reserved(name: str) -> str:
-    """Return why a field cannot have a name; nothing if it can."""
+    """Return why a field cannot have a name; empty if it can."""
     if name in _C_KEYWORDS:
         return f"{name!r} is a keyword of C or C++: the generated code does not compile"
     if name in _PYTHON_KEYWORDS:
@@ -36,7 +36,7 @@ def reserved(name: str) -> str:
 
 
 def reserved_constant(name: str) -> str:
-    """Return why a constant cannot have a name; nothing if it can."""
+    """Return why a constant cannot have a name; empty if it can."""
     import errno
 
     if name in _C_MACROS or name in errno.errorcode.values():
@@ -45,7 +45,7 @@ def reserved_constant(name: str) -> str:
 
 
 def reserved_type(name: str) -> str:
-    """Return why an interface cannot have a name; nothing if it can."""
+    """Return why an interface cannot have a name; empty if it can."""
     if name in {"None", "True", "False"}:
         return f"{name!r} is a keyword of Python: the generated module is a SyntaxError"
     if name in _C_MACROS:
@@ -54,7 +54,7 @@ def reserved_type(name: str) -> str:
 
 
 def escape_problem(text: str) -> str:
-    """Return what is wrong about the backslashes of a text, which rosidl reads as escapes."""
+    """Return the problem with the backslashes of a text, which rosidl reads as escapes."""
     import warnings
 
     if "\\" not in text:

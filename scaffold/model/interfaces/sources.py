@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 MAX_BYTES = 500_000
-"""Of one definition; the largest of those that are released has 20 kB."""
+"""The size limit of a definition; the largest released one has 20 kB."""
 
 
 class Text(NamedTuple):
@@ -28,17 +28,17 @@ class Text(NamedTuple):
 
     source: Source
     origin: str
-    """Where it is, in words for a message: a path, or package, version and distribution."""
+    """Its origin, for messages: a path, or package, version and distribution."""
 
 
 class KnownPackage(Protocol):
     """A package whose interfaces are known."""
 
     def names(self, kind: str) -> Sequence[str] | None:
-        """Return the sorted names of a kind; ``None`` if there may be more than can be seen."""
+        """Return the sorted names of a kind; ``None`` if there may be more."""
 
     def text(self, kind: str, name: str) -> Text | None:
-        """Return a definition; ``None`` if there is none that can be read."""
+        """Return a definition; ``None`` if there is no readable one."""
 
 
 class DefinitionSource(Protocol):
@@ -80,7 +80,7 @@ class _WorkspacePackage:
 
     @classmethod
     def of(cls, package: Package) -> _WorkspacePackage | None:
-        """Return what a package defines, or ``None`` if that is nothing."""
+        """Return the interfaces of a package; ``None`` if it has none."""
         paths: dict[str, dict[str, list[str]]] = {kind: {} for kind in SECTIONS}
         for path in package.files:
             stem, dot, ending = path.rpartition("/")[2].rpartition(".")
@@ -90,12 +90,12 @@ class _WorkspacePackage:
         return cls(package, paths) if any(paths.values()) else None
 
     def names(self, kind: str) -> Sequence[str] | None:
-        """Return the names; a package that takes interfaces from elsewhere may have more."""
+        """Return the names; a package with interfaces from elsewhere may have more."""
         return sorted(self._paths[kind]) if self._is_complete else None
 
     @cached_property
     def _is_complete(self) -> bool:
-        """Whether all that is generated lies in the package, and Python does not shadow it."""
+        """Whether all interfaces are from files in the package, and not shadowed in Python."""
         package = self._package
         if any(package.has_directory(f"{package.name}/{kind}") for kind in SECTIONS):
             return False
@@ -124,7 +124,7 @@ class _WorkspacePackage:
 
 
 def is_test_data(path: str) -> bool:
-    """Tell whether a file is there for tests and never generated."""
+    """Tell whether a file is test data and never generated."""
     return not {"test", "tests", "testing", "templates"}.isdisjoint(path.split("/")[:-1])
 
 

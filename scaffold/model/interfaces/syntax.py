@@ -31,7 +31,7 @@ SECTIONS = {
     "srv": ("request", "response"),
     "action": ("goal", "result", "feedback"),
 }
-"""The kinds of interfaces, by the ending of their files, and what each defines."""
+"""The kinds of interfaces by file extension, with their sections."""
 
 _BOM = "\ufeff"
 
@@ -115,7 +115,7 @@ class _Line(NamedTuple):
     """Offset of the next line."""
     number: int
     column: int
-    """Of its first character: 1, unless a form feed or alike ends the line before."""
+    """The column of its first character: 1, unless a form feed or the like ends the line before."""
 
     def at(self, path: str, start: int, length: int) -> Location:
         """Return the place of some characters of it."""
@@ -158,20 +158,20 @@ def _bad_type_name(name: str, kind: str) -> str:
 
 
 def suggest_type_name(name: str) -> str:
-    """Return the valid type name nearest to a name; empty when nothing is left of it."""
+    """Return the valid type name closest to a name; empty if there is none."""
     words = re.findall("[A-Za-z0-9]+", name)
     joined = "".join(word[0].upper() + word[1:] for word in words).lstrip("0123456789")
     return joined[:1].upper() + joined[1:]
 
 
 def suggest_field_name(name: str) -> str:
-    """Return the valid field name nearest to a name; empty when nothing is left of it."""
+    """Return the valid field name closest to a name; empty if there is none."""
     spaced = re.sub("(?<=[a-z0-9])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])", "_", name)
     return re.sub("[^a-z0-9]+", "_", spaced.lower()).strip("_").lstrip("0123456789_")
 
 
 def suggest_constant_name(name: str) -> str:
-    """Return the valid constant name nearest to a name; empty when nothing is left of it."""
+    """Return the valid constant name closest to a name; empty if there is none."""
     return suggest_field_name(name).upper()
 
 
@@ -189,7 +189,7 @@ def _lines(source: Source) -> Iterator[_Line]:
 
 
 def _split(source: Source, kind: str, problems: list[Problem]) -> list[list[_Line]]:
-    """Return the lines of each section; a file without the right separators is all there is."""
+    """Return the lines of each section; with wrong separators, only the first section."""
     parts: list[list[_Line]] = [[]]
     places: list[Location] = []
     wanted = len(SECTIONS[kind]) - 1

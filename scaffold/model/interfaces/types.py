@@ -35,7 +35,7 @@ _SHOWN = 40
 
 
 class TypeSpellingError(ValueError):
-    """A type is not spelled as one; the text says how it should be."""
+    """A type is spelled wrong; the text says how it should be."""
 
 
 class ValueSpellingError(ValueError):
@@ -85,17 +85,17 @@ class FieldType(NamedTuple):
 
 
 def is_field_name(name: str) -> bool:
-    """Tell whether rosidl takes a name for a field; the same holds for a package."""
+    """Tell whether a name is a valid field or package name for rosidl."""
     return re.fullmatch("[a-z](_?[a-z0-9])*", name) is not None
 
 
 def is_constant_name(name: str) -> bool:
-    """Tell whether rosidl takes a name for a constant."""
+    """Tell whether a name is a valid constant name for rosidl."""
     return re.fullmatch("[A-Z](_?[A-Z0-9])*", name) is not None
 
 
 def is_type_name(name: str) -> bool:
-    """Tell whether rosidl takes a name for a message, a service or an action."""
+    """Tell whether a name is a valid type name for rosidl."""
     name = name.removeprefix("Sample_")
     for suffix in _SUFFIXES:
         name = name.removesuffix(suffix)
@@ -110,7 +110,7 @@ def parse_type(text: str, package: str) -> FieldType:
     """Read a type; one without a package belongs to ``package``.
 
     Raises:
-        TypeSpellingError: rosidl refuses it.
+        TypeSpellingError: rosidl rejects it.
     """
     if not text.endswith("]"):
         return _element_type(text, package)
@@ -168,7 +168,7 @@ def _interface_type(text: str, package: str) -> FieldType:
 
 
 def _size(text: str) -> int:
-    """Return a whole number above zero, else zero."""
+    """Parse a positive integer; 0 if it is none."""
     try:
         return max(int(text), 0)
     except ValueError:
@@ -261,7 +261,7 @@ def _split_numbers(text: str) -> list[str]:
 
 
 def _split_texts(text: str) -> list[str]:
-    """Split the elements of an array of texts where rosidl_adapter does."""
+    """Split the elements of a string array like rosidl_adapter."""
     parts: list[str] = []
     while text:
         text = text.lstrip(" ")
@@ -280,9 +280,9 @@ def _split_texts(text: str) -> list[str]:
 
 
 def _closing_quote(text: str) -> int:
-    """Return where rosidl_adapter ends a quoted text, as an offset from its opening quote.
+    """Return the end of a quoted string for rosidl_adapter, as an offset from its opening quote.
 
-    It starts anew after an escaped quote, and then forgets what came before: a text with
+    It restarts after an escaped quote and forgets the text before: a string with
     two of them ends too early.
     """
     quote, skipped, rest = text[0], 0, text

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 HANDLERS = ("OnExecutionComplete", "OnProcessExit", "OnProcessIO", "OnProcessStart", "OnShutdown")
 CALLBACKS = ("on_completion", "on_exit", "on_start", "on_shutdown")
-"""Arguments of handlers that take actions, or a function that returns some."""
+"""Arguments of handlers that accept actions, or a function that returns some."""
 
 _LISTS = {"LaunchDescription": "initial_entities", "GroupAction": "actions"} | {
     "TimerAction": "actions"
@@ -28,28 +28,28 @@ _VALUES = (
 )
 _WITH_CALLBACKS = (*HANDLERS, *NODES, "ExecuteProcess")
 _MANY = ("LaunchDescription", "GroupAction", "TimerAction", "OpaqueFunction")
-"""What takes lists alone; another rule looks at what they get instead."""
+"""Callables that only accept lists; another rule checks other arguments."""
 
 
 class Entity(NamedTuple):
-    """An item of a list of actions, or what is passed instead of such a list."""
+    """An item of a list of actions, or an argument in place of such a list."""
 
     node: ast.expr
     holder: str
-    """What takes it, such as ``LaunchDescription``."""
+    """The callable that receives it, such as ``LaunchDescription``."""
     argument: str = ""
-    """The argument of a callback that takes it."""
+    """The argument that receives it."""
     is_alone: bool = False
-    """It is not an item of a list: a handler takes lists and functions as well."""
+    """Whether it is not an item of a list, as handlers accept functions as well."""
 
     @property
     def taker(self) -> str:
-        """What takes it, for people."""
+        """The receiving callable, for messages."""
         return f"{self.argument!r} of {self.holder}" if self.argument else self.holder
 
 
 def entities(launch: LaunchFile) -> Iterator[Entity]:
-    """Yield the items of the lists of actions that are written out."""
+    """Yield the items of literal lists of actions."""
     seen: set[ast.expr] = set()
     for holder, argument, node in _lists(launch):
         listed = _literal_of(launch, node)
@@ -70,7 +70,7 @@ def entities(launch: LaunchFile) -> Iterator[Entity]:
 
 
 def _lists(launch: LaunchFile) -> Iterator[tuple[str, str, ast.expr]]:
-    """Yield what takes actions, the argument of a callback for it, and what is given."""
+    """Yield callables that receive actions, with the name and value of the argument."""
     for call in launch.calls:
         name = _LISTS.get(call.kind)
         if name is not None and name in call.given:
@@ -92,7 +92,7 @@ def _returned_by(launch: LaunchFile, node: ast.expr | None) -> list[ast.expr]:
 
 
 def _literal_of(launch: LaunchFile, node: ast.expr) -> ast.expr:
-    """Return what a name with a single value refers to."""
+    """Return the only value of a name."""
     for _ in range(5):
         value = _value_of(launch, node) if isinstance(node, ast.Name) else None
         if value is None:
@@ -115,7 +115,7 @@ def function_of(launch: LaunchFile, node: ast.expr | None) -> FunctionNode | Non
 
 
 def describe(launch: LaunchFile, node: ast.expr) -> str:
-    """Return what an expression certainly is, if it is not an action: ``this is a list``."""
+    """Describe an expression that is certainly no action: ``this is a list``."""
     node = _literal_of(launch, node)
     if isinstance(node, ast.Name) and function_of(launch, node) is not None:
         return "this is a function"

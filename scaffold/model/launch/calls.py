@@ -23,27 +23,27 @@ _POSITIONAL: Mapping[str, tuple[str, ...]] = {
 
 
 class LaunchCall(NamedTuple):
-    """A call of something from launch, launch_ros or ament_index_python."""
+    """A call of a name from launch, launch_ros or ament_index_python."""
 
     kind: str
     """The last part of its name: ``Node``, ``DeclareLaunchArgument`` ..."""
     call: ast.Call
     module: PythonModule
     given: Mapping[str, ast.expr]
-    """The arguments by name, where that is known."""
+    """The arguments by name, if known."""
     words: Mapping[str, ast.keyword]
     """The keyword arguments by name."""
     is_open: bool
-    """There is a ``*`` or ``**``: more arguments may be given."""
+    """Whether more arguments may be given with ``*`` or ``**``."""
 
     @property
     def location(self) -> Location:
-        """The place of what is called."""
+        """The location of the called name."""
         return self.module.location(self.call.func)
 
 
 def launch_call(module: PythonModule, node: ast.Call) -> LaunchCall | None:
-    """Return the view of a call if it is one of launch's."""
+    """Return the view of a call of launch, else ``None``."""
     called = module.qualified_names(node.func)
     kinds = {name.rpartition(".")[2] for name in called if name.startswith(_MODULES)}
     if len(kinds) != 1 or any(".events." in name for name in called):

@@ -24,7 +24,7 @@ UNSAID = "$"
 _PROCESSES = ("ExecuteProcess", "ExecuteLocal")
 _RUN = ["ros2", "run"]
 _WORD = re.compile(r"(?:\$\([^()]*(?:\([^()]*\)[^()]*)*\)|[^\s$]|\$)+")
-"""Matches a word of a command line; launch takes a substitution for a part of one."""
+"""Matches a word of a command line; a substitution is a part of one."""
 _FOUND = re.compile(r"\$\(find-exec\s+([^\s()$]+)\s*\)")  # linear: spaces, and what is none
 
 
@@ -34,13 +34,13 @@ class Word(NamedTuple):
     text: str
     location: Location
     node: ast.expr | None = None
-    """The expression of it; the same for several words that one expression gives."""
+    """Its expression, which may give several words."""
     span: tuple[int, int] | None = None
-    """Where it is in the value of an attribute."""
+    """Its range in the value of an attribute."""
 
     @property
     def is_no_number(self) -> bool:
-        """Whether ``std::stod`` refuses it, which only looks at how a text begins."""
+        """Whether ``std::stod`` rejects it, which only reads the start of a text."""
         begins = r"\s*[-+]?(?:\.?[0-9]|inf|nan)"
         return UNSAID not in self.text and not re.match(begins, self.text, re.IGNORECASE)
 
@@ -51,24 +51,24 @@ class CommandLine(NamedTuple):
     location: Location
     """The place of the action."""
     given: Location
-    """The place of the words."""
+    """The location of the words."""
     words: Sequence[Word]
     launch: LaunchFile | None = None
     expression: ast.expr | None = None
-    """What gives the words in Python."""
+    """The expression of the words in Python."""
     attribute: Attribute | None = None
-    """What holds them in XML and YAML."""
+    """Their attribute in XML and YAML."""
 
 
 def static_transforms(package: Package) -> Iterator[CommandLine]:
-    """Yield what the launch files of a package give static_transform_publisher."""
+    """Yield the command lines of static_transform_publisher in launch files."""
     return command_lines(package, PROGRAM)
 
 
 def command_lines(package: Package, program: str) -> Iterator[CommandLine]:
-    """Yield what the launch files of a package give a program.
+    """Yield the command lines of a program in launch files.
 
-    The words between ``--ros-args`` and ``--`` are left out.
+    The words between ``--ros-args`` and ``--`` are skipped.
     """
     for launch in LaunchFile.of_package(package):
         for call in launch.find(*NODES):
@@ -88,7 +88,7 @@ def command_lines(package: Package, program: str) -> Iterator[CommandLine]:
 
 
 def processes(package: Package) -> Iterator[CommandLine]:
-    """Yield the command lines that are started as they are, ``ros2 run ...`` among them."""
+    """Yield the literal command lines, such as ``ros2 run ...``."""
     for launch in LaunchFile.of_package(package):
         for call in launch.find(*_PROCESSES):
             yield from _in_python(launch, call, "cmd")
@@ -121,7 +121,7 @@ def _split(attribute: Attribute) -> list[Word]:
 
 
 def _text(word: str) -> str:
-    """Return a word of markup; of a program that launch looks for, its name."""
+    """Return a word of markup; for a program found by launch, its name."""
     substitution = _FOUND.fullmatch(word)
     if substitution:
         return substitution[1]
@@ -129,7 +129,7 @@ def _text(word: str) -> str:
 
 
 def _own(words: Sequence[Word]) -> Sequence[Word]:
-    """Return the words that are for the program, not for ROS."""
+    """Return the words for the program, without ROS arguments."""
     result: list[Word] = []
     is_for_ros = False
     for word in words:
@@ -143,9 +143,9 @@ def _own(words: Sequence[Word]) -> Sequence[Word]:
 
 
 def start_of_value(source: Source, attribute: Attribute) -> int | None:
-    """Return where the value of an attribute starts, within the quotes of YAML if it has them.
+    """Return the start of the value of an attribute, after the quote in YAML.
 
-    ``None`` where it is not written as it is read, as with escapes.
+    ``None`` if the text and the value differ, as with escapes.
     """
     start = source.offset(attribute.location.line, attribute.location.column)
     if source.text.startswith(attribute.value, start):

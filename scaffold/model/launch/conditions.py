@@ -17,7 +17,7 @@ from scaffold.record import NamedTuple
 from scaffold.source import Source, ViewError
 
 HOLE = "__unknown__"
-"""Marks unknown parts of a text. It is a valid Python name, as the text may be an expression."""
+"""The placeholder of unknown parts: a valid Python name, as the text may be an expression."""
 _TRUE = frozenset({"true", "1"})
 _FALSE = frozenset({"false", "0"})
 _LONGEST = 1000
@@ -27,7 +27,7 @@ class Text(NamedTuple):
     """The value of a substitution."""
 
     value: str
-    """With `HOLE` for each part that is not known."""
+    """The text, with `HOLE` for each unknown part."""
     is_asked: bool = False
     """Whether the distribution decides it."""
 
@@ -36,7 +36,7 @@ UNKNOWN = Text(HOLE)
 
 
 def truth(text: Text) -> bool | None:
-    """Return whether a condition is true on the target; ``None`` if it does not decide that."""
+    """Return whether a condition is true on the target; ``None`` if that is open."""
     return _holds(text) if text.is_asked else None
 
 
@@ -46,26 +46,26 @@ def _holds(text: Text) -> bool | None:
 
 
 def as_text(decision: bool | None, *, is_asked: bool) -> Text:  # noqa: FBT001  three values
-    """Return a decision as the text that launch would read."""
+    """Return a decision as text for launch."""
     return Text(HOLE if decision is None else str(decision).lower(), is_asked)
 
 
 def joined(parts: Iterable[Text]) -> Text:
-    """Return texts one after the other, as launch joins lists of substitutions."""
+    """Join texts like launch joins lists of substitutions."""
     listed = [*parts]
     return Text("".join(text.value for text in listed), any(text.is_asked for text in listed))
 
 
 def of_environment(name: str) -> Text:
-    """Return the value of a variable of the environment."""
+    """Return the value of an environment variable."""
     return Text(target().name, is_asked=True) if name == VARIABLE else UNKNOWN
 
 
 def applied(kind: str, operands: Sequence[Text]) -> Text:
-    """Return what a substitution gives.
+    """Return the value of a substitution.
 
     Args:
-        kind: What XML calls it, such as ``equals``.
+        kind: Its name in XML, such as ``equals``.
         operands: Its arguments.
     """
     is_asked = any(operand.is_asked for operand in operands)
@@ -89,7 +89,7 @@ def applied(kind: str, operands: Sequence[Text]) -> Text:
 
 
 def _evaluated(expression: Text) -> Text:
-    """Return what an expression of Python gives; nothing in it is run."""
+    """Evaluate a Python expression statically."""
     if len(expression.value) > _LONGEST:
         return UNKNOWN
     try:

@@ -7,21 +7,21 @@ from collections.abc import Iterator, Mapping, Sequence
 from scaffold.model.launch.conditions import UNKNOWN, Text, applied, joined, truth
 
 _DEEPEST = 20
-"""Substitutions in each other, and variables that are followed."""
+"""The maximum depth of nested substitutions and variables."""
 
 
 class Variables:
     """The values of ``$(var name)``.
 
     Args:
-        given: What ``<let>`` and ``<arg>`` of the file give each of them.
+        given: The values in ``<let>`` and ``<arg>`` of the file.
     """
 
     def __init__(self, given: Mapping[str, Sequence[str]]) -> None:
         self._given = given
 
     def decide(self, condition: str) -> bool | None:
-        """Return whether an ``if`` is true on the target; ``None`` if it does not decide that."""
+        """Return whether an ``if`` is true on the target; ``None`` if that is open."""
         return truth(self.text(condition))
 
     def text(self, value: str, depth: int = 0) -> Text:
@@ -47,14 +47,14 @@ class Variables:
         yield Text(value[at:])
 
     def _variable(self, name: str, depth: int) -> Text:
-        """Return the value of a variable that the distribution decides; others may be given."""
+        """Return the value of a variable that depends on the distribution; others may be set."""
         values = self._given.get(name, ())
         text = self.text(values[0], depth + 1) if len(values) == 1 else UNKNOWN
         return text if text.is_asked else UNKNOWN
 
 
 def _closing(value: str, at: int) -> int:
-    """Return where a substitution ends whose text begins at a place; -1 if it does not end."""
+    """Return the end of a substitution whose text starts at an offset; -1 if unterminated."""
     quotes = [""]
     while at < len(value):
         letter = value[at]

@@ -22,10 +22,10 @@ _OPERATORS: Mapping[str, str] = {
     "EnvironmentVariable": "env",
     "PythonExpression": "eval",
 }
-"""Substitutions whose arguments are texts, as XML calls them."""
+"""Substitutions with string arguments, by their names in XML."""
 _OF_LISTS: Mapping[str, str] = {"AllSubstitution": "all", "AnySubstitution": "any"}
 _FIRST: Mapping[str, int] = {"EnvironmentVariable": 1, "PythonExpression": 1}
-"""How many of the arguments count."""
+"""The number of arguments used."""
 _SETTERS = {"DeclareLaunchArgument": "default_value", "SetLaunchConfiguration": "value"}
 _DEEPEST = 20
 
@@ -37,7 +37,7 @@ class Conditions:
         self._launch = launch
 
     def holds(self, node: ast.expr) -> bool | None:
-        """Return whether a condition is true; ``None`` if the distribution does not decide it."""
+        """Return whether a condition is true; ``None`` if not up to the distribution."""
         call = self._launch.call_of(node)
         if call is None:
             return None
@@ -54,7 +54,7 @@ class Conditions:
         return None
 
     def text(self, node: ast.expr, depth: int = 0) -> Text:
-        """Return what a substitution, a list of them or a text gives."""
+        """Return the text of a substitution, a list of them or a string."""
         if depth > _DEEPEST:
             return UNKNOWN
         if isinstance(node, ast.List | ast.Tuple):
@@ -66,7 +66,7 @@ class Conditions:
         return self._plain(node) if call is None else self._substituted(call, depth)
 
     def _plain(self, node: ast.expr) -> Text:
-        """Return what an expression gives while Python reads the file."""
+        """Return the value of an expression when Python executes the file."""
         module = self._launch.module
         match node:
             case ast.Call(func=ast.Name(id="str"), args=[inner], keywords=[]):
@@ -94,7 +94,7 @@ class Conditions:
         return [self.text(node, depth + 1) for node in nodes]
 
     def _configured(self, name: object, depth: int) -> Text:
-        """Return a launch configuration that the distribution decides; others may be given."""
+        """Return a launch configuration that depends on the distribution; others may be set."""
         values = [
             call.given.get(_SETTERS[call.kind])
             for call in self._launch.find(*_SETTERS)

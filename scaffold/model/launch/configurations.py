@@ -19,13 +19,13 @@ _SETTERS = ("DeclareLaunchArgument", "SetLaunchConfiguration", "SetLaunchConfigu
 _BY_LAUNCH = frozenset({"ros_namespace", "global_params", "ros_remaps", "launch_file_directory"})
 _ENDINGS = (".py", ".xml", ".yaml", ".yml")
 _COMPUTED = re.compile(r"(?:[}%]|\+ ?['\"])([\w.-]*launch\.(?:py|xml|ya?ml))")
-"""Matches the known end of a name that is put together, ``f'{world}.launch.py'``."""
+"""Matches the known end of a computed name, ``f'{world}.launch.py'``."""
 
 
 def set_names(
     package: Package, launch: LaunchFile, seen: frozenset[str] = frozenset()
 ) -> set[str] | None:
-    """Return the configurations that a file sets, with those that it includes.
+    """Return the configurations set by a file and its included files.
 
     Returns:
         ``None`` if unknown: names are computed, or unknown files are included.
@@ -50,7 +50,7 @@ def set_names(
 def may_be_set_elsewhere(package: Package, launch: LaunchFile, name: str) -> bool:
     """Tell whether another launch file of the workspace includes this one and sets the name.
 
-    Or includes, next to this one, a third file that sets it.
+    Or includes this one and a third file that sets it.
     """
     basename = launch.path.rpartition("/")[2]
     including = [
@@ -67,7 +67,7 @@ def may_be_set_elsewhere(package: Package, launch: LaunchFile, name: str) -> boo
 
 
 def _may_compute(text: str, basename: str) -> bool:
-    """Tell whether a launch file puts together names of files that may be this one."""
+    """Tell whether a launch file computes file names that may be this one."""
     return any(basename.endswith(match[1]) for match in _COMPUTED.finditer(text))
 
 
@@ -102,7 +102,7 @@ def _has_own_actions(launch: LaunchFile) -> bool:
 
 
 def _given(launch: LaunchFile, call: LaunchCall) -> set[str] | None:
-    """Return the names that an include sets: they stay set afterwards."""
+    """Return the names that an include sets, also for later actions."""
     node = call.given.get("launch_arguments")
     if node is None:
         return None if call.is_open else set()

@@ -23,9 +23,9 @@ if TYPE_CHECKING:
 Stretch = tuple[int, int, int, int]
 """Line and column of the start and of the end."""
 _KEYS = {"if": False, "unless": True}
-"""The conditions, with what leaves an action out."""
+"""The conditions, with the value that skips an action."""
 _VALUES = {"let": "value", "arg": "default"}
-"""What gives variables their values."""
+"""Elements that set variables."""
 
 
 def has_conditions(package: Package, path: str) -> bool:
@@ -34,7 +34,7 @@ def has_conditions(package: Package, path: str) -> bool:
 
 
 def stretches_not_run(package: Package, path: str) -> Iterator[Stretch]:
-    """Yield the places of actions that are not run on the target distribution.
+    """Yield the locations of actions that are not run on the target distribution.
 
     Raises:
         ViewError: the file cannot be read.
@@ -60,7 +60,7 @@ def _in_python(launch: LaunchFile) -> Iterator[Stretch]:
 
 
 def _held(launch: LaunchFile, group: LaunchCall) -> Iterator[Stretch]:
-    """Yield the actions of a group that are made before it, and used there alone."""
+    """Yield the actions of a group that are created before it and only used there."""
     actions = group.given.get("actions")
     for item in actions.elts if isinstance(actions, ast.List) else ():
         if not isinstance(item, ast.Name) or len(launch.module.index.names(item.id)) > 2:  # noqa: PLR2004  set and used
@@ -99,7 +99,7 @@ def _in_yaml(source: Source) -> Iterator[Stretch]:
 
 
 def _mappings(roots: Iterable[YamlNode]) -> Iterator[tuple[str, Mapping]]:
-    """Yield the mappings of a file, each with what it is the value of."""
+    """Yield the mappings of a file, each with its key."""
     pending: list[tuple[str, YamlNode]] = [("", root) for root in roots]
     for tag, node in pending:  # grows on the way
         if isinstance(node, Sequence):
@@ -110,7 +110,7 @@ def _mappings(roots: Iterable[YamlNode]) -> Iterator[tuple[str, Mapping]]:
 
 
 def _end(node: YamlNode) -> tuple[int, int]:
-    """Return where the last text in a node ends."""
+    """Return the end of the last text in a node."""
     if isinstance(node, Mapping):
         parts: list[YamlNode] = [part for pair in node.pairs for part in pair]
     else:
@@ -120,7 +120,7 @@ def _end(node: YamlNode) -> tuple[int, int]:
 
 
 def _variables(elements: Iterable[tuple[str, Callable[[str], str | None]]]) -> Variables:
-    """Return the variables that elements set, from their tags and what returns attributes."""
+    """Return the variables set by elements."""
     given: dict[str, list[str]] = {}
     for tag, attribute in elements:
         name = attribute("name") if tag in _VALUES else None

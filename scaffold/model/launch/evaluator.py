@@ -13,11 +13,11 @@ if TYPE_CHECKING:
     from scaffold.model.python.module import PythonModule
 
 SHARE = "/<share>/"
-"""In front of a package's name, in the values of expressions: its share directory."""
+"""The prefix of a package name that stands for its share directory in values."""
 
 
 class LaunchEvaluator(Evaluator):
-    """Knows the share directories of packages, and substitutions that are constant."""
+    """An evaluator that knows share directories and constant substitutions."""
 
     module: PythonModule
 
@@ -26,7 +26,7 @@ class LaunchEvaluator(Evaluator):
         self._package_name = package_name
 
     def call(self, node: ast.Call) -> object:
-        """Return the value of a call of launch; that of a substitution is its text."""
+        """Return the value of a call of launch, for a substitution its text."""
         launch = launch_call(self.module, node)
         if launch is None:
             return self._found_package(node)
@@ -75,7 +75,7 @@ class LaunchEvaluator(Evaluator):
 
 
 def share_path(value: object) -> tuple[str, str] | None:
-    """Return the package and the path below its share directory that a value refers to."""
+    """Split a value into the package and the path below its share directory."""
     text = value.text if isinstance(value, PathValue) else value
     if not isinstance(text, str) or not text.startswith(SHARE):
         return None

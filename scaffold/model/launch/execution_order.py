@@ -19,9 +19,9 @@ _AT_ONCE = (
     *("DeclareLaunchArgument", "ExecuteProcess", "IncludeLaunchDescription", "LogInfo"),
     *("PushRosNamespace", "SetEnvironmentVariable", "SetParameter", "SetRemap"),
 )
-"""Actions that read their values as soon as they are executed."""
+"""Actions that read their values when they are executed."""
 _HARMLESS = ("RegisterEventHandler", "TimerAction")
-"""Actions that do nothing by themselves, and set nothing."""
+"""Actions without effects of their own."""
 _MAY_SET = ("IncludeLaunchDescription", "OpaqueFunction")
 """Actions after which any configuration may be set."""
 _DEEPEST = 6
@@ -32,14 +32,14 @@ class Step(NamedTuple):
 
     action: LaunchCall
     reads: tuple[LaunchCall, ...]
-    """The launch configurations that it needs at once."""
+    """The launch configurations that it reads when executed."""
 
 
 def steps(launch: LaunchFile) -> list[Step] | None:
     """Return the actions of the only LaunchDescription, up to one that may set anything.
 
     Returns:
-        ``None`` when the order is not known: several descriptions, or actions that are added in
+        ``None`` if the order is unknown: several descriptions, or actions added in
         loops and branches.
     """
     descriptions = launch.find("LaunchDescription")
@@ -51,7 +51,7 @@ def steps(launch: LaunchFile) -> list[Step] | None:
 
 
 def _calls(launch: LaunchFile, nodes: list[ast.expr]) -> Iterator[LaunchCall]:
-    """Yield the actions up to one that is not understood, or that may set configurations."""
+    """Yield the actions up to an unknown one, or one that may set configurations."""
     for node in nodes:
         call = launch.call_of(node)
         if call is None or call.kind not in (*_AT_ONCE, *_HARMLESS, *_MAY_SET):
@@ -62,7 +62,7 @@ def _calls(launch: LaunchFile, nodes: list[ast.expr]) -> Iterator[LaunchCall]:
 
 
 def later_declarations(launch: LaunchFile, steps: list[Step]) -> dict[str, int]:
-    """Return the positions of the declarations, by name, where all of them are understood."""
+    """Return the positions of the declarations by name, if all are known."""
     result: dict[str, int] = {}
     places = {step.action.call: index for index, step in enumerate(steps)}
     for name, call in launch.declared.items():
@@ -108,7 +108,7 @@ def _step(launch: LaunchFile, call: LaunchCall) -> Step:
 
 
 def _performed(launch: LaunchFile, call: LaunchCall) -> Iterator[LaunchCall]:
-    """Yield the configurations whose text a function asks for, whatever happens in it."""
+    """Yield the configurations that a function always reads."""
     function = function_of(launch, call.given.get("function"))
     for statement in function.body if function is not None else ():
         if not isinstance(statement, ast.Assign | ast.Expr):

@@ -20,7 +20,7 @@ DATA_DIRECTORIES = ("config", "params", "param", "rviz", "urdf", "maps", "worlds
 
 
 def launch_files(package: Package) -> list[str]:
-    """Return the launch files: by their ending, or by ``generate_launch_description``."""
+    """Return the launch files, by file name or ``generate_launch_description``."""
     return [path for path in package.files if _is_launch_file(package, path)]
 
 
@@ -34,7 +34,7 @@ def data_files(package: Package, directory: str) -> list[str]:
 
 
 def is_named(package: Package, directory: str) -> bool:
-    """Tell whether code or a launch file of the workspace names a file of a data directory."""
+    """Tell whether code or a launch file of the workspace mentions a file of a data directory."""
     mine = (f"{directory}/", "test/", "tests/")
     elsewhere = [path for path in package.files if not path.startswith(mine)]
     names = _names(data_files(package, directory)) - _names(elsewhere)
@@ -62,7 +62,7 @@ def is_named(package: Package, directory: str) -> bool:
 
 
 def _is_of_neighbor(package: Package, name: str) -> bool:
-    """Tell whether another package has a data file of a name, so that it may be that one."""
+    """Tell whether another package has a data file with this name."""
     return any(
         name in _names(data_files(other, directory))
         for other in package.workspace
@@ -72,7 +72,7 @@ def _is_of_neighbor(package: Package, name: str) -> bool:
 
 
 def _is_named_in(text: str, name: str) -> bool:
-    """Tell whether a text names a file, and not by a path into a source tree."""
+    """Tell whether a text mentions a file, not as a path into a source tree."""
     for match in re.finditer(rf"{re.escape(name)}(?![\w.-])", text):
         line = text[max(0, match.start() - _LONGEST_PATH) : match.start()]
         path = re.split(r"[\"'\s=]", line)[-1]
@@ -82,7 +82,7 @@ def _is_named_in(text: str, name: str) -> bool:
 
 
 def _of_other_packages(package: Package, user: Package, path: str) -> set[str]:
-    """Return the names that a launch file gives to files in the share of other packages alone."""
+    """Return the names that a launch file uses only for files of other packages."""
     if not path.endswith(".py"):
         return set()
     try:

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from scaffold.model.package import Package
 
 Given = tuple[str, ast.expr, ast.expr]
-"""Name, its place, and the value of an argument."""
+"""Name, its location, and the value of an argument."""
 
 
 class Included(NamedTuple):
@@ -24,15 +24,15 @@ class Included(NamedTuple):
 
     path: str
     names: frozenset[str]
-    """What it declares, reads or sets."""
+    """The names that it declares, reads or sets."""
     required: frozenset[str]
-    """What it declares without a default."""
+    """The arguments that it declares without a default."""
     is_open: bool
-    """It may take other names too: it includes files, or has actions of others."""
+    """Whether it may accept other names: it includes files, or has foreign actions."""
 
 
 def given_arguments(launch: LaunchFile, call: LaunchCall) -> list[Given] | None:
-    """Return what an include gives; ``None`` when that is not known to its end."""
+    """Return the arguments of an include; ``None`` if not fully known."""
     node = call.given.get("launch_arguments")
     if node is None:
         return None if call.is_open else []
@@ -62,19 +62,19 @@ def given_arguments(launch: LaunchFile, call: LaunchCall) -> list[Given] | None:
 
 
 def _dictionary(launch: LaunchFile, node: ast.expr) -> ast.Dict | None:
-    """Return the dictionary that an expression is, or that a name holds which is read once."""
+    """Return the dictionary of an expression, or of a name that is read once."""
     literal = _read_once(launch, node) if isinstance(node, ast.Name) else node
     return literal if isinstance(literal, ast.Dict) else None
 
 
 def _read_once(launch: LaunchFile, name: ast.Name) -> ast.expr | None:
-    """Return what a name holds, to which nothing is added: it is read in one place alone."""
+    """Return the value of a name that is read only once, so that it is not changed."""
     uses = [use for use in launch.module.index.names(name.id) if isinstance(use.ctx, ast.Load)]
     return launch.module.index.only_value(name) if len(uses) == 1 else None
 
 
 def included(package: Package, launch: LaunchFile, call: LaunchCall) -> Included | None:
-    """Return what an include refers to, when it is a Python launch file of the same package."""
+    """Return the included file, if it is a Python launch file of the same package."""
     source = call.given.get("launch_description_source")
     inner = launch.call_of(source)
     is_source = inner is not None and inner.kind.endswith("Source")
@@ -103,7 +103,7 @@ def included(package: Package, launch: LaunchFile, call: LaunchCall) -> Included
 
 
 def _is_conditional(launch: LaunchFile, call: LaunchCall) -> bool:
-    """Tell whether an argument may not be declared: under a condition, or in a group."""
+    """Tell whether an argument may be undeclared: under a condition, or in a group."""
     if "condition" in call.given or launch.is_optional(call.call):
         return True
     parents = [

@@ -21,15 +21,15 @@ _FIND = r"\$\(find-pkg-share ([\w-]+)\)((?:/[\w.+-]+)*)(.?)"
 
 
 class _Element(NamedTuple):
-    """Something in a launch file."""
+    """An element of a launch file."""
 
     tag: str
     location: Location
     attributes: dict[str, Attribute]
     parameters: list[dict[str, Attribute]]
-    """The attributes of its parameters; in YAML, of those without quotes."""
+    """The attributes of its parameters; in YAML, those without quotes."""
     remappings: list[Attribute]
-    """What its remappings rename."""
+    """The remapped names."""
     has_parameter_files: bool
 
 
@@ -47,13 +47,13 @@ class MarkupNode(NamedTuple):
     name: Attribute | None
     location: Location
     parameters: list[tuple[Attribute, Attribute]]
-    """Name and value of those that are given one by one, without a type."""
+    """Name and value of single parameters without a type."""
     remappings: list[Attribute]
-    """The names that are remapped."""
+    """The remapped names."""
     parameter_names: frozenset[str] | None
-    """The parameters that are given; ``None`` if files or arguments may give others."""
+    """The given parameters; ``None`` if files or arguments may give others."""
     arguments: Attribute | None
-    """What is given on the command line."""
+    """The command-line arguments."""
 
 
 class MarkupPath(NamedTuple):
@@ -61,7 +61,7 @@ class MarkupPath(NamedTuple):
 
     package: str
     path: str
-    """Relative to the share directory; empty when it is not known to its end."""
+    """The path relative to the share directory; empty if not fully known."""
     location: Location
 
 
@@ -94,7 +94,7 @@ def markup_paths(package: Package) -> list[str]:
 
 
 def is_known(attribute: Attribute | None) -> bool:
-    """Tell whether the value of an attribute is given and has no substitutions."""
+    """Tell whether an attribute has a value without substitutions."""
     return attribute is not None and "$(" not in attribute.value and attribute.value != ""
 
 
@@ -149,7 +149,7 @@ def _node(path: str, element: _Element) -> MarkupNode:
 
 
 def _elements(package: Package, path: str) -> list[_Element]:
-    """Return everything in a launch file."""
+    """Return all elements of a launch file."""
     if path.endswith(".xml"):
         root = _document(package, path).root
         return [_of_xml(descendant) for descendant in root.descendants()]
@@ -233,5 +233,5 @@ def _renamed(remaps: Iterable[dict[str, Attribute]]) -> list[Attribute]:
 
 
 def changes_name(source: str, target: object) -> bool:
-    """Tell whether a remapping gives a name another one: many write the same one twice."""
+    """Tell whether a remapping changes a name, as some have the same name twice."""
     return not isinstance(target, str) or source.lstrip("/") != target.lstrip("/")

@@ -28,7 +28,7 @@ _PUSHES = ("PushRosNamespace", "PushROSNamespace")
 _LISTS = ("LaunchDescription", "add_action")
 _ARGUMENTS = frozenset({"arguments", "ros_arguments"})
 _SETTERS = ("SetParameter", "SetParametersFromFile")
-"""What may give a node parameters in other ways."""
+"""Names that may set parameters in other ways."""
 
 
 class GivenParameter(NamedTuple):
@@ -37,12 +37,12 @@ class GivenParameter(NamedTuple):
     name: str
     key_location: Location
     location: Location
-    """The place of the value."""
+    """The location of the value."""
     value: GivenValue | None
     is_configuration: bool
-    """The value is a launch configuration."""
+    """Whether the value is a launch configuration."""
     has_choices: bool
-    """It takes certain texts alone, none of which YAML reads as something else."""
+    """Whether it has choices, all of which are strings in YAML."""
 
 
 class StartedNode(NamedTuple):
@@ -51,20 +51,20 @@ class StartedNode(NamedTuple):
     launch: str
     """The path of the launch file."""
     location: Location
-    """The place of what is called."""
+    """The location of the called name."""
     package: str | Unknown | None
     executable: str | Unknown | None
     namespace: str | Unknown | None
     given_name: str | Unknown | None
     name_location: Location
-    """The place of the name; without one, of the action."""
+    """The location of the name, or of the action without one."""
     namespace_location: Location
-    """The place of the namespace; without one, of the action."""
+    """The location of the namespace, or of the action without one."""
     is_component: bool
     is_scoped: bool
-    """Whether something in the file may put it into another namespace."""
+    """Whether other actions may put it into another namespace."""
     is_certain: bool
-    """Whether it is started whenever the file is: under no condition, in no group."""
+    """Whether it is always started: under no condition, in no group."""
     has_parameters: bool
     parameter_files: tuple[tuple[str, bool], ...]
     """The parameter files of the own package, relative to its share directory.
@@ -73,16 +73,16 @@ class StartedNode(NamedTuple):
     that it includes, too.
     """
     parameters: tuple[GivenParameter, ...]
-    """Those that are given one by one."""
+    """The single parameters."""
     has_more_parameters: bool
-    """Whether files give some, or expressions that are not known."""
+    """Whether files or unknown expressions give more."""
     remappings: tuple[tuple[str, str | None, Location], ...]
-    """The names that are remapped, as far as they are known, with what to and their places."""
+    """The known remapped names, with their targets and locations."""
     default_namespace: str
     """The namespace of its group, unless an argument sets another one."""
 
     def owner(self, package: Package) -> KnownNode | None:
-        """Return its code, when it is Python of the package or of one of the workspace."""
+        """Return its code, if it is Python in this package or the workspace."""
         if not isinstance(self.executable, str) or not isinstance(self.package, str):
             return None
         return code_of(package, self.package, self.executable)
@@ -91,14 +91,14 @@ class StartedNode(NamedTuple):
         return self.owner(package) if self.package == package.name else None
 
     def name(self, package: Package) -> str | Unknown:
-        """Return the name as given, or as the code of the node gives it."""
+        """Return the given name, or that in the code of the node."""
         if self.given_name is not None:
             return self.given_name
         owner = self._own_code(package)
         return owner.node_name if owner is not None else UNKNOWN
 
     def full_name(self, package: Package) -> str | None:
-        """Return name and namespace, ``/robot1/talker``; ``None`` when one is not known."""
+        """Return namespace and name, ``/robot1/talker``; ``None`` if one is unknown."""
         name = self.name(package)
         if not isinstance(name, str) or isinstance(self.namespace, Unknown):
             return None
@@ -115,7 +115,7 @@ def code_of(package: Package, name: str, program: str) -> KnownNode | None:
     Args:
         package: The package with the launch file.
         name: The name of the package with the node.
-        program: What is started.
+        program: The executable.
     """
     owner = package if name == package.name else package.workspace.get(name)
     nodes = nodes_of(owner, program) if owner is not None else []
@@ -128,7 +128,7 @@ def started_nodes(package: Package) -> list[StartedNode]:
 
 
 def consumers(package: Package) -> list[StartedNode]:
-    """Return the nodes and components that the Python launch files give parameters."""
+    """Return the nodes and components with parameters in Python launch files."""
     return [node for node in _all_started(package) if node.has_parameters]
 
 
@@ -177,7 +177,7 @@ def _started(launch: LaunchFile, call: LaunchCall) -> StartedNode:
 
 
 def _default_namespace(launch: LaunchFile, call: LaunchCall) -> str:
-    """Return the namespace that is pushed in the group of a node, by default; empty for none."""
+    """Return the default namespace pushed in the group of a node; empty if none."""
     pushes = launch.find(*_PUSHES)
     if len(pushes) != 1 or "namespace" in call.given or call.is_open:
         return ""
@@ -208,7 +208,7 @@ def _actions(group: LaunchCall) -> ast.expr:
 
 
 def parameter_items(launch: LaunchFile, call: LaunchCall) -> Sequence[ast.expr]:
-    """Return the items of ``parameters=``, where they are written."""
+    """Return the items of ``parameters=``."""
     node = call.given.get("parameters")
     if node is None:
         return ()
@@ -218,7 +218,7 @@ def parameter_items(launch: LaunchFile, call: LaunchCall) -> Sequence[ast.expr]:
 def parameters_given(
     launch: LaunchFile, call: LaunchCall
 ) -> Iterator[tuple[str, ast.expr, ast.expr]]:
-    """Yield name, name's place and value of the parameters that are given one by one."""
+    """Yield name, location of the name, and value of single parameters."""
     for node in parameter_items(launch, call):
         literal = launch.module.index.only_value(node) or node
         if isinstance(literal, ast.Dict):
@@ -228,7 +228,7 @@ def parameters_given(
 def _given_in(
     launch: LaunchFile, literal: ast.Dict, prefix: str
 ) -> Iterator[tuple[str, ast.expr, ast.expr]]:
-    """Yield what a dictionary gives; launch joins the names of those inside with points."""
+    """Yield the parameters of a dictionary; names in nested ones are joined with dots."""
     for key, value in zip(literal.keys, literal.values, strict=True):
         name = launch.evaluator.text(key)
         if key is None or not isinstance(name, str):
@@ -264,7 +264,7 @@ def _has_more_parameters(launch: LaunchFile, call: LaunchCall) -> bool:
 def _is_dictionary(launch: LaunchFile, node: ast.expr) -> bool:
     """Tell whether an item of ``parameters=`` is a dictionary with known names.
 
-    Also one that a variable holds.
+    Also through a variable.
     """
     values: list[ast.expr] = [node]
     if isinstance(node, ast.Name):
@@ -290,7 +290,7 @@ def _remappings(launch: LaunchFile, call: LaunchCall) -> Iterator[tuple[str, str
 
 
 def _has_choices(launch: LaunchFile, configuration: LaunchCall) -> bool:
-    """Tell whether an argument takes certain texts alone, none of them something else in YAML."""
+    """Tell whether an argument has choices, all of which are strings in YAML."""
     name = launch.evaluator.evaluate(configuration.given.get("variable_name"))
     for call in launch.calls:
         if call.kind == "DeclareLaunchArgument" and "choices" in call.given:
@@ -301,7 +301,7 @@ def _has_choices(launch: LaunchFile, configuration: LaunchCall) -> bool:
 
 
 def _is_text(value: object) -> bool:
-    """Tell whether YAML reads a word as text."""
+    """Tell whether YAML reads a word as a string."""
     return (
         isinstance(value, str)
         and re.fullmatch(r"[A-Za-z_][\w-]*", value) is not None
@@ -327,7 +327,7 @@ def _file_of(launch: LaunchFile, node: ast.expr) -> str | Unknown:
 
 
 def _is_handed_on(launch: LaunchFile, expression: ast.expr) -> bool:
-    """Tell whether a launch file gives a parameter file to a file that it includes, too."""
+    """Tell whether a launch file also passes a parameter file to an included file."""
     text = launch.module.text(expression)
     return any(
         text in launch.module.text(given)

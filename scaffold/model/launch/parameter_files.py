@@ -31,9 +31,9 @@ class FileUse(NamedTuple):
     """The use of a parameter file by a node."""
 
     nodes: list[StartedNode]
-    """The nodes that the launch files of the package give it to."""
+    """The nodes that get it in launch files of the package."""
     complete: bool
-    """Whether no other file of the package names it."""
+    """Whether no other file of the package mentions it."""
 
 
 class FileValue(NamedTuple):
@@ -42,11 +42,11 @@ class FileValue(NamedTuple):
     path: str
     entry: Entry
     declared: list[Declared]
-    """The declarations of the nodes that the value is for."""
+    """The declarations in the nodes of the value."""
 
 
 def values_in_files(package: Package) -> Iterator[FileValue]:
-    """Yield the values that the parameter files of a package give nodes."""
+    """Yield the values for nodes in the parameter files of a package."""
     from scaffold.model.parameters.files import parameter_file, parameter_paths
 
     for path in parameter_paths(package):
@@ -77,7 +77,7 @@ def _use_of(package: Package, path: str) -> FileUse:
 
 
 def nodes_for(package: Package, path: str, section: Section) -> list[KnownNode]:
-    """Return the code of the node that a section is for; none when that is not sure."""
+    """Return the code of the nodes of a section; empty if uncertain."""
     use = use_of(package, path)
     name = section.name
     owners: list[KnownNode | None]
@@ -101,14 +101,14 @@ def nodes_for(package: Package, path: str, section: Section) -> list[KnownNode]:
 
 
 _LOADERS = ("yaml.safe_load", "yaml.load", "yaml.full_load", "ruamel")
-"""What code that reads YAML itself mentions."""
+"""Words in code that reads YAML itself."""
 
 
 def is_loaded(package: Package, path: str, owners: Sequence[KnownNode] = ()) -> bool:
     """Tell whether Python code of the workspace loads a parameter file itself, as YAML.
 
-    Then it may hold what is for that code alone. The code names the file, or is that of the nodes
-    that the file is for: they may get its name as a parameter.
+    Then it may have values only for that code. The code mentions the file, or is that of the nodes
+    of the file, which may get its name as a parameter.
     """
     if any(owner.path in _code_loading_yaml(owner.home(package)) for owner in owners):
         return True
@@ -131,7 +131,7 @@ def _code_loading_yaml(package: Package) -> list[str]:
 
 
 def node_names(package: Package) -> set[str]:
-    """Return all names of nodes that the package mentions: in its code, in its launch files."""
+    """Return all names of nodes in the code and launch files of the package."""
 
     def find() -> set[str]:
         names = {str(node.node_name) for node in own_nodes(package)[0]}
@@ -142,13 +142,13 @@ def node_names(package: Package) -> set[str]:
 
 
 def names_alike(file: ParameterFile, names: set[str], name: str) -> list[str]:
-    """Return the nodes without a section of the file that one for ``name`` may be meant for."""
+    """Return the nodes without a section that one for ``name`` may be meant for."""
     given = {section.name for section in file.sections}
     return [other for other in sorted(names - given) if _is_alike(name, other)]
 
 
 def _is_alike(name: str, other: str) -> bool:
-    """Tell whether one name of a node may be meant to be the other."""
+    """Tell whether one node name may be a misspelling of the other."""
     first, second = name.replace("_", "").lower(), other.replace("_", "").lower()
     if first == second:
         return name != other
@@ -158,7 +158,7 @@ def _is_alike(name: str, other: str) -> bool:
 
 
 def _is_mentioned(package: Package, path: str, launch_files: set[str]) -> bool:
-    """Tell whether a launch file that is not known to use a parameter file names it."""
+    """Tell whether a launch file mentions a parameter file in an unknown way."""
     name = path.rpartition("/")[2]
     for other in package.files:
         if other.endswith(_LAUNCH_ENDINGS) and other not in launch_files and other != "setup.py":
@@ -178,7 +178,7 @@ def _mentions(package: Package, path: str, name: str) -> bool:
 
 @fact
 def _parameter_files_named_in(package: Package, path: str) -> frozenset[str]:
-    """Return what may be the name of a parameter file, or end with it; raises ViewError."""
+    """Return the strings that may be or end with the name of a parameter file; raises ViewError."""
     text = package.source(path).text
     is_any = ".yaml" in text or ".yml" in text
     return frozenset(_FILE_NAME.findall(text) if is_any else ())

@@ -19,15 +19,15 @@ class GivenValue(NamedTuple):
 
     type: str
     text: str
-    """For people."""
+    """The text, for messages."""
     number: float | None = None
-    """What it is, if it is a number."""
+    """The value, if it is a number."""
 
 
 def value_given(launch: LaunchFile, node: ast.expr) -> GivenValue | None:
-    """Return the value of a parameter and its type; ``None`` when that is not sure.
+    """Return the value of a parameter and its type; ``None`` if uncertain.
 
-    A launch configuration is a text that launch reads as YAML, so ``10`` is an integer.
+    The text of a launch configuration is parsed as YAML, so ``10`` is an integer.
     """
     call = launch.call_of(node)
     kind: str | None
@@ -58,5 +58,5 @@ def _list_given(value: list[object] | tuple[object, ...]) -> GivenValue | None:
 
 
 def _is_more_than_a_word(text: str) -> bool:
-    """Tell whether YAML may read a text as something else than a word or a number."""
+    """Tell whether YAML may read a text as other than a word or a number."""
     return text == "" or any(character in text for character in "'\"[]{}:#&*!|>%@`, \n")

@@ -33,7 +33,7 @@ class PackageUse(NamedTuple):
     location: Location
     node: ast.expr
     action: LaunchCall | None
-    """The node that is started from it; ``None`` where a file of it is looked for."""
+    """The node action; ``None`` if a file of the package is used."""
 
 
 class SharePath(NamedTuple):
@@ -47,7 +47,7 @@ class SharePath(NamedTuple):
 
 
 def launch_paths(package: Package) -> list[str]:
-    """Return the Python files that import launch; those that only tests use are skipped."""
+    """Return the Python files that import launch, except those only used by tests."""
 
     def find() -> Iterator[str]:
         for path in package.python_files:
@@ -80,7 +80,7 @@ class LaunchFile:
 
     @classmethod
     def of_package(cls, package: Package) -> list[LaunchFile]:
-        """Return the launch files of a package; those that only tests use are skipped."""
+        """Return the launch files of a package, except those only used by tests."""
 
         def find() -> Iterator[LaunchFile]:
             for path in launch_paths(package):
@@ -112,7 +112,7 @@ class LaunchFile:
 
     @cached_property
     def _replaced(self) -> set[ast.stmt]:
-        """The functions of the module that a later one of the same name takes the place of."""
+        """The functions of the module that a later one of the same name replaces."""
         last: dict[str, ast.stmt] = {}
         result: set[ast.stmt] = set()
         for statement in self.module.tree.body:
@@ -128,7 +128,7 @@ class LaunchFile:
         return [call for call in self.calls if call.kind in kinds]
 
     def call_of(self, node: ast.expr | None) -> LaunchCall | None:
-        """Return the call that an expression is, or the name of one is assigned once."""
+        """Return the call of an expression, also through a name assigned once."""
         for _ in range(10):
             if isinstance(node, ast.Call):
                 return launch_call(self.module, node)
@@ -136,7 +136,7 @@ class LaunchFile:
         return None
 
     def text(self, call: LaunchCall, name: str) -> str | Unknown | None:
-        """Return the text of an argument; ``None`` when it is not given."""
+        """Return the text of an argument; ``None`` if not given."""
         if name not in call.given:
             return UNKNOWN if call.is_open else None
         return self.evaluator.joined_text(call.given[name])
@@ -171,7 +171,7 @@ class LaunchFile:
 
     @cached_property
     def package_uses(self) -> Sequence[PackageUse]:
-        """The packages that it starts nodes of or looks for files in."""
+        """The packages whose nodes it starts or whose files it uses."""
         uses: list[PackageUse] = []
         for call in self.calls:
             if call.kind in {*NODES, "ComposableNode"}:
@@ -189,7 +189,7 @@ class LaunchFile:
 
     @cached_property
     def programs(self) -> Sequence[tuple[str, ast.expr]]:
-        """The programs that are run by name, ``xacro`` or ``ros2 bag``, with their places."""
+        """The programs run by name, ``xacro`` or ``ros2 bag``, with their locations."""
         result: list[tuple[str, ast.expr]] = []
         looked_for = {self.text(call, "name") for call in self.find("FindExecutable")}
         for call in self.find("Command", "FindExecutable", "ExecuteProcess", "ExecuteLocal"):
@@ -210,7 +210,7 @@ class LaunchFile:
         return result
 
     def _words(self, node: ast.expr | None) -> tuple[list[str], ast.expr | None]:
-        """Return the first words of a command, as far as they are known, and their place."""
+        """Return the known first words of a command, and their location."""
         text = self.evaluator.evaluate(node) if node is not None else UNKNOWN
         if isinstance(text, str):
             return text.split()[:2], node
@@ -224,13 +224,13 @@ class LaunchFile:
         return words[:2], items[0].node if items else None
 
     def is_optional(self, node: ast.AST) -> bool:
-        """Tell whether an expression is evaluated only if Python decides so, or may fail."""
+        """Tell whether an expression is evaluated under a Python condition, or may fail."""
         kinds = (ast.If, ast.IfExp, ast.Try, ast.match_case)
         return any(isinstance(parent, kinds) for parent in self.module.parents(node))
 
     @cached_property
     def share_paths(self) -> Sequence[SharePath]:
-        """The paths below share directories, each where it is complete."""
+        """The complete paths below share directories."""
         paths: list[SharePath] = []
         for node in self._path_expressions():
             path = share_path(self.evaluator.joined_text(node))
@@ -264,7 +264,7 @@ class LaunchFile:
         return share_path(self.evaluator.joined_text(node)) is not None
 
     def _is_extended(self, node: ast.expr) -> bool:
-        """Tell whether an expression is only the beginning of a path that is not known."""
+        """Tell whether an expression is only the start of an unknown path."""
         parent = self.module.parent(node)
         match parent:
             case ast.BinOp() | ast.FormattedValue() | ast.Attribute():

@@ -34,21 +34,21 @@ _OWNERS: Mapping[str, str] = {
     "ros2 control": "ros2controlcli",
     **{f"ros2 {verb}": f"ros2{verb}" for verb in (*_VERBS, "pkg", "run", "service", "topic")},
 }
-"""Programs that launch files run by name, each with the package that has it."""
+"""Programs that launch files run by name, with their packages."""
 
 
 class Reference(NamedTuple):
-    """A place where a launch file names a package."""
+    """A reference to a package in a launch file."""
 
     name: str
     location: Location
     executable: str | Unknown | None
-    """The program that is started from it; ``None`` where a file of it is looked for."""
+    """The started program; ``None`` if a file of the package is used."""
     executable_location: Location
     is_optional: bool = False
-    """Looked for under a condition that Python decides, or never: it may well not be there."""
+    """Whether it is used under a Python condition, or never, so that it may be missing."""
     program: str = ""
-    """What is run by its name alone: ``xacro``, ``ros2 bag``."""
+    """A program run by name: ``xacro``, ``ros2 bag``."""
 
 
 class Suggestion(NamedTuple):
@@ -108,7 +108,7 @@ def _in_xml(package: Package) -> Iterator[Reference]:
 
 
 def exists(package: Package, name: str) -> bool:
-    """Tell whether a package is known: itself, of the workspace, declared, or well known."""
+    """Tell whether a package is known: itself, in the workspace, declared, or released."""
     if name == package.name or name in ROS_PACKAGES or package.workspace.get(name) is not None:
         return True
     try:

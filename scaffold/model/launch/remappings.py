@@ -22,9 +22,9 @@ if TYPE_CHECKING:
     from scaffold.source import Location
 
 _ALWAYS = frozenset({"clock", "parameter_events", "rosout", "tf", "tf_static"})
-"""Topics that any node may have, by itself or through tf2."""
+"""Topics of any node, also through tf2."""
 _OTHER_ENDPOINTS = ("message_filters", "wait_for_message", "image_transport", "create_generic")
-"""Words of code that has topics in ways that are not read here."""
+"""Words in code with topics that are not analyzed here."""
 
 
 class Remapped(NamedTuple):
@@ -33,17 +33,17 @@ class Remapped(NamedTuple):
     owner: KnownNode
     program: str
     name: object
-    """The name that it runs under."""
+    """Its name at run time."""
     namespace: object
     """The namespace that the launch file gives it."""
     remappings: Collection[tuple[str, str | None, Location]]
-    """The names that are remapped, as far as they are known, with what to."""
+    """The known remapped names, with their targets."""
     parameters: Collection[str] | None
-    """The parameters that the launch file gives; ``None`` if not all are known."""
+    """The parameters given by the launch file; ``None`` if not all are known."""
 
 
 def remapped_nodes(package: Package) -> Iterator[Remapped]:
-    """Yield the nodes that launch files of a package give remappings."""
+    """Yield the nodes with remappings in launch files of a package."""
     for started in started_nodes(package):
         owner = started.owner(package) if started.remappings else None
         if owner is not None:
@@ -77,7 +77,7 @@ def remapped_nodes(package: Package) -> Iterator[Remapped]:
 def names_of(node: Remapped, package: Package) -> set[str] | None:
     """Return the topics, services and actions of a node as written; ``None`` if not all are known.
 
-    A parameter that the launch file gives may name any of them.
+    A parameter given by the launch file may set any of them.
     """
     owner = node.owner
     if not owner.is_class:
@@ -115,7 +115,7 @@ def _names_at(
 
 
 def has_name(names: set[str], source: str, node: object) -> bool:
-    """Tell whether a remapping's name may be one of those of a node."""
+    """Tell whether a remapping may apply to a name of a node."""
     wanted = source.rpartition(":")[2].partition("/_action/")[0].removeprefix("~").strip("/")
     last = wanted.rpartition("/")[2]
     if (
@@ -133,7 +133,7 @@ def has_name(names: set[str], source: str, node: object) -> bool:
 
 
 def is_reversed(names: set[str], source: str, target: str | None, node: object) -> bool:
-    """Tell whether a remapping leads to a name that a node has, from one that it has not."""
+    """Tell whether a remapping is reversed: the node has the target, not the source."""
     if target is None or any(name.startswith("/") for name in names):
         return False
     plain = {name.removeprefix("~").strip("/") for name in names}

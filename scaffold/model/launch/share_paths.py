@@ -28,7 +28,7 @@ _OF_MADE_FILES = frozenset(
     {"os.mknod", "os.remove", "os.unlink", "os.path.exists", "os.path.isfile"}
     | {"xacro.open_output"}
 )
-"""Functions that make, remove or ask for a file that need not be there."""
+"""Functions that create, remove or test for a file that need not exist."""
 
 _DATABASES = (".db", ".sqlite", ".sqlite3")
 
@@ -43,11 +43,11 @@ _PLACEHOLDER = re.compile(r"(?i:readme[^/]*|\.(?:git)?(?:keep|ignore)|\.placehol
 
 
 _OPTIONS = re.compile(r"\s-")
-"""Matches where options follow a file."""
+"""Matches the start of options after a file."""
 
 
 class NamedPath(NamedTuple):
-    """A path below the share directory of a package, named in a launch file."""
+    """A path below the share directory of a package in a launch file."""
 
     package: str
     path: str
@@ -55,7 +55,7 @@ class NamedPath(NamedTuple):
 
 
 def paths_of(package: Package) -> Iterator[NamedPath]:
-    """Yield the paths below share directories that launch files of a package name."""
+    """Yield the paths below share directories in launch files of a package."""
     for path in launch_paths(package):
         with suppress(ViewError):
             yield from _paths_of_launch_file(package, path)
@@ -81,12 +81,12 @@ def _paths_of_launch_file(package: Package, path: str) -> tuple[NamedPath, ...]:
 
 
 def _without_options(path: str) -> str:
-    """Return the file of ``worlds/empty.sdf -r``, which Gazebo takes apart."""
+    """Return the file of ``worlds/empty.sdf -r``, which Gazebo splits."""
     return _OPTIONS.split(path, 1)[0].rstrip()
 
 
 def _paths_of_nodes(package: Package) -> Iterator[NamedPath]:
-    """Yield the paths that the modules of a package read, and nothing else."""
+    """Yield the paths that the modules of a package only read."""
     of_launch = {*launch_paths(package)}
     for module in package.modules(mentioning=["get_package_share_"]):
         if module.path in of_launch or _is_of_tests(module.path):
@@ -104,7 +104,7 @@ def _is_of_tests(path: str) -> bool:
 
 
 def _is_only_read(file: LaunchFile, node: ast.expr) -> bool:
-    """Tell whether a path is opened for reading, and no function that may write it gets it."""
+    """Tell whether a path is only opened for reading, and not passed to other functions."""
     module = file.module
     holder = module.parent(node)
     targets = holder.targets if isinstance(holder, ast.Assign) else ()
@@ -118,13 +118,13 @@ def _is_only_read(file: LaunchFile, node: ast.expr) -> bool:
 
 
 def _owner(call: ast.Call) -> Iterator[ast.expr]:
-    """Yield what a method is called of: the path in ``path.read_text()``."""
+    """Yield the object of a method call: the path in ``path.read_text()``."""
     if isinstance(call.func, ast.Attribute):
         yield call.func.value
 
 
 def _reads(call: ast.Call) -> bool:
-    """Tell whether a call reads the file that it is given."""
+    """Tell whether a call reads the file passed to it."""
     name = getattr(call.func, "attr", getattr(call.func, "id", ""))
     if name != "open":
         return _READING.fullmatch(name) is not None
@@ -135,9 +135,9 @@ def _reads(call: ast.Call) -> bool:
 
 
 def _as_installed(package: Package, launch: LaunchFile, path: SharePath) -> Iterator[NamedPath]:
-    """Yield a path, with the directory of its launch file as it is after the installation.
+    """Yield a path relative to the installed directory of its launch file.
 
-    Nothing for a file next to a launch file that is not installed, but started from its source.
+    Nothing for a file next to a launch file that is only started from the sources.
     """
     named = NamedPath(path.package, _without_options(path.path), path.location)
     directory = posixpath.dirname(launch.path)
@@ -152,7 +152,7 @@ def _as_installed(package: Package, launch: LaunchFile, path: SharePath) -> Iter
 
 
 def _is_given_to_unknown(launch: LaunchFile, node: ast.expr) -> bool:
-    """Tell whether a function that Python looks up gets a path: it may ask whether it is there."""
+    """Tell whether a path is passed to an unknown function, which may test whether it exists."""
     call = launch.module.parent(node)
     if not (isinstance(call, ast.Call) and isinstance(call.func, ast.Name)):
         return False
@@ -166,14 +166,14 @@ def _is_given_to_unknown(launch: LaunchFile, node: ast.expr) -> bool:
 
 
 def is_never_used(launch: LaunchFile, node: ast.AST, seen: frozenset[str]) -> bool:
-    """Tell whether a path or an action only goes into a variable of a function that nothing uses.
+    """Tell whether a path or an action is only stored in an unused local variable.
 
-    Classes of launch look at their files when they are performed, functions may do so at once.
+    Classes of launch access files when executed, functions may do so immediately.
 
     Args:
         launch: The launch file.
-        node: The path, the action, or a variable that has it.
-        seen: Variables that led here.
+        node: The path, the action, or a variable with it.
+        seen: The variables followed so far.
     """
     names: set[str] = set()
     function: ast.AST | None = None
@@ -208,7 +208,7 @@ def _makes_object(call: ast.Call) -> bool:
 
 
 def _is_written(launch: LaunchFile, node: ast.expr) -> bool:
-    """Tell whether a launch file makes the file itself, ``open(path, 'w')``, or asks for it."""
+    """Tell whether a launch file writes the file itself, ``open(path, 'w')``, or tests for it."""
     holder = launch.module.parent(node)
     if isinstance(holder, ast.Dict) and _is_for_output(holder, node):
         return True
@@ -230,7 +230,7 @@ def _is_written(launch: LaunchFile, node: ast.expr) -> bool:
 
 
 def _is_redirected_to(command: ast.List, path: ast.expr) -> bool:
-    """Tell whether the shell writes to a path: ``'date > '`` is in front of it."""
+    """Tell whether the shell writes to a path: it follows ``'date > '``."""
     at = command.elts.index(path)
     before = command.elts[at - 1] if at else None
     return isinstance(before, ast.Constant) and str(before.value).rstrip().endswith(">")
@@ -246,13 +246,13 @@ def _is_for_output(parameters: ast.Dict, path: ast.expr) -> bool:
 
 
 def _is_demanded(launch: LaunchFile, call: ast.Call) -> bool:
-    """Tell whether a launch file raises an error when a file that it asks for is not there."""
+    """Tell whether a launch file raises an error if a tested file does not exist."""
     parents = [parent for parent in launch.module.parents(call) if isinstance(parent, ast.If)]
     return any(isinstance(node, ast.Raise) for parent in parents[:1] for node in ast.walk(parent))
 
 
 def missing_in(package: Package, named: NamedPath) -> str:
-    """Return the cause that the missing files of one directory share, or of a missing directory."""
+    """Return the common cause of missing files in one directory, or of a missing directory."""
     owner = package if named.package == package.name else package.workspace.get(named.package)
     installed = share_of(owner).files if owner is not None else {}
     *directories, _ = named.path.split("/")
@@ -262,7 +262,7 @@ def missing_in(package: Package, named: NamedPath) -> str:
 
 
 def why_missing(package: Package, named: NamedPath) -> str | None:
-    """Return why a path certainly does not exist; ``None`` if it does or that is unknown."""
+    """Return why a path certainly does not exist; ``None`` if it may exist."""
     owner = package if named.package == package.name else package.workspace.get(named.package)
     if owner is None or not _is_file_name(named.path):
         return None
@@ -279,15 +279,15 @@ def why_missing(package: Package, named: NamedPath) -> str | None:
 
 
 def _before_field(path: str) -> Callable[[str], bool]:
-    """Return what tells whether a file begins as a path does before ``{}``."""
+    """Return a function that tells whether a file matches a path before ``{}``."""
     start = path.partition("{")[0]
     return lambda file: file.startswith(start)
 
 
 def is_left_to_the_user(package: Package, named: NamedPath) -> bool:
-    """Tell whether the directory of a missing file is kept for what each user puts there.
+    """Tell whether the directory of a missing file is a placeholder for files of the user.
 
-    It is in the sources, with a README or ``.gitkeep`` and nothing else: weights of a model, say.
+    It only has a README or ``.gitkeep`` in the sources: weights of a model, for example.
     """
     owner = package if named.package == package.name else package.workspace.get(named.package)
     directory, _, _ = named.path.rpartition("/")
@@ -302,7 +302,7 @@ def is_left_to_the_user(package: Package, named: NamedPath) -> bool:
 
 
 def _reason(owner: Package, path: str, files: dict[str, str]) -> str | None:
-    """Return why a path is not among the installed files of its package."""
+    """Return why a path is not installed by its package."""
     where = [file for file in owner.files if _name(file) == _name(path)]
     installed = sorted(name for name, source in files.items() if source in where)
     if installed:
@@ -324,7 +324,7 @@ def _reason(owner: Package, path: str, files: dict[str, str]) -> str | None:
 
 
 def _is_converted(owner: Package, path: str) -> bool:
-    """Tell whether the build makes a URDF of a file of xacro."""
+    """Tell whether the build generates a URDF from a xacro file."""
     if owner.build_type != "ament_cmake":
         return False
     converters = owner.cmake.find("xacro_add_files", "xacro_add_xacro_file")
@@ -336,7 +336,7 @@ def _is_converted(owner: Package, path: str) -> bool:
 
 
 def _instead(owner: Package, path: str, installed: list[str]) -> str:
-    """Return where files of the same name are: the only one, or the one that reads most like it."""
+    """Return the installed file of the same name: the only one, or the closest."""
     if len(installed) == 1:
         return f"it is installed as share/{owner.name}/{installed[0]}"
     closest = get_close_matches(path, installed, 1, 0)
@@ -344,7 +344,7 @@ def _instead(owner: Package, path: str, installed: list[str]) -> str:
 
 
 def _nothing_of(path: str, installed: dict[str, str]) -> bool:
-    """Tell whether nothing of a usual directory of data is installed."""
+    """Tell whether no file of a common data directory is installed."""
     directory = path.partition("/")[0]
     return directory in {"launch", *DATA_DIRECTORIES} and not any(
         source.startswith(f"{directory}/") for source in installed.values()
@@ -356,7 +356,7 @@ def _name(path: str) -> str:
 
 
 def _is_file_name(path: str) -> bool:
-    """Tell a file from a directory, from the beginning of a name, and from a pattern."""
+    """Tell whether a path is a file name, not a directory, a prefix or a pattern."""
     stem, ending = posixpath.splitext(_name(path))
     is_pattern = not {"*", "?", "["}.isdisjoint(path)
     return bool(stem) and 2 <= len(ending) <= 8 and not is_pattern  # noqa: PLR2004  .py to .geojson

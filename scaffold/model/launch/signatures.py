@@ -81,7 +81,7 @@ _OTHERS: Mapping[str, str] = {
 }
 
 ACTIONS = frozenset(_ACTIONS)
-"""What the list of a LaunchDescription can contain."""
+"""The classes allowed in the list of a LaunchDescription."""
 
 
 class Signature(NamedTuple):
@@ -93,7 +93,7 @@ class Signature(NamedTuple):
 
 
 def signature(kind: str) -> Signature | None:
-    """Return the arguments of a class of launch; ``None`` for one that is not known."""
+    """Return the arguments of a class of launch; ``None`` if unknown."""
     return _signatures().get(kind)
 
 

@@ -38,11 +38,11 @@ class TextUse(NamedTuple):
     kind: str
     """The class of the substitution."""
     what: str
-    """What it is used for, for people."""
+    """A description of the use, for messages."""
 
 
 def text_uses(launch: LaunchFile) -> Iterator[TextUse]:
-    """Yield the places where Python treats a substitution as a text or as a truth value."""
+    """Yield the places where a substitution is used as a string or a truth value."""
     module = launch.module
     for sum_ in module.walk(ast.BinOp):
         yield from _in_sum(launch, sum_)
@@ -62,7 +62,7 @@ def text_uses(launch: LaunchFile) -> Iterator[TextUse]:
 
 
 def truth_tests(module: PythonModule) -> Iterator[ast.expr]:
-    """Yield the expressions whose truth Python looks at, without ``not``, ``and``, ``or``."""
+    """Yield the expressions tested for truth, without ``not``, ``and``, ``or``."""
     pending: list[ast.expr] = [item.test for item in module.walk(ast.If)]
     pending += [item.test for item in module.walk(ast.IfExp)]
     pending += [item.operand for item in module.walk(ast.UnaryOp) if isinstance(item.op, ast.Not)]
@@ -134,7 +134,7 @@ def _in_comparison(launch: LaunchFile, comparison: ast.Compare) -> Iterator[Text
 
 
 def _is_reported_as_condition(launch: LaunchFile, node: ast.expr) -> bool:
-    """Tell whether an expression is in an IfCondition, which has a rule of its own."""
+    """Tell whether an expression is in an IfCondition, which has its own rule."""
     for parent in launch.module.parents(node):
         if isinstance(parent, ast.stmt):
             return False
@@ -181,10 +181,10 @@ def failure(launch: LaunchFile, node: ast.expr | None) -> str:
 
 
 def never_equal(launch: LaunchFile, node: ast.expr | None) -> tuple[str, bool]:
-    """Return which launch argument an expression compares with a text that it does not take.
+    """Return the problem with a comparison of a launch argument with an impossible value.
 
     Returns:
-        What is wrong, empty if nothing, and whether that is so for all values it takes.
+        The problem, empty if there is none, and whether it holds for all values.
     """
     parts = node.elts if isinstance(node, ast.List) else []
     calls = [launch.call_of(part) for part in parts]
@@ -242,7 +242,7 @@ def _argument_never_is(launch: LaunchFile, argument: ast.expr, text: str) -> tup
 
 
 def _never_is(launch: LaunchFile, name: str, default: object, text: str) -> tuple[str, bool]:
-    """Return why a launch argument is never a text, by its choices or its default."""
+    """Return why a launch argument never has a value, by its choices or its default."""
     choices = launch.evaluator.evaluate(launch.declared[name].given.get("choices"))
     if isinstance(choices, list | tuple) and choices:
         is_known = all(isinstance(choice, str) for choice in choices) and text not in choices

@@ -10,10 +10,10 @@ from scaffold import distributions
 from scaffold.record import NamedTuple
 
 VARIABLES = frozenset({"ROS_VERSION", "ROS_DISTRO", "ROS_PYTHON_VERSION"})
-"""What conditions may ask for."""
+"""The variables allowed in conditions."""
 
 _NEAR = 0.75
-"""How much of a name has to be right for it to be a misspelled one."""
+"""The similarity from which a name is a misspelling."""
 _DISTRIBUTIONS = (*distributions.NAMES, *sorted(distributions.ENDED))
 _SYNTAX = r"""\s*(?:(?P<op>==|!=|<=|>=|<|>)|(?P<paren>[()])|(?P<text>"[^"]*"|'[^']*')"""
 _SYNTAX += r"""|(?P<variable>\$[A-Za-z0-9_]+)|(?P<word>[A-Za-z0-9_-]+))"""
@@ -40,13 +40,13 @@ class _Token(NamedTuple):
 
 
 def environment() -> Mapping[str, str]:
-    """Return the environment that packages are checked for."""
+    """Return the variables of conditions on the target."""
     name = distributions.target().name
     return {"ROS_VERSION": "2", "ROS_DISTRO": name, "ROS_PYTHON_VERSION": "3"}
 
 
 def holds(condition: str, variables: Mapping[str, str] | None = None) -> bool:
-    """Evaluate a condition; a variable that is not set is empty text.
+    """Evaluate a condition; an unset variable is an empty string.
 
     Args:
         condition: The condition.
@@ -60,7 +60,7 @@ def holds(condition: str, variables: Mapping[str, str] | None = None) -> bool:
 
 
 def names_unknown(condition: str) -> bool:
-    """Tell whether a condition asks for a variable that is not of ROS, but of who builds it."""
+    """Tell whether a condition uses a custom variable, not one of ROS."""
     return any(name not in VARIABLES for name in re.findall(r"\$([A-Za-z0-9_]+)", condition))
 
 
@@ -83,7 +83,7 @@ def misspelled(condition: str) -> Iterator[tuple[str, str]]:
 
 
 def _unknown_distributions(condition: str) -> list[str]:
-    """Return the names that ``$ROS_DISTRO`` is compared with and that no distribution has."""
+    """Return the unknown names that ``$ROS_DISTRO`` is compared with."""
     return [
         other.content
         for left, _, right in _comparisons(condition)
@@ -99,9 +99,9 @@ class Constant(NamedTuple):
 
     text: str
     variable: str
-    """The one that a text names, without its ``$``; empty for none."""
+    """The variable named by a literal without ``$``; empty if none."""
     offset: int
-    """Where the text with the name begins."""
+    """The offset of that literal."""
     value: bool
 
 
@@ -139,7 +139,7 @@ def is_never_true(condition: str) -> bool:
 
 
 def _comparisons(condition: str) -> Iterator[tuple[_Token, _Token, _Token]]:
-    """Yield what is compared, with the operator in the middle."""
+    """Yield the comparisons as operand, operator, operand."""
     tokens = _tokens(condition)
     for number, token in enumerate(tokens):
         if token.kind == "op":

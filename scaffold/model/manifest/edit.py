@@ -29,19 +29,19 @@ _SECTION = {tag: number for number, tags in enumerate(_ORDER) for tag in tags}
 
 
 def section(tag: str) -> int | None:
-    """Return the number of the section of the manifest that a tag belongs to, in order."""
+    """Return the index of the section of a tag, in schema order."""
     return _SECTION.get(tag)
 
 
 def insert(
     document: Document, tag: str, text: str, attributes: Mapping[str, str] | None = None
 ) -> Edit:
-    """Add an element below the root: in its sorted place among its like, else in its order."""
+    """Add an element below the root: in sorted order within its group, else in schema order."""
     return place(document, tag, text, render(tag, text, attributes))
 
 
 def insert_after(document: Document, element: Element, markup: str) -> Edit:
-    """Add markup after an element, on a line of its own if the element has one."""
+    """Add markup after an element, on a separate line if the element has one."""
     return _after(document, element, markup)
 
 
@@ -101,17 +101,17 @@ def reorder(document: Document) -> Edit | None:
 
 
 class InsertedDependency(NamedTuple):
-    """What an edit inserts: a dependency on a line of its own."""
+    """An inserted dependency on a separate line."""
 
     name: str
     rank: int
-    """Where its tag is by custom among those of dependencies."""
+    """The customary position of its tag."""
     is_before: bool
-    """Whether the line is put before another, and not after it."""
+    """Whether the line is inserted before another one, not after it."""
 
 
 def inserted_dependency(edit: Edit) -> InsertedDependency | None:
-    """Return what an edit inserts, if it is one dependency on a line of its own."""
+    """Return the dependency that an edit inserts on a separate line, else ``None``."""
     import re
 
     inserted = re.fullmatch(r"(\s*)<([a-z_]+)(?:\s[^<>]*)?>([^<>]+)</\2>(\s*)", edit.text)
@@ -124,7 +124,7 @@ def inserted_dependency(edit: Edit) -> InsertedDependency | None:
 
 
 def rename(document: Document, element: Element, tag: str) -> tuple[Edit, ...]:
-    """Give an element another tag."""
+    """Return the edits that change the tag of an element."""
     path = document.source.path
     start = element.start + 1
     edits = [Edit(path, start, start + len(element.tag), tag)]
@@ -143,7 +143,7 @@ def render(tag: str, text: str, attributes: Mapping[str, str] | None = None) -> 
 
 
 def escape(text: str, quote: str = "") -> str:
-    """Return text as it is written in XML."""
+    """Escape text for XML."""
     text = text.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")
     return text.replace('"', "&quot;") if quote == '"' else text
 
@@ -211,7 +211,7 @@ def _before(document: Document, element: Element, markup: str) -> Edit:
 
 
 def _rest_of_line(document: Document, element: Element) -> int | None:
-    """Return where the line of an element ends, after comments; None if more markup follows."""
+    """Return the end of the line of an element, after comments; None if more markup follows."""
     text = document.source.text
     at = element.end
     comments = {comment.start: comment.end for comment in document.comments}
@@ -239,7 +239,7 @@ def _indent_of(document: Document, element: Element) -> str:
 
 
 def _indentation(document: Document) -> str:
-    """Return what one level of this file is indented by."""
+    """Return the indentation of one level in this file."""
     outer = _indent_of(document, document.root)
     for child in document.root.children:
         inner = _indent_of(document, child)

@@ -52,7 +52,7 @@ class Dependency(NamedTuple):
 
     @property
     def is_optional(self) -> bool:
-        """Whether its condition is up to who builds the package: a variable that is not of ROS."""
+        """Whether its condition has a custom variable, which is set by the user."""
         if self.condition is None:
             return False
         from scaffold.model.manifest import conditions
@@ -61,7 +61,7 @@ class Dependency(NamedTuple):
 
     @property
     def may_be_active(self) -> bool:
-        """Whether its condition holds on the target, or is up to who builds the package."""
+        """Whether its condition holds on the target, or depends on the user."""
         return self.active or self.is_optional
 
 
@@ -122,7 +122,7 @@ class Manifest:
 
     @property
     def format(self) -> int:
-        """The format; 1 when none is declared, the newest when the number cannot be read."""
+        """The format; 1 if undeclared, the newest if invalid."""
         declared = self.declared_format
         if declared is None:
             return 1
@@ -162,9 +162,9 @@ class Manifest:
         ]
 
     def depends(self, *kinds: str) -> dict[str, Dependency]:
-        """Return the dependencies of some kinds (of all, if none is given) by name.
+        """Return the dependencies of some kinds (by default all) by name.
 
-        Of several on one package it is the first. Conditions are not checked.
+        The first one is returned for duplicates. Conditions are not checked.
         """
         if kinds not in self._depends:
             result: dict[str, Dependency] = {}
@@ -179,7 +179,7 @@ class Manifest:
         return {}
 
     def names_for(self, *purposes: str) -> set[str]:
-        """Return the packages that are there on Jazzy for some purposes.
+        """Return the packages available on Jazzy for some purposes.
 
         Args:
             purposes: Of ``build``, ``build_export``, ``run``, ``test`` and ``doc``.
@@ -192,22 +192,22 @@ class Manifest:
 
     @cached_property
     def build_names(self) -> set[str]:
-        """What is there when the package is built: ``buildtool_``, ``build_`` and ``depend``."""
+        """The packages available at build time: ``buildtool_``, ``build_`` and ``depend``."""
         return self.names_for("build")
 
     @cached_property
     def build_export_names(self) -> set[str]:
-        """What is there when another package is built against this one."""
+        """The packages available when another package is built against this one."""
         return self.names_for("build_export")
 
     @cached_property
     def run_names(self) -> set[str]:
-        """What is there when the package runs: ``exec_depend``, ``depend``, ``run_depend``."""
+        """The packages available at run time: ``exec_depend``, ``depend``, ``run_depend``."""
         return self.names_for("run")
 
     @cached_property
     def test_names(self) -> set[str]:
-        """What is there for tests beyond what building and running need: ``test_depend``."""
+        """The packages only available for tests: ``test_depend``."""
         return self.names_for("test")
 
     @cached_property
@@ -216,7 +216,7 @@ class Manifest:
         return {dependency.name for dependency in self.dependencies}
 
     def left_out(self, names: Container[str], *purposes: str) -> Dependency | None:
-        """Return a dependency on one of some packages that its condition leaves out on the target.
+        """Return a dependency on one of some packages whose condition is false on the target.
 
         Args:
             names: The packages.
@@ -249,7 +249,7 @@ class Manifest:
         return [child for export in self.all("export") for child in export.children]
 
     def note_on_export(self, text: str) -> str:
-        """Return what a message about a missing element adds if it is inside ``<export>``."""
+        """Return a note for a missing element that is inside ``<export>``."""
         for child in self.exports:
             if child.text == text and (child.tag in PURPOSES or child.tag == "member_of_group"):
                 return f"; line {child.location.line} is inside <export>, where it has no effect"
@@ -272,7 +272,7 @@ class Manifest:
 
     @cached_property
     def catkin(self) -> Dependency | None:
-        """The dependency on catkin of a package that is for ROS 1 alone."""
+        """The dependency on catkin of a package only for ROS 1."""
         names = self.build_names | self.run_names
         is_for_ros2 = bool(names & _OF_ROS2) or any(name.startswith("ament_") for name in names)
         if is_for_ros2 or self.build_type not in {None, "catkin"}:
@@ -294,13 +294,13 @@ class Manifest:
     # -- edits
 
     def insert(self, tag: str, text: str, attributes: Mapping[str, str] | None = None) -> Edit:
-        """Return the edit that adds an element below the root, where it belongs."""
+        """Return the edit that adds an element below the root, in order."""
         from scaffold.model.manifest import edit as manifest_edit
 
         return manifest_edit.insert(self.document, tag, text, attributes)
 
     def remove(self, element: Element) -> Edit:
-        """Return the edit that removes an element, with its line when it is alone there."""
+        """Return the edit that removes an element, with its line if it is alone there."""
         from scaffold.model.manifest import edit as manifest_edit
 
         return manifest_edit.remove(self.document, element)

@@ -11,10 +11,10 @@ if TYPE_CHECKING:
 
 
 def name_used_elsewhere(package: Package) -> str | None:
-    """Return the name that everything but package.xml uses, if that is so.
+    """Return the name that all files except package.xml use, if there is one.
 
-    The build file names the package otherwise, and more of the directory, the Python package,
-    the marker and setup.cfg agree with it than with package.xml: then package.xml is to blame.
+    The build file has another name, and more of the directory, the Python package,
+    the marker and setup.cfg agree with it than with package.xml: then package.xml is wrong.
     """
     return package.remember("name_used_elsewhere", lambda: _other_name(package))
 
@@ -44,7 +44,7 @@ def _built_name(package: Package) -> str | None:
 
 
 def _witnesses(package: Package, name: str) -> int:
-    """Count what else in the package has a name."""
+    """Count the other uses of a name in the package."""
     return sum(
         (
             package.directory.rstrip("/").rpartition("/")[2] == name,

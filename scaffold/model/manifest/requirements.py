@@ -24,34 +24,34 @@ if TYPE_CHECKING:
 
 INTERFACE_MODULES = frozenset({"msg", "srv", "action"})
 _OF_INTERFACES = [[], *([name] for name in sorted(INTERFACE_MODULES))]
-"""What follows the name of a package of interfaces in an import."""
+"""The submodules of interface packages."""
 _NOT_SHIPPED = ("doc/", "docs/", "setup.py", "conf.py")
 _ROS1 = frozenset({"rospy", "roslib"})
 _COMPILING = re.compile(
     r"\b(?:add_subdirectory|aux_source_directory|(?:target_)?include_directories)\s*\([^()]*\)"
 )
-"""Matches calls of CMake that name directories of C++."""
+"""Matches CMake calls with C++ directories."""
 _OLD_STANDARD_LIBRARY = frozenset({"distutils", "imp", "asynchat", "asyncore", "smtpd"})
 
 
 class Requirement(NamedTuple):
-    """An import that another package has to provide."""
+    """An import provided by another package."""
 
     keys: tuple[str, ...]
-    """The manifest keys that would do, the usual one first."""
+    """The suitable manifest keys, the usual one first."""
     module: str
     """The top-level name that is imported."""
     location: Location
     """The first import of it."""
     for_tests: bool
-    """Only tests import it."""
+    """Whether only tests import it."""
     for_launch: bool
-    """Only launch files import it."""
+    """Whether only launch files import it."""
     in_data: bool
-    """Only files import it that are installed to the share directory: no command starts them."""
+    """Whether only files in the share directory import it, which no command starts."""
 
     def is_stronger_than(self, other: Requirement) -> bool:
-        """Tell whether more depends on it: a test less than a program, data less than both."""
+        """Tell whether it is more important: programs before tests, tests before data."""
         return (self.in_data, self.for_tests) < (other.in_data, other.for_tests)
 
 
@@ -92,7 +92,7 @@ def shipped_imports(package: Package) -> Iterator[tuple[str, Sequence[Import]]]:
 
 
 def declared(package: Package, *, for_tests: bool) -> Declared:
-    """Return what is available when the package runs, or when its tests run."""
+    """Return the packages available to the package, or to its tests."""
     return package.remember(("declared", for_tests), lambda: _declared(package, for_tests))
 
 
@@ -129,7 +129,7 @@ def _declared(package: Package, for_tests: bool) -> Declared:  # noqa: FBT001  a
 def is_shipped(package: Package, path: str) -> bool:
     """Tell whether a file is installed or is a test; helper scripts and documentation are not.
 
-    A module of a Python package, a launch file, a test, or a script that a build file names.
+    A module of a Python package, a launch file, a test, or a script in a build file.
     """
     if path.startswith(_NOT_SHIPPED) or path.endswith(("/setup.py", "/conf.py")):
         return False
@@ -158,7 +158,7 @@ def _is_of_ros1(imports: Iterable[Import]) -> bool:
 
 
 def _is_data(package: Package, path: str) -> bool:
-    """Tell whether a script comes along in a directory that is installed with the data."""
+    """Tell whether a script is installed with a data directory."""
     directory, _, name = path.rpartition("/")
     if path.endswith("launch.py") or is_in_tests(path) or package.has(f"{directory}/__init__.py"):
         return False
@@ -175,7 +175,7 @@ def _is_data(package: Package, path: str) -> bool:
 
 
 def _is_collected(name: str) -> bool:
-    """Tell whether pytest, or launch_testing, runs a file of its own accord."""
+    """Tell whether pytest or launch_testing collects a file."""
     return is_collected(name) or name.endswith(".test.py") or "conftest" in name
 
 
@@ -195,7 +195,7 @@ def _is_imported_by_tests(package: Package, name: str) -> bool:
 
 
 def _is_for_tests(package: Package, path: str) -> bool:
-    """Tell whether only tests run a file; ``tf_test.py`` may be a program by that name."""
+    """Tell whether only tests run a file; ``tf_test.py`` may be a program."""
     directory, _, name = path.rpartition("/")
     if name.endswith(".launch.py") and not is_in_tests(f"{directory}/"):
         return False  # such as launch/test_arm.launch.py, which people start
@@ -216,7 +216,7 @@ def _programs(package: Package) -> frozenset[str]:
 
 
 def _is_named_for_tests(package: Package, path: str) -> bool:
-    """Tell whether CMake has to do with a file, or its directory, for tests alone."""
+    """Tell whether CMake uses a file, or its directory, only for tests."""
     try:
         cmake = package.cmake
     except ViewError:
@@ -227,7 +227,7 @@ def _is_named_for_tests(package: Package, path: str) -> bool:
 
 
 def _builds(package: Package, directory: str = "") -> Iterator[str]:
-    """Yield the texts of the build files, that of a directory below the top among them."""
+    """Yield the texts of the build files, including those of subdirectories."""
     own = [f"{directory}/CMakeLists.txt"] if directory else []
     for path in ("CMakeLists.txt", "setup.py", *own):
         try:
@@ -256,7 +256,7 @@ def _keys(package: Package, node: Import, local: frozenset[str]) -> tuple[str, .
 
 
 def _libraries(package: Package) -> frozenset[str]:
-    """Return the top-level packages of which modules are imported that hold no interfaces."""
+    """Return the top-level packages with imported modules other than interfaces."""
     return package.remember(
         "libraries that are imported",
         lambda: frozenset(
@@ -269,7 +269,7 @@ def _libraries(package: Package) -> frozenset[str]:
 
 
 def _keys_for_pip(keys: Sequence[str]) -> tuple[str, ...]:
-    """Return what rosdep calls the same modules where it gets them from Python's index."""
+    """Return the rosdep keys of the same modules installed with pip."""
     names = [key.removeprefix("python3-").removesuffix("-pip") for key in keys]
     return tuple(
         other
@@ -281,9 +281,9 @@ def _keys_for_pip(keys: Sequence[str]) -> tuple[str, ...]:
 
 
 def _local_names(package: Package) -> frozenset[str]:
-    """Return the names of own modules: scripts import what lies next to them.
+    """Return the names of own modules, including those next to scripts.
 
-    A directory counts when it is a Python package, or when no ROS package has its name: nearly
+    A directory counts if it is a Python package, or if no ROS package has its name: nearly
     every package has a ``launch/``, which is not what ``import launch`` means.
     """
     files = {path.rpartition("/")[2][:-3] for path in package.python_files if path.endswith(".py")}
@@ -296,7 +296,7 @@ def _local_names(package: Package) -> frozenset[str]:
 
 
 def _generated_names(package: Package) -> set[str]:
-    """Return the modules that CMake generates of interfaces; tests may have some of their own."""
+    """Return the modules that CMake generates from interfaces; tests may have their own."""
     try:
         return {generation.target for generation in generations(package) if generation.target}
     except ViewError:

@@ -50,7 +50,7 @@ _NOISE = r"\b(?:the|license|licence|licensed|version|software|new|modified|simpl
 
 
 def spdx_of(text: str) -> tuple[str, ...]:
-    """Return the SPDX identifiers that a spelling may mean; nothing if it is not known.
+    """Return the SPDX identifiers that match a spelling; empty if unknown.
 
     ``Apache License, Version 2.0`` means ``Apache-2.0``; ``BSD`` may be one of two, and ``GPLv3``
     does not say whether later versions are permitted.
@@ -67,7 +67,7 @@ def spdx_of(text: str) -> tuple[str, ...]:
 def similar_license(text: str) -> str:
     """Return the SPDX identifier that a text misspells by one letter; empty without one.
 
-    A digit or a separator is no slip, and short names resemble each other by chance.
+    A digit or a separator is no typo, and short names are similar by chance.
     """
     if len(text) < _SHORTEST or spdx_of(text) or text.upper().startswith("AGPL"):
         return ""

@@ -41,7 +41,7 @@ class Unknown(NamedTuple):
 
     element: Element
     since: int | None
-    """The format that has it, if a later one does."""
+    """The later format that has it, if any."""
 
 
 class Misplaced(NamedTuple):
@@ -55,7 +55,7 @@ class Misplaced(NamedTuple):
 
 
 class Structure:
-    """The structure of a manifest; every property is a list of mistakes of one kind."""
+    """The structure of a manifest; every property is a list of errors of one kind."""
 
     def __init__(self, manifest: Manifest) -> None:
         self.manifest = manifest
@@ -63,7 +63,7 @@ class Structure:
         self.format = manifest.format if manifest.format in FORMATS else FORMATS[-1]
         self.dependency_tags = _DEPENDENCIES[self.format]
         self.sections = _sections(self.format)
-        """The number of the part of the manifest that a tag belongs to."""
+        """The indices of the sections of tags."""
         self.is_manifest = self.root.tag == "package"
 
     @cached_property
@@ -108,7 +108,7 @@ class Structure:
 
     @cached_property
     def misplaced(self) -> list[Misplaced]:
-        """The fewest elements that must move for the order to be right."""
+        """The smallest set of elements to move for the right order."""
         again = {id(element) for element, _ in self.repeated}
         row = [child for child in self.known if id(child) not in again]
         numbers = [self.sections[child.tag] for child in row]
@@ -131,7 +131,7 @@ class Structure:
 
     @cached_property
     def nested(self) -> list[tuple[Element, Element]]:
-        """Elements inside of such that hold text only, with the one around them."""
+        """Elements inside of text-only elements, with their parents."""
         return [
             (child.children[0], child)
             for child in self.known
@@ -194,7 +194,7 @@ class Structure:
     # -- values
 
     def values(self, tag: str) -> Iterator[tuple[Element, str]]:
-        """Yield the elements with a tag that hold text only, and their text, spaces joined."""
+        """Yield the text-only elements with a tag, and their normalized text."""
         for child in self.known:
             if child.tag == tag and not child.children:
                 text = "".join(item.text for item in child.content if isinstance(item, Text))
@@ -202,12 +202,12 @@ class Structure:
 
 
 def structure(package: Package) -> Structure:
-    """Return how the manifest of a package is built; raises ViewError without a manifest."""
+    """Return the structure of the manifest of a package; raises ViewError without a manifest."""
     return package.remember("manifest_structure", lambda: Structure(package.manifest))
 
 
 def collapse(text: str) -> str:
-    """Join the spaces of XML, not those of Unicode, as schemas do for every value."""
+    """Normalize XML whitespace, not that of Unicode, as schemas do for every value."""
     for character in "\t\r\n":
         text = text.replace(character, " ")
     return " ".join(word for word in text.split(" ") if word)
@@ -223,7 +223,7 @@ def _sections(number: int) -> dict[str, int]:
 
 
 def _longest_run(numbers: list[int]) -> list[int]:
-    """Return the indices of a longest subsequence that does not fall."""
+    """Return the indices of a longest non-decreasing subsequence."""
     tails: list[int] = []
     ends: list[int] = []
     before: list[int] = []

@@ -15,4 +15,4 @@ PURPOSES: dict[str, frozenset[str]] = {
 }
 """When a dependency of each tag is needed: to build, to build against, to run, to test."""
 DEPENDENCY_TAGS = tuple(PURPOSES)
-"""The tags of dependencies on packages, in the order that people write them."""
+"""The tags of dependencies on packages, in customary order."""

@@ -17,7 +17,7 @@ URL_TYPES = ("website", "bugtracker", "repository")
 
 
 def fits(pattern: str, value: str) -> bool:
-    """Tell whether a whole value, its spaces joined, has the form of a pattern."""
+    """Tell whether a normalized value matches a pattern completely."""
     return re.fullmatch(pattern, value) is not None
 
 

@@ -35,7 +35,7 @@ class ActionMessages:
         self._feedback = dict(self._feedback_arguments())
 
     def wrapped(self, node: ast.expr) -> Wrapped | None:
-        """Return what an expression certainly is, if a client is given it."""
+        """Return the wrapped message of an expression, if a client receives it."""
         if not self._clients:
             return None
         value = self._file.evaluator.single_value(node)
@@ -49,7 +49,7 @@ class ActionMessages:
         return Wrapped(client, "Result", "result", "status") if client else None
 
     def _made_of(self, node: ast.expr, method: str) -> ast.expr | None:
-        """Return whose method gave the future that an expression is the result of."""
+        """Return the object whose method returned the future of a result."""
         match self._file.evaluator.single_value(node):
             case ast.Call(func=ast.Attribute(attr="result", value=future), args=[]):
                 given = future_given(self._file, future)
@@ -68,7 +68,7 @@ class ActionMessages:
         return self._clients.get(call) if isinstance(call, ast.Call) else None
 
     def _feedback_arguments(self) -> Iterator[tuple[ast.arg, ActionClient | None]]:
-        """Yield the parameters that are given feedback, with the client that gives it."""
+        """Yield the parameters that receive feedback, with the client."""
         result: dict[ast.arg, ActionClient | None] = {}
         for attribute in self._file.module.index.attributes("send_goal_async"):
             call = self._file.module.parent(attribute)

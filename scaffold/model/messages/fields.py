@@ -28,7 +28,7 @@ _NAMES = {
 _SMALL = frozenset({"int8", "uint8", "byte", "char", "int16", "uint16"})
 _SHOWN = 30
 _NOW = 1.7e18
-"""Nanoseconds since 1970, these years."""
+"""The range of current times in nanoseconds since 1970."""
 
 
 class TypeMismatches:
@@ -39,7 +39,7 @@ class TypeMismatches:
         self._kinds = ValueTypes(types)
 
     def misfit(self, item: Assigned) -> str | None:
-        """Say what a value is that its field cannot hold; ``None`` if it may well fit."""
+        """Describe a value that its field rejects; ``None`` if it may be valid."""
         type_, node = item.field.type, item.value
         if not type_.is_array:
             return self._single(type_, node)
@@ -57,7 +57,7 @@ class TypeMismatches:
         return problem or self._joined(type_, node)
 
     def is_alike(self, item: Assigned) -> bool:
-        """Tell whether a message is given where another with the same fields is expected."""
+        """Tell whether a message is given instead of another one with the same fields."""
         given = self._types.type_of(item.value)
         expected = self._types.definitions.find(item.field.type.full_name)
         if given is None or expected is None or item.field.type.is_array:
@@ -66,14 +66,14 @@ class TypeMismatches:
         return fields == [(field.name, str(field.type)) for field in given.section.fields]
 
     def is_zero(self, item: Assigned) -> bool:
-        """Tell whether a float field is given the int 0, which arrives as a zero."""
+        """Tell whether a float field gets the int 0, which is sent as zero."""
         if not target().fact("messages.has_check_fields"):
             return False  # setters always look at values
         value = self._types.file.evaluator.evaluate(item.value)
         return item.field.type.name in {"float32", "float64"} and type(value) is int and value == 0
 
     def is_unreachable(self, item: Assigned) -> bool:
-        """Tell whether a value is assigned only if a field that holds a message is ``None``."""
+        """Tell whether a value is only assigned if a message field is ``None``."""
         inner: ast.AST = item.value
         for node in self._types.module.parents(item.value):
             match node:
@@ -89,7 +89,7 @@ class TypeMismatches:
         return False
 
     def _is_field(self, condition: ast.If, node: ast.expr) -> bool:
-        """Tell whether an expression is a field with a message: that is never ``None``."""
+        """Tell whether an expression is a message field, which is never ``None``."""
         if isinstance(node, ast.Name):
             attribute = self._assigned_before(condition, node.id)
             return attribute is not None and self._is_field(condition, attribute)
@@ -99,7 +99,7 @@ class TypeMismatches:
         return is_of_message and self._types.type_of(node) is not None
 
     def _assigned_before(self, condition: ast.If, name: str) -> ast.Attribute | None:
-        """Return the attribute that the statement right before a condition assigns to a name."""
+        """Return the attribute assigned to a name right before a condition."""
         body = getattr(self._types.module.parent(condition), "body", [])
         place = body.index(condition) if condition in body else 0
         match body[place - 1 : place]:
@@ -108,7 +108,7 @@ class TypeMismatches:
         return None
 
     def _table(self, node: ast.expr) -> str | None:
-        """Report a numpy array with two dimensions: rosidl reads beyond the first row."""
+        """Report a two-dimensional numpy array, where rosidl reads beyond the first row."""
         value = self._types.file.evaluator.single_value(node)
         if not isinstance(value, ast.Call) or not value.args:
             return None
@@ -154,7 +154,7 @@ class TypeMismatches:
         return None
 
     def _joined(self, type_: FieldType, node: ast.expr) -> str | None:
-        """Report two names of a list that are one, as there is no comma between them."""
+        """Report two names of a list joined by a missing comma."""
         listed = self._types.file.evaluator.single_value(node)
         if type_.name not in TEXTS or not isinstance(listed, ast.List | ast.Tuple):
             return None
@@ -183,7 +183,7 @@ class TypeMismatches:
         return self._out_of_range(type_, node, value)
 
     def _object_of_numpy(self, type_: FieldType, node: ast.expr) -> str | None:
-        """Report a number or truth value of numpy that is not one of Python."""
+        """Report a number or bool of numpy that is no Python object."""
         python, class_ = numpy_class(self._types, node) or ("", "")
         if python != ("float" if type_.name in FLOATS else type_.name):
             return None
@@ -225,7 +225,7 @@ class TypeMismatches:
         return None
 
     def _is_epoch(self, node: ast.expr) -> bool:
-        """Tell whether a number is that of the nanoseconds since 1970."""
+        """Tell whether a number is a current time in nanoseconds since 1970."""
         match self._types.file.evaluator.single_value(node):
             case ast.Attribute(attr="nanoseconds", value=ast.Call(func=ast.Attribute(attr="now"))):
                 return True
@@ -265,7 +265,7 @@ class TypeMismatches:
         return counted and not self._is_watched(node.attr)
 
     def _runs_again(self, node: ast.AST) -> bool:
-        """Tell whether a loop or the executor runs a node: input from a person does not count."""
+        """Tell whether a loop or the executor runs code repeatedly, other than on user input."""
         module, file = self._types.module, self._types.file
         if any(isinstance(parent, ast.While) for parent in module.parents(node)):
             return True
@@ -276,13 +276,13 @@ class TypeMismatches:
         )
 
     def _is_start(self, target: ast.AST, value: ast.expr) -> bool:
-        """Tell whether an assignment is in ``__init__``: it starts and resets nothing."""
+        """Tell whether an assignment is in ``__init__``, where it resets nothing."""
         function = self._types.module.enclosing_function(target)
         is_int = isinstance(self._types.file.evaluator.evaluate(value), int)
         return is_int and function is not None and function.name == "__init__"
 
     def _is_watched(self, name: str) -> bool:
-        """Tell whether an attribute is compared anywhere, which may stop or reset the counting."""
+        """Tell whether an attribute is compared anywhere, which may limit the count."""
         for compare in self._types.module.walk(ast.Compare):
             for part in ast.walk(compare):
                 if isinstance(part, ast.Attribute) and part.attr == name:

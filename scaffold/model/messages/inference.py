@@ -32,7 +32,7 @@ PARTS = {
     "srv": {"Request": "request", "Response": "response"},
     "action": {"Goal": "goal", "Result": "result", "Feedback": "feedback"},
 }
-"""The classes inside of the class of a service or an action, and what they are."""
+"""The nested classes of services and actions, with their sections."""
 _NOT_FIELDS = frozenset({"get_fields_and_field_types", "SLOT_TYPES", "check_fields"})
 _PARAMETER_VALUE = "rcl_interfaces.msg.ParameterValue"
 _DEPTH = 12
@@ -57,11 +57,11 @@ class MessageClass(NamedTuple):
 
     @property
     def origin(self) -> str:
-        """Which definition this is."""
+        """The origin of the definition."""
         return self.interface.origin
 
     def allows(self, attribute: str) -> bool:
-        """Tell whether an object of the class has an attribute."""
+        """Tell whether objects of the class may have an attribute."""
         return (
             attribute.startswith("_")
             or attribute.endswith("__DEFAULT")
@@ -78,7 +78,7 @@ class Assigned(NamedTuple):
     field: Field
     value: ast.expr
     holder: ast.expr
-    """The message that the field is of: an expression, or the call that makes it."""
+    """The message of the field: an expression, or the call of its constructor."""
 
 
 def message_paths(package: Package) -> Sequence[str]:
@@ -113,7 +113,7 @@ class MessageTypes:
         self.module = file.module
         self.definitions = definitions
         self._types: dict[object, FieldType | MessageClass | None] = {}
-        """By the expression; of a name by itself and its scope."""
+        """The types by expression, or by name and scope."""
         self._classes: dict[ast.expr, MessageClass | None] = {}
         self._depth = 0
 
@@ -165,7 +165,7 @@ class MessageTypes:
     # -- objects
 
     def type_of(self, node: ast.expr) -> MessageClass | None:
-        """Return the message that an expression certainly is."""
+        """Return the certain message type of an expression."""
         result = self._type(node)
         if isinstance(result, FieldType):
             if result.is_primitive or result.is_array:
@@ -174,12 +174,12 @@ class MessageTypes:
         return result
 
     def field_type_of(self, node: ast.expr) -> FieldType | None:
-        """Return the type of the field that an expression certainly reads."""
+        """Return the type of the field read by an expression, if certain."""
         type_ = self._type(node)
         return type_ if isinstance(type_, FieldType) else None
 
     def _type(self, node: ast.expr) -> FieldType | MessageClass | None:
-        """Return the message an expression is, or the type of the field it reads."""
+        """Return the message type of an expression, or the type of the field it reads."""
         key: object = node
         if isinstance(node, ast.Name):
             key = node.id, self.module.index.scope_of(node)
@@ -205,7 +205,7 @@ class MessageTypes:
         return None
 
     def _made(self, node: ast.Call) -> MessageClass | None:
-        """Return what a call gives."""
+        """Return the type of the value of a call."""
         match node.func:
             case ast.Attribute(attr="result", value=future) if not node.args:
                 return self._answer(future)
@@ -215,7 +215,7 @@ class MessageTypes:
         return self.class_of(node.func)
 
     def _answer(self, node: ast.expr) -> MessageClass | None:
-        """Return what the future of a service call gives."""
+        """Return the response type of the future of a service call."""
         future = future_given(self.file, node)
         made = self.file.evaluator.single_value(node if future is None else future)
         match made:
@@ -259,7 +259,7 @@ class MessageTypes:
         return None
 
     def _type_of_attribute(self, node: ast.Attribute) -> FieldType | MessageClass | None:
-        """Return what an attribute of ``self`` is, if all that it is ever assigned agrees."""
+        """Return the type of an attribute of ``self``, if all its assignments agree."""
         evaluator = self.file.evaluator
         class_ = evaluator.self_class(node.value)
         if class_ is None or self._is_asked(class_, node.attr):
@@ -282,7 +282,7 @@ class MessageTypes:
 
     @cached_property
     def action_messages(self) -> ActionMessages:
-        """What action clients are given."""
+        """The messages received by action clients."""
         return ActionMessages(self.file)
 
     def _unwrapped(self, node: ast.Attribute) -> MessageClass | None:
@@ -298,7 +298,7 @@ class MessageTypes:
 
     @cached_property
     def _parameters(self) -> Mapping[ast.AST, MessageClass | None]:
-        """The parameters that rclpy passes messages to; ``None`` where callbacks disagree."""
+        """The parameters that receive messages; ``None`` if callbacks disagree."""
         result: dict[ast.AST, MessageClass | None] = {}
         for endpoint, callback, index, part in self._passed():
             parameter = self._callback_parameter(callback, index)
@@ -309,7 +309,7 @@ class MessageTypes:
         return result
 
     def _passed(self) -> Iterator[tuple[Endpoint, Callback | None, int, str]]:
-        """Yield endpoints with a callback, the index of its parameter and the part that it gets."""
+        """Yield endpoints with callbacks, the index of the parameter and the received section."""
         for endpoint in self.file.endpoints:
             if isinstance(endpoint, Subscription) and not endpoint.argument("raw"):
                 yield endpoint, endpoint.callback, 0, ""
@@ -351,7 +351,7 @@ class MessageTypes:
     # -- where nothing is reported
 
     def is_tolerated(self, node: ast.AST) -> bool:
-        """Tell whether a mistake here is expected: a negative test, a handler for it."""
+        """Tell whether an error here is expected: a negative test, or a handler for it."""
         child = node
         for parent in self.module.parents(node):
             if isinstance(parent, ast.FunctionDef | ast.AsyncFunctionDef):
@@ -371,7 +371,7 @@ class MessageTypes:
         return False
 
     def _is_asked(self, scope: ast.AST, name: str) -> bool:
-        """Tell whether code asks an object for its type: then it may be any."""
+        """Tell whether code tests the type of an object, which may then be any."""
         return (scope, name) in self._asked
 
     @cached_property
@@ -395,7 +395,7 @@ class MessageTypes:
 
     @cached_property
     def assigned(self) -> Sequence[Assigned]:
-        """All values that fields of known messages are given, in the order of the text."""
+        """All values assigned to fields of known messages, in source order."""
         result = [*self._assigned_attributes(), *self._keywords()]
         return sorted(result, key=lambda item: (item.value.lineno, item.value.col_offset))
 

@@ -17,7 +17,7 @@ _MADE: Mapping[str, tuple[str, str]] = {
     "numpy.all": ("bool", "numpy.bool_"),
     "numpy.any": ("bool", "numpy.bool_"),
 }
-"""Which class of numpy functions return, and the type of Python that it looks like.
+"""The class that numpy functions return, and the similar Python type.
 
 Humble refuses its objects with an AssertionError; later the C code of a message takes them for
 what they look like, and other values arrive. A ``numpy.float64`` is a float.
@@ -25,14 +25,14 @@ what they look like, and other values arrive. A ``numpy.float64`` is a float.
 _REDUCING = frozenset(
     {"amax", "amin", "max", "mean", "median", "min", "nanmax", "nanmean", "nanmin", "std", "sum"}
 )
-"""Functions, and methods of an array, that return one number of the type of its elements."""
+"""Functions and array methods that return one number of the element type."""
 _ARRAYS = frozenset({"numpy.array", "numpy.asarray"})
 _DEEPEST = 6
-"""Names, slices and copies that one array comes from."""
+"""The maximum number of names, slices and copies to follow."""
 
 
 def numpy_class(types: MessageTypes, node: ast.expr) -> tuple[str, str] | None:
-    """Return the type of Python that a value looks like, and the class of numpy that it has."""
+    """Return the Python type that a value resembles, and its numpy class."""
     value = types.file.evaluator.single_value(node)
     if not isinstance(value, ast.Call) or value.keywords:
         return None
@@ -51,7 +51,7 @@ def numpy_class(types: MessageTypes, node: ast.expr) -> tuple[str, str] | None:
 
 
 def _is_single_precision(types: MessageTypes, node: ast.expr) -> bool:
-    """Tell whether numpy makes an array of 32-bit floats of a field, as those of its elements."""
+    """Tell whether numpy converts a field to an array of 32-bit floats."""
     for _ in range(_DEEPEST):
         node = types.file.evaluator.single_value(node)
         field = types.field_type_of(node)

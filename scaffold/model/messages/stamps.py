@@ -12,26 +12,26 @@ from scaffold.record import NamedTuple
 
 _HEADER = "std_msgs/msg/Header"
 _MEASURED = ("sensor_msgs/msg/", "nav_msgs/msg/Odometry", "geometry_msgs/msg/TransformStamped")
-"""What is of a certain time. Zero means "now" in a trajectory, "the latest" in a pose or marker."""
+"""Messages of a certain time. Zero is "now" in a trajectory, "the latest" in a pose or marker."""
 _PLACED = frozenset(
     {f"nav_msgs/msg/{name}" for name in ("Path", "OccupancyGrid", "GridCells", "Odometry")}
     | {f"sensor_msgs/msg/{name}" for name in ("LaserScan", "PointCloud2")}
     | {"geometry_msgs/msg/PoseArray", "geometry_msgs/msg/PolygonStamped"}
     | {"geometry_msgs/msg/TransformStamped", "visualization_msgs/msg/Marker"}
 )
-"""What is for RViz and tf2, which refuse it without a frame."""
+"""Messages for RViz and tf2, which reject them without a frame."""
 _GOALS = {
     "goal_pose": "geometry_msgs/msg/PoseStamped",
     "initialpose": "geometry_msgs/msg/PoseWithCovarianceStamped",
 }
-"""The topics whose poses Nav2 refuses without a frame; others may have one that is agreed on."""
+"""Topics whose poses Nav2 rejects without a frame; on others, a frame may be implied."""
 _TRANSFORM = "geometry_msgs/msg/TransformStamped"
-"""Of a moving frame: zero is as good as no stamp there, and "the latest" in other messages."""
+"""Transforms of moving frames, where zero is as good as no stamp."""
 _BRIDGED = {
     "cv2_to_imgmsg": "sensor_msgs.msg.Image",
     "cv2_to_compressed_imgmsg": "sensor_msgs.msg.CompressedImage",
 }
-"""The methods of ``CvBridge`` that make messages; the third argument is the header."""
+"""Methods of ``CvBridge`` that create messages; the third argument is the header."""
 _WITH_CHILD = frozenset({"nav_msgs/msg/Odometry", _TRANSFORM})
 _NEEDED: Mapping[str, tuple[str, tuple[str, ...]]] = {
     "sensor_msgs/msg/LaserScan": ("ranges", ("range_max", "angle_increment")),
@@ -41,7 +41,7 @@ _NEEDED: Mapping[str, tuple[str, tuple[str, ...]]] = {
     "sensor_msgs/msg/PointCloud2": ("data", ("width", "height", "fields", "point_step")),
     "nav_msgs/msg/OccupancyGrid": ("data", ("info",)),
 }
-"""What is no use without some of its other fields, whose default is zero or empty."""
+"""Fields without which messages with other fields set are useless."""
 _SENDS = frozenset({"publish", "sendTransform"})
 
 
@@ -52,7 +52,7 @@ class Unstamped(NamedTuple):
     message: MessageClass
     sent: ast.Call
     missing: str
-    """The field that is left: ``stamp`` or ``frame_id`` of the header, or ``child_frame_id``."""
+    """The missing field: ``stamp`` or ``frame_id`` of the header, or ``child_frame_id``."""
 
 
 class _Doubt(Exception):  # noqa: N818  it is not an error, it ends a search
@@ -62,7 +62,7 @@ class _Doubt(Exception):  # noqa: N818  it is not an error, it ends a search
 def unstamped(types: MessageTypes) -> Iterator[Unstamped]:
     """Yield the messages of a file that are published without a stamp, each once.
 
-    Or without a frame. Only where the header has the other one: who leaves all of it alone does not
+    Or without a frame. Only if the header has the other one: a node that leaves it unset does not
     use it.
     """
     seen: set[ast.Call] = set()
@@ -101,7 +101,7 @@ def childless(types: MessageTypes) -> Iterator[Unstamped]:
 
 
 def lacking(types: MessageTypes) -> Iterator[Unstamped]:
-    """Yield messages that are sent with their data, and without a field that it is no use without.
+    """Yield messages that are sent with data but without a field that it needs.
 
     Each once, for the first such field.
     """
@@ -121,7 +121,7 @@ def lacking(types: MessageTypes) -> Iterator[Unstamped]:
 def _sent(
     types: MessageTypes,
 ) -> Iterator[tuple[ast.Attribute, ast.Call, MessageClass, ast.Call]]:
-    """Yield the messages that are made and sent: the method, the making, its class, the sending."""
+    """Yield the sent messages: the method, the constructor call, its class, the call that sends."""
     index = types.module.index
     for method in [*index.attributes("publish"), *index.attributes("sendTransform")]:
         sent = types.module.parent(method)
@@ -135,7 +135,7 @@ def _sent(
 
 
 def _fields(types: MessageTypes, made: ast.Call, sent: ast.expr) -> set[str]:
-    """Return the fields of a message that are set or filled; doubt if anything else may do so."""
+    """Return the fields of a message that are set; raise `_Doubt` if other code may set them."""
     words = {word.arg for word in made.keywords}
     if None in words:
         raise _Doubt
@@ -152,7 +152,7 @@ def _fields(types: MessageTypes, made: ast.Call, sent: ast.expr) -> set[str]:
 
 
 def _names_child(types: MessageTypes, made: ast.Call, sent: ast.expr, *, needs_twist: bool) -> bool:
-    """Tell whether the child frame of a message is set; doubt if anything else may set it.
+    """Tell whether the child frame of a message is set; raise `_Doubt` if other code may set it.
 
     Odometry without a twist may be a pose alone, and need none.
     """
@@ -174,14 +174,14 @@ def _names_child(types: MessageTypes, made: ast.Call, sent: ast.expr, *, needs_t
 
 
 def _topic(types: MessageTypes, method: ast.Attribute) -> str:
-    """Return the topic that a publisher publishes on; empty if it is not known."""
+    """Return the topic of a publisher; empty if unknown."""
     made = types.file.evaluator.single_value(method.value)
     names = [publisher.name for publisher in types.file.publishers if publisher.call is made]
     return "".join(name for name in names[:1] if isinstance(name, str)).lstrip("/")
 
 
 def _missing(message: MessageClass, given: frozenset[str], topic: str) -> str:
-    """Return the field that a header needs next to the one that it has; empty if none."""
+    """Return the field that a header lacks, given the one that it has; empty if none."""
     if given == {"frame_id"} and message.name.startswith(_MEASURED):
         return "stamp"
     is_placed = message.name in _PLACED or _GOALS.get(topic) == message.name
@@ -189,7 +189,7 @@ def _missing(message: MessageClass, given: frozenset[str], topic: str) -> str:
 
 
 def _returned_by(types: MessageTypes, sent: ast.expr) -> ast.expr | None:
-    """Return what a function of the file returns whose result is published at once."""
+    """Return the values returned by a function whose result is published directly."""
     value = types.file.evaluator.single_value(sent)
     callback = types.file.callback(value.func) if isinstance(value, ast.Call) else None
     function = callback.function if callback is not None else None
@@ -201,7 +201,7 @@ def _returned_by(types: MessageTypes, sent: ast.expr) -> ast.expr | None:
 
 
 def _message(types: MessageTypes, made: ast.Call) -> MessageClass | None:
-    """Return what a call makes: its class is called, or cv_bridge turns an image into it."""
+    """Return the class of a created message: by its constructor, or by cv_bridge."""
     match made.func:
         case ast.Attribute(attr=name, value=bridge) if name in _BRIDGED:
             bridge = types.file.evaluator.single_value(bridge)
@@ -214,7 +214,7 @@ def _message(types: MessageTypes, made: ast.Call) -> MessageClass | None:
 
 
 def _is_sender(types: MessageTypes, method: ast.Attribute) -> bool:
-    """Tell whether a method certainly is that of a publisher, or of a broadcaster of transforms."""
+    """Tell whether a method certainly is that of a publisher or a transform broadcaster."""
     made = types.file.evaluator.single_value(method.value)
     if not isinstance(made, ast.Call):
         return False
@@ -235,7 +235,7 @@ def _has_header(message: MessageClass) -> bool:
 def _follow(
     types: MessageTypes, made: ast.Call, sent: ast.expr, message: MessageClass
 ) -> frozenset[str]:
-    """Look at all that is done with a message; doubt if anything else may fill its header.
+    """Follow all uses of a message; raise `_Doubt` if other code may fill its header.
 
     Returns:
         The fields of the header that are set.
@@ -252,7 +252,7 @@ def _follow(
 
 
 def _expect_plain_header(types: MessageTypes, node: ast.expr) -> frozenset[str]:
-    """Accept a header that is made on the spot; return the fields that it is given."""
+    """Accept a header constructed in place; return its fields."""
     class_ = types.class_of(node.func) if isinstance(node, ast.Call) else None
     if class_ is None or class_.name != _HEADER or not isinstance(node, ast.Call):
         raise _Doubt
@@ -262,7 +262,7 @@ def _expect_plain_header(types: MessageTypes, node: ast.expr) -> frozenset[str]:
 
 
 def _uses(types: MessageTypes, made: ast.Call, sent: ast.expr) -> Sequence[ast.expr]:
-    """Return where the variable or attribute is read that holds a message."""
+    """Return the places where the variable or attribute with a message is read."""
     module = types.module
     if module.parent(made) is None or not isinstance(sent, ast.Name | ast.Attribute):
         raise _Doubt
@@ -285,7 +285,7 @@ def _is_read(node: ast.Name | ast.Attribute) -> bool:
 
 
 def _expect_harmless(types: MessageTypes, use: ast.expr, *, may_be_zero: bool) -> frozenset[str]:
-    """Accept what reads or sets fields or publishes the message; return what of the header."""
+    """Accept code that reads or sets fields or publishes the message; return set header fields."""
     match types.module.parent(use):
         case ast.Call(func=ast.Attribute(attr=name), args=[only]) if only is use:
             if name not in _SENDS:

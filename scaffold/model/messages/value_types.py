@@ -14,7 +14,7 @@ RCLPY_TIMES: Mapping[str | None, str] = {
     "rclpy.time.Time": "builtin_interfaces/msg/Time",
     "rclpy.duration.Duration": "builtin_interfaces/msg/Duration",
 }
-"""The classes of rclpy that ``to_msg()`` turns into messages."""
+"""The rclpy classes that ``to_msg()`` converts to messages."""
 _CLOCKS = frozenset({"rclpy.clock.Clock", "rclpy.clock.ROSClock"})
 _RETURNS: Mapping[str, str] = {
     "bool": "bool",
@@ -55,13 +55,13 @@ _OF_TEXT = {
     "split": "list",
     "splitlines": "list",
 }
-"""What methods of a text return."""
+"""The types returned by string methods."""
 _NUMBERS = frozenset({"int", "float"})
 _DEPTH = 8
 
 
 def rclpy_time(types: MessageTypes, node: ast.expr) -> str | None:
-    """Return the message that ``to_msg()`` of an rclpy Time or Duration would give.
+    """Return the message type of ``to_msg()`` of an rclpy Time or Duration.
 
     ``None`` for what is not certainly one: ``builtin_interfaces/msg/Time`` and so on.
     """
@@ -86,7 +86,7 @@ def _is_clock(types: MessageTypes, node: ast.expr) -> bool:
 
 
 class ValueTypes:
-    """Finds out which kind of Python value an expression certainly has."""
+    """Infers the Python type of an expression, if certain."""
 
     def __init__(self, types: MessageTypes) -> None:
         self._types = types
@@ -95,7 +95,7 @@ class ValueTypes:
         self._depth = 0
 
     def of(self, node: ast.expr) -> str | None:
-        """Return ``bool``, ``int``, ``float``, ``str`` ...; ``None`` when that is not sure."""
+        """Return ``bool``, ``int``, ``float``, ``str`` ...; ``None`` if uncertain."""
         value = self._evaluator.evaluate(node)
         if value is None:
             # None stands for "nothing assigned yet" as soon as it is not written right here.
@@ -161,7 +161,7 @@ class ValueTypes:
         return self._agreed([b.value for b in bindings if b.value is not None])
 
     def _of_attribute(self, node: ast.Attribute) -> str | None:
-        """Return the kind of a field, or of an attribute of ``self`` that is counted up."""
+        """Return the type of a field, or of an attribute of ``self`` used as a counter."""
         type_ = self._types.field_type_of(node)
         if type_ is not None:
             return _kind_of_field(type_)
@@ -191,7 +191,7 @@ class ValueTypes:
 
 
 def _kind_of_field(type_: FieldType) -> str | None:
-    """Return the kind of what is read from a field; ``None`` for what has several."""
+    """Return the type of the value of a field; ``None`` if there are several."""
     if type_.is_array or not type_.is_primitive or type_.name == "byte":
         return None
     if type_.name in FLOATS:
@@ -202,7 +202,7 @@ def _kind_of_field(type_: FieldType) -> str | None:
 
 
 def _literal_kind(node: ast.expr) -> str | None:
-    """Return the kind that the form of an expression shows."""
+    """Return the type of a literal expression."""
     kind = None
     match node:
         case ast.JoinedStr():

@@ -26,33 +26,33 @@ ALWAYS = frozenset({"use_sim_time", "start_type_description_service"})
 _ALWAYS_PREFIXES = ("qos_overrides.",)
 _HARMLESS = ("rclpy.", "tf2_ros.", "message_filters.", "super", "isinstance", "print", "str", "id")
 _KNOWN = ("rclpy.", "tf2_ros.", "message_filters.", "cv_bridge.")
-"""Packages whose classes take a node and declare no parameters of their own."""
+"""Packages whose classes receive a node but declare no parameters."""
 _COMPILED = (".cpp", ".cc", ".cxx", ".c", ".rs")
 
 
 class DeclaredParameter(NamedTuple):
-    """A parameter that a node declares, as other files see it."""
+    """A parameter declared by a node, for use by other files."""
 
     package: str
-    """The name of the package that the code is in."""
+    """The name of the package with the code."""
     location: Location
     default: object
-    """``UNKNOWN`` also when none is given, or when it is no value of a parameter."""
+    """The default; ``UNKNOWN`` also if none is given, or it is no parameter value."""
     has_descriptor: bool
     descriptor: Descriptor | None
     """``None`` if its value is unknown."""
     divides: bool
-    """Whether the node divides by its value, without looking at it."""
+    """Whether the node divides by its value without a check."""
 
 
 class Declared(NamedTuple):
     """The parameters of a node."""
 
     types: Mapping[str, str | None]
-    """The type by name; ``None`` where it is not known, or may change."""
+    """The type by name; ``None`` if it is unknown, or may change."""
     places: Mapping[str, DeclaredParameter]
     complete: bool
-    """Whether nothing else can be declared."""
+    """Whether no others can be declared."""
 
     def has(self, name: str) -> bool:
         """Tell whether a parameter exists."""
@@ -60,12 +60,12 @@ class Declared(NamedTuple):
 
 
 def has_always(name: str) -> bool:
-    """Tell whether rclpy itself declares a parameter on every node."""
+    """Tell whether rclpy declares a parameter on every node."""
     return name in ALWAYS or name.startswith(_ALWAYS_PREFIXES)
 
 
 def declared_by(owner: NodeDefinition | KnownNode, package: Package) -> Declared:
-    """Return what a node declares: in its class, in base classes, and where it is made."""
+    """Return the parameters of a node: of its class, base classes, and the code that creates it."""
     if isinstance(owner, KnownNode):
         return _declared_at(owner.home(package), owner.path, owner.number)
     owner_package = home_of(owner, package)
@@ -113,7 +113,7 @@ def _place(parameter: Parameter, package: Package, *, divides: bool) -> Declared
 
 
 def home_of(owner: NodeDefinition, package: Package) -> Package:
-    """Return the package that the code of a node is in; it may be another one."""
+    """Return the package with the code of a node, which may be another one."""
     from scaffold.model.package import Package as _Package  # which imports what this imports
 
     modules = owner.file.modules
@@ -121,20 +121,20 @@ def home_of(owner: NodeDefinition, package: Package) -> Package:
 
 
 def place_of(name: str, at: Location, package: Package) -> str:
-    """Return where a parameter is declared or read, for people who look at a package.
+    """Return where a parameter is declared or read, for messages about a package.
 
     Args:
         name: The package that the code is in.
-        at: The place.
-        package: The package that they look at.
+        at: The location.
+        package: The package of the message.
     """
     return f"{at.path}:{at.line}" + (f" of {name}" if name != package.name else "")
 
 
 def declared_alone(file: RclpyFile) -> Iterator[tuple[NodeClass, list[Parameter]]]:
-    """Yield the nodes that nothing else declares parameters for, each with those it declares.
+    """Yield the nodes with all their parameters declared in their own file.
 
-    Unlike `declared_by` it tells nothing of nodes that others inherit from.
+    Unlike `declared_by`, it skips nodes with subclasses.
     """
     passed_on: dict[RclpyFile, frozenset[ast.ClassDef]] = {}
     bases = _bases(file)
@@ -147,9 +147,9 @@ def declared_alone(file: RclpyFile) -> Iterator[tuple[NodeClass, list[Parameter]
 def _declared(
     node: NodeClass, passed_on: dict[RclpyFile, frozenset[ast.ClassDef]]
 ) -> list[Parameter] | None:
-    """Return what a class and its bases declare; ``None`` if others may declare more.
+    """Return the parameters of a class and its bases; ``None`` if others may declare more.
 
-    What `_passed_on` says of their files is kept, to be asked once.
+    The results of `_passed_on` for their files are cached.
     """
     parameters: list[Parameter] = []
     owner: NodeClass | None = node
@@ -168,7 +168,7 @@ def _declared(
 
 
 def _bases(file: RclpyFile) -> frozenset[ast.ClassDef | None]:
-    """Return the classes of a file that others there inherit from."""
+    """Return the classes of a file with subclasses there."""
     return frozenset(
         file.evaluator.named_class(base)
         for other in file.module.walk(ast.ClassDef)
@@ -177,14 +177,14 @@ def _bases(file: RclpyFile) -> frozenset[ast.ClassDef | None]:
 
 
 def _declares_on_others(file: RclpyFile) -> bool:
-    """Tell whether the file declares parameters on an object that is not known."""
+    """Tell whether the file declares parameters on an unknown object."""
     return any(parameter.owner is None for parameter in file.parameters)
 
 
 def _passed_on(file: RclpyFile) -> frozenset[ast.ClassDef]:
-    """Return the classes that give themselves to something that may declare parameters.
+    """Return the classes that pass ``self`` to code that may declare parameters.
 
-    All of them where the file asks nodes what they have.
+    All of them if the file reads attributes of nodes by name.
     """
     if "has_parameter" in file.module.source.text:
         return frozenset(file.module.walk(ast.ClassDef))
@@ -202,7 +202,7 @@ def _passed_on(file: RclpyFile) -> frozenset[ast.ClassDef]:
 
 
 def _from_outside(owner: NodeDefinition, package: Package) -> Iterator[Parameter]:
-    """Yield what other files declare on a node: ``node = Talker(); node.declare_parameter()``."""
+    """Yield parameters declared by other files: ``node = Talker(); node.declare_parameter()``."""
     if isinstance(owner, NodeClass):
         for file in rclpy_files(package, mentioning=("declare_parameter", owner.name)):
             if file is not owner.file:
@@ -223,11 +223,11 @@ def own_nodes(package: Package) -> tuple[list[KnownNode], bool]:
 
 
 def _fixed_type(parameter: Parameter, *, may_be_dynamic: bool) -> str | None:
-    """Return the type that overrides must have; an empty list has none that anyone expects.
+    """Return the type that overrides must have; for an empty list it is unexpected.
 
     Args:
         parameter: The parameter.
-        may_be_dynamic: Whether a descriptor that is not known may leave the type open.
+        may_be_dynamic: Whether an unknown descriptor may allow any type.
     """
     descriptor = parameter.descriptor
     if descriptor.is_dynamic if descriptor is not None else may_be_dynamic:
@@ -238,7 +238,7 @@ def _fixed_type(parameter: Parameter, *, may_be_dynamic: bool) -> str | None:
 
 
 def escapes(owner: NodeDefinition) -> bool:
-    """Tell whether the node is handed to code that may declare more."""
+    """Tell whether the node is passed to code that may declare more."""
     if not isinstance(owner, NodeClass):
         return _is_handed_on(owner, owner.file.module.tree, owner.name)
     others = owner.node.bases[: owner.base_index] + owner.node.bases[owner.base_index + 1 :]
@@ -262,7 +262,7 @@ def _is_handed_on(owner: NodeDefinition, scope: ast.AST, name: str) -> bool:
 
 
 def _is_kept_elsewhere(parent: ast.AST | None, name: str) -> bool:
-    """Tell whether a statement makes a node known to another object: ``part.node = self``."""
+    """Tell whether a statement stores a node in another object: ``part.node = self``."""
     return isinstance(parent, ast.Assign) and any(
         isinstance(target, ast.Attribute | ast.Subscript)
         and not (isinstance(target.value, ast.Name) and target.value.id == name)

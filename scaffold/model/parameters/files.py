@@ -1,4 +1,4 @@
-"""Parameter files: the nodes that they are for, and the values that they set.
+"""Parameter files: their nodes and values.
 
 Values are parsed as rcl_yaml_param_parser does, not as PyYAML does: the two differ in which words
 are booleans, numbers or strings.
@@ -25,7 +25,7 @@ _NEAR = r"(?i)(?:ros[_\- .]*)?param(?:eter)?s?"
 _MENTION = r"(?im)^[ \t]*[\"']?ros[_\- .]*param(?:eter)?s?[\"']?[ \t]*:"
 _WORDS = ("y", "yes", "true", "on", "n", "no", "false", "off")
 BOOLEANS = frozenset({form for word in _WORDS for form in (word, word.capitalize(), word.upper())})
-"""The words that rcl takes for booleans."""
+"""The words that rcl reads as booleans."""
 _LONGEST_NUMBER = 100
 _INTEGER = r"[+-]?(?:0[xX][0-9a-fA-F]+|0[0-7]*|[1-9][0-9]*)"
 _DOUBLE = (
@@ -38,7 +38,7 @@ class Entry(NamedTuple):
     """One parameter."""
 
     name: str
-    """With the mappings around it: ``limits.speed``."""
+    """The name, with those of the mappings around it: ``limits.speed``."""
     key: Scalar
     value: YamlNode
 
@@ -59,16 +59,16 @@ class Section(NamedTuple):
 
     @property
     def is_pattern(self) -> bool:
-        """Whether it is for nodes of any name."""
+        """Whether it matches nodes of any name."""
         return self.name in {"*", "**"}
 
     @property
     def name(self) -> str:
-        """The name of the node alone."""
+        """The name of the node without its namespace."""
         return self.node.rpartition("/")[2]
 
     def fits(self, full_name: str) -> bool:
-        """Tell whether it is for a node, ``/robot1/talker``."""
+        """Tell whether it matches a node, ``/robot1/talker``."""
         expression = ""
         for part in self.node.strip("/").split("/"):
             expression += {"**": r"(?:/\w+)*", "*": r"/\w+"}.get(part, f"/{re.escape(part)}")
@@ -82,7 +82,7 @@ class Misplaced(NamedTuple):
     node_key: Scalar | None
     """The key above it that is a misspelled ``ros__parameters``."""
     depth: int
-    """How many keys are above that one."""
+    """The number of keys above that one."""
 
 
 class Refused(NamedTuple):
@@ -133,7 +133,7 @@ class ParameterFile:
 
 
 def _has_key(mapping: Mapping) -> bool:
-    """Tell whether a mapping is the node that its key names, even if that is ``parameters``."""
+    """Tell whether a mapping is that of a node, even if its key is ``parameters``."""
     return any(key.text == KEY for key, _ in mapping.pairs)
 
 
@@ -202,7 +202,7 @@ def _entries(mapping: Mapping, prefix: str) -> Iterator[Entry]:
 
 
 def _refused(name: str, key: Scalar, value: YamlNode) -> Iterator[Refused]:
-    """Yield values that rcl rejects: none, aliases, lists of lists."""
+    """Yield values that rcl rejects: null, aliases, nested lists."""
     for item in value.items if isinstance(value, Sequence) else (value,):
         if is_empty(item):
             at = key.location if item is value else item.location
@@ -225,7 +225,7 @@ def _refused(name: str, key: Scalar, value: YamlNode) -> Iterator[Refused]:
 
 
 def scalar_type(node: Scalar) -> str | None:
-    """Return the type that rcl gives a value; ``None`` when launch replaces it first."""
+    """Return the type of a value for rcl; ``None`` if launch substitutes it first."""
     if "$(" in node.text or is_empty(node):
         return None
     if not node.is_plain or node.tag == "tag:yaml.org,2002:str":
@@ -234,12 +234,12 @@ def scalar_type(node: Scalar) -> str | None:
 
 
 def is_empty(node: YamlNode) -> bool:
-    """Tell whether nothing is written where a value should be."""
+    """Tell whether the value is missing."""
     return isinstance(node, Scalar) and node.is_plain and node.start == node.end
 
 
 def text_type(text: str) -> str:
-    """Return the type that a word without quotes has."""
+    """Return the type of an unquoted word."""
     if text in BOOLEANS:
         return "bool"
     if len(text) > _LONGEST_NUMBER:
@@ -251,13 +251,13 @@ def text_type(text: str) -> str:
 
 
 def number_of(node: YamlNode) -> float | None:
-    """Return the number that a value is for rcl; an integer stays one."""
+    """Return the number that rcl reads from a value."""
     kind = scalar_type(node) if isinstance(node, Scalar) else None
     return number_in(node.text, kind) if kind and isinstance(node, Scalar) else None
 
 
 def number_in(text: str, kind: str) -> float | None:
-    """Return the number that a word of a type is; ``None`` for other types, and odd notations."""
+    """Return the number of a word with a type; ``None`` for other types and unusual notations."""
     if kind == "integer":
         return _integer(text)
     try:
@@ -267,7 +267,7 @@ def number_in(text: str, kind: str) -> float | None:
 
 
 def value_type(node: YamlNode) -> str | None:
-    """Return the type of a value as rcl sees it: ``double``, ``string_array`` ..."""
+    """Return the type of a value for rcl: ``double``, ``string_array`` ..."""
     if isinstance(node, Scalar):
         return scalar_type(node)
     if isinstance(node, Sequence):

@@ -1,4 +1,4 @@
-"""Values that the code of a node gives to names of its own, in place of parameters."""
+"""Values assigned to names in the code of a node that equal parameters."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from scaffold.model.package import Package
 
 _TRUE = frozenset({"y", "yes", "true", "on"})
-"""The words, in lower case, that rcl takes for true."""
+"""The words, in lower case, that rcl reads as true."""
 
 
 def comparable(value: object) -> str:
@@ -38,7 +38,7 @@ def comparable_in_file(node: YamlNode) -> str:
 
 @fact
 def own_values(package: Package, path: str) -> Mapping[str, frozenset[str]]:
-    """Return what a file sets variables, attributes, arguments and keys to, see `comparable`.
+    """Return the values of variables, attributes, arguments and keys in a file; see `comparable`.
 
     The names are in lower case and without underscores at the ends; raises ViewError.
     """
@@ -53,7 +53,7 @@ def own_values(package: Package, path: str) -> Mapping[str, frozenset[str]]:
 
 
 def plain_name(name: str) -> str:
-    """Return the last part of a name, without what tells a constant from a private attribute."""
+    """Return the last part of a name in lower case, without outer underscores."""
     return name.rpartition(".")[2].lower().strip("_")
 
 

@@ -14,11 +14,11 @@ if TYPE_CHECKING:
 def agreed_type(
     package: Package, declared: Sequence[Declared], name: str
 ) -> tuple[str | None, str]:
-    """Return the type that all nodes agree on, and the name with where it is declared.
+    """Return the type on which all nodes agree, and the name with the place of its declaration.
 
     Args:
-        package: The package that is checked.
-        declared: The declarations of the nodes that are given the parameter.
+        package: The checked package.
+        declared: The declarations in the nodes that receive the parameter.
         name: The name of the parameter.
     """
     if name in ALWAYS:
@@ -34,9 +34,9 @@ def agreed_type(
 def narrow_default(
     package: Package, declared: Sequence[Declared], name: str, given: str
 ) -> DeclaredParameter | None:
-    """Return the parameter whose default, not the file, has an unintended type.
+    """Return the parameter with an unintended type of its default, rather than in the file.
 
-    Such as ``1`` for a period, or a number in quotes. Those of other packages are judged there.
+    Such as ``1`` for a period, or a number in quotes. Other packages are checked separately.
     """
     if name in ALWAYS:
         return None

@@ -1,4 +1,4 @@
-"""Calls that wait for work that only the waiting thread could do."""
+"""Calls that block on work that only the blocked thread could do."""
 
 from __future__ import annotations
 
@@ -36,22 +36,22 @@ if TYPE_CHECKING:
 
 
 class Executed(NamedTuple):
-    """A function that a callback or a constructor of a node runs."""
+    """A function called by a callback or a constructor of a node."""
 
     function: FunctionNode | ast.Lambda
     origin: str
-    """What runs it: ``the callback on_timer``, ``the constructor of Talker``."""
+    """The caller: ``the callback on_timer``, ``the constructor of Talker``."""
     entity: Entity | None
-    """What the callback belongs to; ``None`` for a constructor."""
+    """The entity of the callback; ``None`` for a constructor."""
 
     @property
     def is_task(self) -> bool:
-        """Whether it belongs to no callback group: many threads run it next to all others."""
+        """Whether it belongs to no callback group, so that it runs in parallel to all others."""
         return isinstance(self.entity, ActionServer | ActionClient | Client)
 
 
 def may_run_meanwhile(file: RclpyFile, executed: Executed) -> bool:
-    """Tell whether callbacks of a node may run while a callback or constructor of it does."""
+    """Tell whether callbacks of a node may run in parallel to its callback or constructor."""
     if executed.is_task:
         return not spins_in_one_thread(file)
     if names_other_executor(file):
@@ -60,7 +60,7 @@ def may_run_meanwhile(file: RclpyFile, executed: Executed) -> bool:
 
 
 def blocks_node(file: RclpyFile, executed: Executed) -> bool:
-    """Tell whether nothing else of a node runs while a callback or constructor of it does."""
+    """Tell whether no other callback of a node runs during its callback or constructor."""
     if executed.is_task:
         return spins_in_one_thread(file)
     if executed.entity is None:
@@ -69,7 +69,7 @@ def blocks_node(file: RclpyFile, executed: Executed) -> bool:
 
 
 def in_callbacks(file: RclpyFile) -> Sequence[Executed]:
-    """Return the functions that callbacks of timers, topics and services run, each once."""
+    """Return the functions called by callbacks of timers, topics and services, each once."""
     if "callbacks" not in file.executed:
         called = _callbacks_of(file, (Timer, Subscription, Synchronizer, Service))
         file.executed["callbacks"] = tuple(_reached(file, called, set()))
@@ -78,7 +78,7 @@ def in_callbacks(file: RclpyFile) -> Sequence[Executed]:
 
 
 def in_tasks(file: RclpyFile) -> Sequence[Executed]:
-    """Return the functions that work on goals, or run when a future is done, each once.
+    """Return the functions that execute goals, or are called when a future is done, each once.
 
     The executor runs them as tasks, which belong to no callback group.
     """
@@ -99,7 +99,7 @@ def _callbacks_of(
 
 
 def _done_callbacks(file: RclpyFile) -> Iterator[tuple[Entity, Callback]]:
-    """Yield what runs when a future is done, with the client that the future comes from."""
+    """Yield the done callbacks of futures, with the clients."""
     for attribute in file.module.index.attributes("add_done_callback"):
         match file.module.parent(attribute):
             case ast.Call(func=func, args=[given]) if func is attribute:
@@ -109,7 +109,7 @@ def _done_callbacks(file: RclpyFile) -> Iterator[tuple[Entity, Callback]]:
 
 
 def client_of(file: RclpyFile, future: ast.expr) -> Entity | None:
-    """Return the client that a future comes from; ``None`` if it is not known."""
+    """Return the client of a future; ``None`` if unknown."""
     match file.evaluator.single_value(future):
         case ast.Call(func=ast.Attribute(attr="get_result_async" | "cancel_goal_async")):
             return file.action_clients[0] if len(file.action_clients) == 1 else None
@@ -119,7 +119,7 @@ def client_of(file: RclpyFile, future: ast.expr) -> Entity | None:
 
 
 def client_at(file: RclpyFile, node: ast.expr) -> Entity | None:
-    """Return the client of a service or action that an expression is; ``None``: not known."""
+    """Return the client that an expression refers to; ``None`` if unknown."""
     made = file.evaluator.single_value(node)
     return next((x for x in (*file.clients, *file.action_clients) if x.call is made), None)
 
@@ -127,7 +127,7 @@ def client_at(file: RclpyFile, node: ast.expr) -> Entity | None:
 def _reached(
     file: RclpyFile, called: Iterable[tuple[Entity, Callback]], seen: set[ast.AST]
 ) -> Iterator[Executed]:
-    """Yield callbacks and what they run, without what was seen."""
+    """Yield callbacks and the functions they call, without those seen before."""
     for entity, callback in called:
         for function in file.reached(callback.function, seen) if callback.function else ():
             seen.add(function)
@@ -138,7 +138,7 @@ def _reached(
 
 
 def in_constructors(file: RclpyFile) -> Sequence[Executed]:
-    """Return the functions that constructors of nodes run, each once."""
+    """Return the functions called by constructors of nodes, each once."""
     if "constructors" not in file.executed:
         file.executed["constructors"] = tuple(_find_in_constructors(file))
     functions: Sequence[Executed] = file.executed["constructors"]
@@ -154,16 +154,16 @@ def _find_in_constructors(file: RclpyFile) -> Iterator[Executed]:
 
 
 class Phases(NamedTuple):
-    """The functions of a file by when they are run; what both run is in both."""
+    """The functions of a file by phase; a function may be in both."""
 
     constructing: frozenset[ast.AST]
-    """Run while nodes are made."""
+    """Functions run during the construction of nodes."""
     running: frozenset[ast.AST]
     """Run by callbacks."""
 
 
 def phases_of(file: RclpyFile) -> Phases:
-    """Return which functions constructors of nodes run, and which callbacks run."""
+    """Return the functions run by constructors of nodes, and those run by callbacks."""
     callbacks = (*in_callbacks(file), *in_tasks(file))
     return Phases(
         frozenset(executed.function for executed in in_constructors(file)),
@@ -181,20 +181,20 @@ class _Wait(NamedTuple):
 
 
 Waits = tuple[tuple[Location, str], ...]
-"""Calls that wait for a callback, and run in the only thread that could run it.
+"""Calls that wait for a callback in the only thread that could run it.
 
-With what the thread does: ``is blocked in this call``, ``is in callback 'tick'``."""
+With the state of the thread: ``is blocked in this call``, ``is in callback 'tick'``."""
 
 
 def waits_alone(
     package: Package, method: str, waits_of: Callable[[Package, str, str | None], Waits]
 ) -> Iterator[tuple[Location, str]]:
-    """Yield the calls of a method in programs where nothing else can end them, each once.
+    """Yield the calls of a method that block forever in programs, each once.
 
     Args:
         package: The package.
         method: The name of the method.
-        waits_of: A fact: what `waits_in` says of a program.
+        waits_of: A fact: the result of `waits_in` for a program.
     """
     seen: set[Location] = set()
     for start in starts_of(package):
@@ -216,13 +216,13 @@ def waits_in(
     method: str,
     is_wait: Callable[[RclpyFile, ast.Call], bool],
 ) -> Waits:
-    """Return the calls of a method that nothing else in a program can end.
+    """Return the calls of a method that block forever in a program.
 
     Args:
         package: The package.
         program: The file and the entry function; raises ViewError if it cannot be parsed.
         method: The name of the method.
-        is_wait: Tells whether a call of that name is one that waits.
+        is_wait: Tells whether a call with that name blocks.
     """
     run = run_of(package, *program)
     module = run.file.module
@@ -237,7 +237,7 @@ def waits_in(
 
 
 def _waits(run: Execution, method: str) -> Iterator[_Wait]:
-    """Yield the calls of a method that the main thread makes, itself or in a callback."""
+    """Yield the calls of a method in the main thread, directly or in a callback."""
     file = run.file
     calls = [file.module.parent(node) for node in file.module.index.attributes(method)]
     places = _places(run) if calls else {}
@@ -249,7 +249,7 @@ def _waits(run: Execution, method: str) -> Iterator[_Wait]:
 
 
 def _places(run: Execution) -> dict[object, str]:
-    """Return the functions that the main thread runs, with what it does in them."""
+    """Return the functions run by the main thread, with its state in them."""
     file = run.file
     functions: list[object] = [*run.functions]
     classes: set[ast.ClassDef] = set()
@@ -266,7 +266,7 @@ def _places(run: Execution) -> dict[object, str]:
 
 
 def _may_end(file: RclpyFile, wait: _Wait) -> bool:
-    """Tell whether what a file does may end a wait."""
+    """Tell whether a file may have code that ends a wait."""
     if any(call.name.rpartition(".")[2] != "spin" for call in file.spin_calls):
         return True  # step by step
     return spins_elsewhere(file) or (wait.in_callback and names_other_executor(file))

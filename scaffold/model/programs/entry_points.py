@@ -36,12 +36,12 @@ class Execution(NamedTuple):
 
     file: RclpyFile
     functions: Sequence[FunctionNode]
-    """From the entry on, what that calls included."""
+    """The functions reached from the entry."""
     calls: Sequence[ast.Call]
-    """The calls in them; of a script, its own calls first."""
+    """The calls in them; for a script, its own calls first."""
 
     def nodes(self) -> Iterator[tuple[ast.Call, NodeDefinition]]:
-        """Yield the nodes that are certainly made, and the calls that make them."""
+        """Yield the nodes that are certainly created, with the calls."""
         for call in self.calls:
             owner = None if self.file.is_conditional(call) else self.file.owner_of(call)
             if owner is not None:
@@ -49,22 +49,22 @@ class Execution(NamedTuple):
 
 
 def starts_of(package: Package) -> Sequence[EntryPoint]:
-    """Return where the programs that are Python begin."""
+    """Return the entry points of Python programs."""
     return package.remember("program_starts", lambda: list(_starts(package)))
 
 
 def run_of(package: Package, path: str, function: str | None) -> Execution:
-    """Return what a program runs from its entry on; raises ViewError if it cannot be parsed."""
+    """Return the code that a program executes; raises ViewError if it cannot be parsed."""
     return package.remember(("program_run", path, function), lambda: _run(package, path, function))
 
 
 def files_of(package: Package, path: str) -> Sequence[RclpyFile]:
-    """Return a file and what it imports of its package; see `paths_of`."""
+    """Return a file and the files of its package that it imports; see `paths_of`."""
     return [rclpy_file(package, other) for other in paths_of(package, path)]
 
 
 def paths_of(package: Package, path: str) -> Sequence[str]:
-    """Return the paths of a file and of what it imports of its package, over any number of steps.
+    """Return the paths of a file and of its transitive imports in its package.
 
     The ``__init__.py`` of the packages around them are imported along with them.
     """
@@ -129,7 +129,7 @@ def _run(package: Package, path: str, entry: str | None) -> Execution:
 def _functions(
     file: RclpyFile, entry: str | None, outside: Iterable[ast.Call]
 ) -> list[FunctionNode]:
-    """Return the functions that run, from the entry on, in the same file."""
+    """Return the functions of the file that are reached from the entry."""
     if entry is not None:
         function = file.module.functions.get(entry)
         begin = [function.node] if function else []
@@ -143,7 +143,7 @@ def _functions(
 
 
 def _calls_outside(file: RclpyFile) -> list[ast.Call]:
-    """Return the calls that importing or running the file makes itself."""
+    """Return the calls at module level, made by importing or running the file."""
     module = file.module
     return [
         call
@@ -169,7 +169,7 @@ def _paths(package: Package, path: str) -> list[str]:
 
 
 def _imported(package: Package, path: str) -> Iterator[str]:
-    """Yield the files that the imports of a file may mean."""
+    """Yield the files that the imports of a file may refer to."""
     directory = path.rpartition("/")[0]
     yield f"{directory}/__init__.py"
     for item in imports_of(package, path):

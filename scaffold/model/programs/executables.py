@@ -36,14 +36,14 @@ _PLAIN_COMMANDS = frozenset(
     target_compile_options target_include_directories target_link_libraries
     """.split()  # noqa: SIM905  a column of quoted names would hide them
 )
-"""Commands that make no programs, or such whose names are plain to see."""
+"""Commands that define no programs, or ones with literal names."""
 
 
 class Programs(NamedTuple):
     """The programs of a package."""
 
     sources: dict[str, str]
-    """The Python file of a program by its name; empty for one of another language."""
+    """The Python file of each program by name; empty for other languages."""
     complete: bool
     """Whether these are all."""
 
@@ -54,7 +54,7 @@ def programs_of(package: Package) -> Programs:
 
 
 def nodes_of(package: Package, program: str) -> Sequence[KnownNode]:
-    """Return the nodes that a Python program may be; one when that is sure."""
+    """Return the possible nodes of a Python program; only one if certain."""
     key = ("nodes_of_program", program)
     return package.remember(key, lambda: _find_nodes_of(package, program))
 
@@ -74,7 +74,7 @@ def _find_nodes_of(package: Package, program: str) -> Sequence[KnownNode]:
 
 
 def _made_by_others(package: Package, path: str) -> Iterator[KnownNode]:
-    """Yield the nodes that functions of other packages make, as far as a file imports those."""
+    """Yield the nodes created by imported functions of other packages."""
     for item in imports_of(package, path):
         if item.level or item.root == package.name or keys_of_module(item.root):
             continue

@@ -10,11 +10,11 @@ if TYPE_CHECKING:
     from scaffold.model.rclpy.file import RclpyFile
 
 _FAR = 200
-"""Statements in between: what they do is not checked."""
+"""The maximum number of statements between, which are not checked."""
 
 
 class Shutdowns:
-    """The shutdowns of a file that are statements, by their block."""
+    """The shutdown statements of a file, by block."""
 
     def __init__(self, file: RclpyFile) -> None:
         self._module = file.module
@@ -26,7 +26,7 @@ class Shutdowns:
                 self._blocks.setdefault((holder, block), {})[number] = call
 
     def before(self, call: ast.Call) -> RclpyCall | None:
-        """Return the last one ahead of a call in its block, unless rclpy may have begun anew."""
+        """Return the last shutdown before a call in its block, unless rclpy may be restarted."""
         place = self._place(call)
         if place is None:
             return None
@@ -40,7 +40,7 @@ class Shutdowns:
         return None
 
     def _place(self, call: ast.Call) -> tuple[ast.AST, str, int] | None:
-        """Return what holds a call that is a statement, in which block, and at which place."""
+        """Return the parent, block and index of a call statement."""
         statement = self._module.parent(call)
         holder = self._module.parent(statement) if isinstance(statement, ast.Expr) else None
         if statement is None or holder is None:
@@ -49,7 +49,7 @@ class Shutdowns:
 
 
 def used_of_executor(file: RclpyFile, call: ast.Call) -> dict[str, ast.AST] | None:
-    """Return what is used of an executor that never leaves a local variable."""
+    """Return the used attributes of an executor that stays in a local variable."""
     parent = file.module.parent(call)
     if not isinstance(parent, ast.Assign):
         return None

@@ -19,19 +19,19 @@ class KnownNode(NamedTuple):
     """A node that the code of a file creates; `definition` has the details."""
 
     package: str
-    """The name of the package that the file is in."""
+    """The name of the package with the file."""
     path: str
     number: int
-    """Among the nodes of the file."""
+    """Its index among the nodes of the file."""
     name: str
-    """Of the class, or of the variable."""
+    """The name of the class or the variable."""
     node_name: str | Unknown
     has_namespace: bool
     is_class: bool
-    """Whether it has a class of its own."""
+    """Whether it has its own class."""
 
     def home(self, package: Package) -> Package:
-        """Return the package that its code is in, as seen from another one."""
+        """Return the package with its code, as seen from another one."""
         if self.package == package.name:
             return package
         return package.workspace.get(self.package) or package
@@ -43,7 +43,7 @@ class KnownNode(NamedTuple):
 
 @fact
 def known_nodes(package: Package, path: str) -> tuple[KnownNode, ...]:
-    """Return the nodes that a Python file makes; raises ViewError."""
+    """Return the nodes that a Python file creates; raises ViewError."""
     return tuple(
         KnownNode(
             package.name,

@@ -31,10 +31,10 @@ _HARMLESS = frozenset(
     | {"is_ready", "is_canceled", "time_since_last_call", "time_until_next_call"}
     | {"timer_period_ns", "clock", "callback_group"}
 )
-"""What can be asked of a publisher or timer without any effect."""
+"""Methods of publishers and timers without effects."""
 
 _MAX_CALLS = 4
-"""Functions between a timer and what publishes, and mentions of each."""
+"""The maximum number of functions between a timer and a publishing call."""
 
 
 class _Doubt(Exception):  # noqa: N818  it is not an error, it ends a search
@@ -42,7 +42,7 @@ class _Doubt(Exception):  # noqa: N818  it is not an error, it ends a search
 
 
 def publish_calls(file: RclpyFile, publisher: Publisher) -> Sequence[ast.Call] | None:
-    """Return the calls that publish; ``None`` when others get hold of the publisher."""
+    """Return the calls that publish; ``None`` if other code gets the publisher."""
     try:
         return list(_uses(file, publisher, "publish"))
     except _Doubt:
@@ -51,7 +51,7 @@ def publish_calls(file: RclpyFile, publisher: Publisher) -> Sequence[ast.Call] |
 
 @fact
 def published_at_start(package: Package, path: str) -> tuple[str, ...]:
-    """Return the topics that the publishers of a file publish in constructors alone."""
+    """Return the topics that are only published in constructors."""
     file = rclpy_file(package, path)
     result: list[str] = []
     for publisher in file.publishers:
@@ -66,15 +66,15 @@ def published_at_start(package: Package, path: str) -> tuple[str, ...]:
 def publish_rates(
     file: RclpyFile, publisher: Publisher, *, may_leave: bool = False
 ) -> Sequence[float] | None:
-    """Return the rates in Hz that add up to how often a publisher publishes, one per message.
+    """Return the rates in Hz whose sum is the rate of a publisher.
 
-    Known if all that publishes are callbacks of timers, directly or through other functions of the
+    Known if only callbacks of timers publish, directly or through other functions of the
     file, under no condition, and nothing stops or changes the timers. Else ``None``; without any
     rate, it publishes at the start or never.
 
     Args:
         file: The file.
-        publisher: What publishes.
+        publisher: The publisher.
         may_leave: Whether callbacks may return or raise before they publish.
     """
     if publisher.is_conditional or publisher.is_lifecycle:
@@ -90,7 +90,7 @@ def publish_rates(
 
 
 def ticks_always(file: RclpyFile, timer: Timer) -> bool:
-    """Tell whether a timer certainly ticks, from the start of its node to the end."""
+    """Tell whether a timer certainly runs from the start of its node to the end."""
     try:
         _expect_ticking(file, timer)
     except _Doubt:
@@ -120,7 +120,7 @@ def _expect_ticking(file: RclpyFile, timer: Timer) -> None:
 
 
 def _may_be_held_up(file: RclpyFile, timer: Timer) -> bool:
-    """Tell whether a timer is in a callback group that may do anything."""
+    """Tell whether a timer is in an unknown callback group."""
     group = timer.argument("callback_group")
     if group is None:
         return False
@@ -148,7 +148,7 @@ def _runs_once(file: RclpyFile, function: FunctionNode | None) -> bool:
 
 
 def _uses(file: RclpyFile, entity: Entity, method: str) -> Iterator[ast.Call]:
-    """Yield the calls of a method of something stored; doubt when it goes elsewhere."""
+    """Yield the calls of a method of a stored object; raise `_Doubt` if it is passed elsewhere."""
     module = file.module
     for node in _stored_references(file, entity):
         parent = module.parent(node)
@@ -164,7 +164,7 @@ def _uses(file: RclpyFile, entity: Entity, method: str) -> Iterator[ast.Call]:
 
 
 def _stored_references(file: RclpyFile, entity: Entity) -> Iterator[ast.expr]:
-    """Yield where the attribute and the variable that something is stored in are read."""
+    """Yield the places where the attribute and the variable of a stored object are read."""
     if not entity.attribute and not entity.variable:
         raise _Doubt
     if entity.attribute:
@@ -200,7 +200,7 @@ def _attribute_references(
 
 
 def _is_placeholder(store: Store, entity: Entity) -> bool:
-    """Tell whether an attribute gets None until what belongs there is made further down."""
+    """Tell whether an attribute is None until it is set further down."""
     is_none = isinstance(store.value, ast.Constant) and store.value.value is None
     return is_none and store.node.lineno < entity.call.lineno
 
@@ -208,7 +208,7 @@ def _is_placeholder(store: Store, entity: Entity) -> bool:
 def _timers_behind(
     file: RclpyFile, call: ast.AST, depth: int, *, may_leave: bool
 ) -> Iterator[Timer]:
-    """Yield a timer for every way to come to a call; doubt for any other way."""
+    """Yield a timer for every path to a call; raise `_Doubt` for other paths."""
     module = file.module
     function = file.function_of(call)
     if depth > _MAX_CALLS or function is None:
@@ -248,7 +248,7 @@ def _innermost(callback: Callback) -> ast.expr:
 
 
 def _references(file: RclpyFile, function: FunctionNode | ast.Lambda) -> Iterator[ast.expr]:
-    """Yield where a function is mentioned; doubt when another one has the same name."""
+    """Yield the uses of a function; raise `_Doubt` if another one has the same name."""
     if isinstance(function, ast.Lambda):
         yield function
     elif isinstance(file.module.parent(function), ast.ClassDef):
@@ -292,12 +292,12 @@ def _is_certain_call(file: RclpyFile, reference: ast.expr) -> bool:
 
 
 def _is_certain(file: RclpyFile, node: ast.AST, function: FunctionNode | ast.Lambda) -> bool:
-    """Tell whether a node is run exactly once whenever its function is."""
+    """Tell whether a node is run exactly once per call of its function."""
     return not _is_conditional(file, node, function) and _gets_to(file, node, function)
 
 
 def _is_conditional(file: RclpyFile, node: ast.AST, function: FunctionNode | ast.Lambda) -> bool:
-    """Tell whether a node is inside of something that may skip or repeat it."""
+    """Tell whether a node is inside of a statement that may skip or repeat it."""
     child = node
     for parent in file.module.parents(node):
         if parent is function:
@@ -318,7 +318,7 @@ def _is_conditional(file: RclpyFile, node: ast.AST, function: FunctionNode | ast
 
 
 def _gets_to(file: RclpyFile, node: ast.AST, function: FunctionNode | ast.Lambda) -> bool:
-    """Tell whether nothing leaves a function before a node of it."""
+    """Tell whether a function cannot be left before a node."""
     return not any(
         file.function_of(leaving) is function and _is_before(leaving, node)
         for kind in (ast.Return, ast.Raise, ast.Yield)
@@ -346,18 +346,18 @@ class Reach(Enum):
 
 
 def _most(reaches: Iterable[Reach]) -> Reach:
-    """Return the strongest verdict on several places."""
+    """Return the strongest reach of several places."""
     reached = set(reaches)
     order = (Reach.ALWAYS, Reach.PERHAPS)
     return next((item for item in order if item in reached), Reach.NEVER)
 
 
 class PublishReach:
-    """The calls that publish and are executed, in one file.
+    """The executed publishing calls of one file.
 
     Args:
         facts: The file.
-        starts: Its functions that run from the start, ``main`` and what that calls.
+        starts: Its functions run at the start: ``main`` and the functions it calls.
         alone: Whether no other file calls into this one.
     """
 
@@ -410,7 +410,7 @@ class PublishReach:
         return _most(reached)
 
     def _is_behind_spin(self, function: FunctionNode, call: ast.Call) -> bool:
-        """Tell whether a function spins for as long as it is watched before it makes a call."""
+        """Tell whether a function spins forever before a call."""
         return any(
             spin.name.rpartition(".")[2] == "spin"
             and spin.function is function
@@ -419,7 +419,7 @@ class PublishReach:
         )
 
     def _mentions(self, function: FunctionNode) -> int:
-        """Count where the name of a function is used in any way."""
+        """Count all uses of the name of a function."""
         return sum(node.attr == function.name for node in self._module.walk(ast.Attribute)) + sum(
             node.id == function.name for node in self._module.walk(ast.Name)
         )
@@ -430,7 +430,7 @@ class PublishReach:
                 yield call
 
     def _leaving(self, function: FunctionNode, call: ast.Call) -> list[ast.AST]:
-        """Return the statements that may leave a function before it makes a call."""
+        """Return the statements that may leave a function before a call."""
         nodes: list[ast.Return | ast.Raise | ast.Yield | ast.Await] = [
             *self._module.walk(ast.Return),
             *self._module.walk(ast.Raise),

@@ -19,11 +19,11 @@ _GROUPS = "rclpy.callback_groups."
 _INTERFACES = frozenset({"msg", "srv", "action"})
 _NO_SPINNERS = frozenset({"SingleThreadedExecutor", "ThreadPoolExecutor", "ProcessPoolExecutor"})
 _SPINNING = ("thread", "concurrent", "process", "async", "pool", "event", "group", "spin", "scope")
-"""Words in the names of libraries that may spin a node behind the scenes."""
+"""Words in the names of libraries that may spin nodes."""
 
 
 def names_other_executor(file: RclpyFile) -> bool:
-    """Tell whether a file names an executor that may run callbacks side by side."""
+    """Tell whether a file mentions a multithreaded executor."""
     answers = file.thread_answers
     if "executor" not in answers:
         answers["executor"] = any(
@@ -44,14 +44,14 @@ def spins_in_one_thread(file: RclpyFile) -> bool:
 
 
 def names_callback_group(file: RclpyFile) -> bool:
-    """Tell whether a file names a callback group."""
+    """Tell whether a file mentions a callback group."""
     return file.module.mentions("CallbackGroup", "callback_group")
 
 
 def spins_elsewhere(file: RclpyFile) -> bool:
-    """Tell whether a file may spin a node in another place than by a plain call.
+    """Tell whether a file may spin a node other than with a plain call.
 
-    A thread may spin it, or code that is not in the file. A thread that does not spin is of no
+    A thread may spin it, or code in another file. A thread that does not spin is of no
     help to a call that waits for a callback.
     """
     if "spin" not in file.thread_answers:
@@ -72,7 +72,7 @@ def _spins_elsewhere(file: RclpyFile) -> bool:
 
 
 def share_group(file: RclpyFile, first: Entity, second: Entity) -> bool | None:
-    """Tell whether callbacks of two entities exclude each other; ``None``: not known."""
+    """Tell whether callbacks of two entities are mutually exclusive; ``None`` if unknown."""
     groups = _group_of(file, first), _group_of(file, second)
     if None in groups:
         return None
@@ -80,7 +80,7 @@ def share_group(file: RclpyFile, first: Entity, second: Entity) -> bool | None:
 
 
 def blocks_others(file: RclpyFile, entity: Entity) -> bool:
-    """Tell whether other callbacks of a node certainly wait for a callback of an entity.
+    """Tell whether a callback of an entity certainly blocks other callbacks of the node.
 
     They do if one thread runs them all, whatever their groups. With several threads, those of the
     same group wait; that is all of the node unless the code says otherwise.
@@ -97,7 +97,7 @@ def blocks_others(file: RclpyFile, entity: Entity) -> bool:
 
 
 def _group_of(file: RclpyFile, entity: Entity) -> object:
-    """Return what identifies the callback group of an entity; ``None``: not known."""
+    """Return an identifier of the callback group of an entity; ``None`` if unknown."""
     if entity.has_unknown_arguments or entity.owner is None:
         return None
     argument = entity.argument("callback_group")
@@ -140,7 +140,7 @@ def _identifiers(file: RclpyFile) -> Iterator[tuple[str, ast.AST]]:
 
 
 def _may_refer_to_spin(file: RclpyFile, name: str, node: ast.AST) -> bool:
-    """Tell whether an identifier with the word may be a function that spins, or ask for one."""
+    """Tell whether an identifier with "spin" may refer to a function that spins."""
     match node:
         case ast.keyword(value=ast.Constant(value=value)):
             return bool(value)
@@ -158,7 +158,7 @@ def _may_refer_to_spin(file: RclpyFile, name: str, node: ast.AST) -> bool:
 
 
 def _run_by_others(file: RclpyFile) -> Iterator[FunctionNode | ast.Lambda]:
-    """Yield the functions that are passed on, decorated, or the ``run`` of a thread's class."""
+    """Yield the functions that are passed on, decorated, or ``run`` of a thread class."""
     for function in file.module.function_nodes:
         class_ = file.module.parent(function)
         is_run = function.name == "run" and isinstance(class_, ast.ClassDef) and class_.bases
@@ -178,7 +178,7 @@ def _is_passed(file: RclpyFile, node: ast.Name | ast.Attribute) -> bool:
 
 
 def _imports_spinner(file: RclpyFile) -> bool:
-    """Tell whether a library is imported whose names say that it may spin a node by itself."""
+    """Tell whether an imported library may spin nodes, judging by its name."""
     for item in file.module.imports:
         if item.level or item.root in sys.stdlib_module_names or item.root == "rclpy":
             continue

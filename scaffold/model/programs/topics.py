@@ -30,7 +30,7 @@ _KINDS = (Publisher, Subscription, Service, Client, ActionServer, ActionClient)
 
 
 class NamedEndpoint(NamedTuple):
-    """An endpoint whose name is known, as other files see it."""
+    """An endpoint with a known name, for use by other files."""
 
     kind: str
     """``Publisher``, ``Subscription``, ``Service``, ``Client``, ``ActionServer``, ..."""
@@ -38,15 +38,15 @@ class NamedEndpoint(NamedTuple):
     interface: str | None
     location: Location
     type_location: Location
-    """The place of the type; without one, of the endpoint."""
+    """The location of the type, or of the endpoint without one."""
     name_location: Location
     qos: Qos | None
     profile: Mapping[str, str] | None
     """See `profile_words`."""
     is_plain: bool
-    """It is created for sure, once, by a node without a namespace."""
+    """Whether it is certainly created, once, by a node without a namespace."""
     from_parameter: str | None
-    """The name is the default of this parameter."""
+    """The parameter with the name as its default."""
 
 
 class Topic(NamedTuple):
@@ -55,9 +55,9 @@ class Topic(NamedTuple):
     publishers: list[NamedEndpoint]
     subscriptions: list[NamedEndpoint]
     is_plain: bool
-    """Every endpoint of the topic is created for sure, once, by a node without a namespace."""
+    """Whether every endpoint is certainly created, once, by a node without a namespace."""
     is_plain_by_default: bool
-    """The same, unless the parameters that hold its name are set."""
+    """The same, unless parameters with its name are set."""
 
 
 class ServiceName(NamedTuple):
@@ -66,11 +66,11 @@ class ServiceName(NamedTuple):
     services: list[NamedEndpoint]
     clients: list[NamedEndpoint]
     is_plain: bool
-    """So are all endpoints of the service."""
+    """Whether all endpoints of the service are plain."""
 
 
 def named_endpoints(package: Package) -> Iterator[NamedEndpoint]:
-    """Yield the endpoints of a package whose names are known."""
+    """Yield the endpoints of a package with known names."""
     for path in rclpy_paths(package):
         with suppress(ViewError):
             yield from _named_endpoints(package, path)
@@ -97,12 +97,12 @@ def _named_endpoints(package: Package, path: str) -> tuple[NamedEndpoint, ...]:
 
 
 def topics_of(package: Package) -> Mapping[str, Topic]:
-    """Return the topics by their names as written, a leading slash aside."""
+    """Return the topics by name as written, without a leading slash."""
     return package.remember("topics", lambda: _topics(package))
 
 
 def one_sided(package: Package) -> tuple[list[Topic], list[Topic]]:
-    """Return the topics that are published only, and those that are subscribed to only."""
+    """Return the topics only published, and those only subscribed to."""
     topics = topics_of(package).values()
     return (
         [topic for topic in topics if topic.publishers and not topic.subscriptions],
@@ -111,7 +111,7 @@ def one_sided(package: Package) -> tuple[list[Topic], list[Topic]]:
 
 
 def services_of(package: Package) -> Mapping[str, ServiceName]:
-    """Return the services by their names as written, a leading slash aside."""
+    """Return the services by name as written, without a leading slash."""
     return package.remember("services", lambda: _services(package))
 
 
@@ -121,7 +121,7 @@ def is_private(endpoint: NamedEndpoint) -> bool:
 
 
 def is_remapped(package: Package, endpoint: NamedEndpoint) -> bool:
-    """Tell whether a launch file of the package names what an endpoint is called: it remaps it."""
+    """Tell whether a launch file of the package mentions the name of an endpoint, to remap it."""
     for path in package.files:
         if ".launch." in path or path.endswith("_launch.py"):
             try:
@@ -134,7 +134,7 @@ def is_remapped(package: Package, endpoint: NamedEndpoint) -> bool:
 
 
 def is_named_in_compiled_code(package: Package, topic: str) -> bool:
-    """Tell whether a program of the workspace that is not read, in C++ or Rust, names a topic."""
+    """Tell whether C++ or Rust code of the workspace mentions a topic."""
     texts = [f'"{slash}{topic}"'.encode() for slash in ("", "/")]
     return any(text in data for data in _compiled_code(package) for text in texts)
 
@@ -166,9 +166,9 @@ def _services(package: Package) -> Mapping[str, ServiceName]:
 def _by_name(
     package: Package, kind: str, other: str
 ) -> Iterator[tuple[str, list[NamedEndpoint], list[NamedEndpoint], tuple[bool, bool]]]:
-    """Yield names, the endpoints of two kinds that have them, and whether all are plain.
+    """Yield names with the endpoints of two kinds, and whether all are plain.
 
-    That twice: for certain, and unless somebody sets the parameters that hold names.
+    The latter twice: certainly, and unless parameters with names are set.
     """
     result: dict[str, list[NamedEndpoint]] = {}
     for endpoint in named_endpoints(package):

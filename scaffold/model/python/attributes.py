@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 _DEEPEST = 10
-"""Names that refer to names."""
+"""The maximum number of names to follow."""
 
 
 class Store(NamedTuple):
@@ -23,16 +23,16 @@ class Store(NamedTuple):
 
     node: ast.Attribute
     class_: ast.ClassDef | None
-    """The class whose ``self`` it is an attribute of."""
+    """The class of the ``self`` with the attribute."""
     value: ast.expr | None
 
 
 class AttributeEvaluator(Evaluator):
-    """An evaluator that knows where attributes of objects are assigned.
+    """An evaluator that knows the assignments of attributes.
 
     Args:
         module: The file.
-        related: Gives a class together with its bases and subclasses in the file.
+        related: Returns a class together with its bases and subclasses in the file.
     """
 
     def __init__(
@@ -45,10 +45,10 @@ class AttributeEvaluator(Evaluator):
         """By name and scope."""
         self._values: dict[tuple[ast.ClassDef, str], Sequence[ast.expr] | None] = {}
         self._single: dict[ast.expr | tuple[str, ast.AST], ast.expr | None] = {}
-        """By name and scope, or by the attribute; ``None`` for what is nothing else."""
+        """Single values by name and scope, or by attribute; ``None`` if there is no other."""
 
     def self_class(self, node: ast.expr) -> ast.ClassDef | None:
-        """Return the class whose instance a name such as ``self`` is."""
+        """Return the class of the instance in a name such as ``self``."""
         if not isinstance(node, ast.Name):
             return None
         key = node.id, self.module.index.scope_of(node)
@@ -70,7 +70,7 @@ class AttributeEvaluator(Evaluator):
         return class_ if first == [parameter] else None
 
     def stores(self, name: str) -> Sequence[Store]:
-        """Return the places where an attribute of this name gets a value, on any object."""
+        """Return the assignments to an attribute of this name on any object."""
         if self._stores is None:
             self._stores = {}
             for node in self.module.walk(ast.Attribute):
@@ -92,7 +92,7 @@ class AttributeEvaluator(Evaluator):
         return None
 
     def attribute_values(self, node: ast.Attribute) -> Sequence[ast.expr] | None:
-        """Return all expressions that ``self.name`` may have as value; ``None`` if unknown."""
+        """Return all values of ``self.name``; ``None`` if unknown."""
         class_ = self.self_class(node.value) or self.named_class(node.value)
         if class_ is None:
             return None
@@ -125,7 +125,7 @@ class AttributeEvaluator(Evaluator):
         return values
 
     def _is_only_default(self, target: ast.Attribute) -> bool:
-        """Tell whether others may set an attribute: ``if not hasattr(self, 'rate'):``."""
+        """Tell whether other code may set an attribute: ``if not hasattr(self, 'rate'):``."""
         if not self.module.mentions("hasattr"):
             return False
         for parent in self.module.parents(target):
@@ -139,14 +139,14 @@ class AttributeEvaluator(Evaluator):
         return False
 
     def named_class(self, node: ast.expr) -> ast.ClassDef | None:
-        """Return the class of the file that an expression names."""
+        """Return the class of the file that an expression refers to."""
         class_ = self.module.index.only_node(node)
         return class_ if isinstance(class_, ast.ClassDef) else None
 
     def single_value(self, node: ast.expr) -> ast.expr:
-        """Follow names and attributes of ``self`` with one assignment to what is assigned.
+        """Follow names and attributes of ``self`` with a single assignment to its value.
 
-        ``None`` does not count: who uses the object waits for the other assignment.
+        ``None`` is ignored, as users of the object wait for the other assignment.
         """
         key: ast.expr | tuple[str, ast.AST] = node
         if isinstance(node, ast.Name):
@@ -159,9 +159,9 @@ class AttributeEvaluator(Evaluator):
         return self._single[key] or node
 
     def values(self, node: ast.Name | ast.Attribute) -> Sequence[ast.expr]:
-        """Return all that a name or an attribute of ``self`` is assigned, ``None`` aside.
+        """Return all values assigned to a name or an attribute of ``self``, except ``None``.
 
-        It is empty if the name may be something else, such as an argument.
+        It is empty if the name may have other values, such as an argument.
         """
         if isinstance(node, ast.Attribute):
             stored: Sequence[ast.expr | None] = self.attribute_values(node) or ()
@@ -174,9 +174,9 @@ class AttributeEvaluator(Evaluator):
         return values if None not in stored else ()
 
     def origins(self, node: ast.expr, depth: int = 0) -> Sequence[ast.expr]:
-        """Return all expressions that a value may come from, through names and attributes.
+        """Return all possible origins of a value, through names and attributes.
 
-        ``None`` aside; what is not known, such as an argument, is returned as it is.
+        Without ``None``; unknown expressions, such as arguments, are returned unchanged.
         """
         values: Sequence[ast.expr] = ()
         if isinstance(node, ast.IfExp):

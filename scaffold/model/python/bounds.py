@@ -7,9 +7,9 @@ import ast
 from scaffold.model.python.scopes import ScopeIndex
 
 MAX_NODES = 60_000
-"""Of the syntax tree; the largest file of 22 public repositories, with 3 200 lines, has 18 000."""
+"""The size limit of syntax trees; the largest file of 22 public repositories has 18 000 nodes."""
 MAX_STATEMENTS = 4_000
-"""One after the other in a block; the longest block of these repositories has 250."""
+"""The limit of statements in a block; the longest block of these repositories has 250."""
 _BLOCKS = ("body", "orelse", "finalbody")
 _WITH_BLOCKS = tuple(
     kind
@@ -19,10 +19,10 @@ _WITH_BLOCKS = tuple(
 
 
 def why_unchecked(index: ScopeIndex) -> str:
-    """Return why a file is not checked, empty if it is.
+    """Return why a file is not checked; empty if it is.
 
-    Rules follow names from statement to statement, and fixes make work for others: their time goes
-    by what a syntax tree holds, and not by bytes or words.
+    Rules follow names from statement to statement, and fixes cascade: their time depends
+    on the size of the syntax tree, not on bytes or words.
     """
     size = len(index.nodes)
     if size > MAX_NODES:

@@ -51,7 +51,7 @@ class CallSites:
         return calls
 
     def _is_mention(self, name: ast.Name, parent: ast.AST | None) -> bool:
-        """Tell whether a class is only named: as a base, in an annotation, for a constant."""
+        """Tell whether a class is only mentioned: as a base, in an annotation, for a constant."""
         if isinstance(parent, ast.ClassDef | ast.arg | ast.AnnAssign | ast.Attribute):
             return True
         if isinstance(parent, ast.FunctionDef | ast.AsyncFunctionDef):
@@ -64,7 +64,7 @@ class CallSites:
     def _constructions(
         self, class_: ast.ClassDef, seen: list[ast.ClassDef]
     ) -> list[ast.Call] | None:
-        """Return the calls that end in a class's constructor, from subclasses too."""
+        """Return the calls that reach the constructor of a class, also from subclasses."""
         seen.append(class_)
         if len(seen) > _MAX_CLASSES:
             return None
@@ -114,7 +114,7 @@ def _is_private(function: FunctionNode) -> bool:
 def given_argument(
     function: FunctionNode, call: ast.Call, parameter: ast.arg, *, is_method: bool
 ) -> ast.expr | None:
-    """Return the expression that a parameter gets in a call, its default if it is not given.
+    """Return the argument for a parameter in a call, or its default.
 
     ``None`` if that is unknown: ``*args``, ``**kwargs``, a variadic parameter.
     """

@@ -1,6 +1,6 @@
 """Branches of a Python file that do not run on the target distribution.
 
-Conditions on the Python version count as well, because the distribution determines it.
+Conditions on the Python version are evaluated as well, as the distribution determines it.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ Stretch = tuple[int, int, int, int]
 
 
 def stretches_not_run(module: PythonModule) -> Iterator[Stretch]:
-    """Yield the places of what does not run on the target distribution."""
+    """Yield the ranges of code that does not run on the target distribution."""
     if not module.mentions(*ASKED):
         return
     for first, last in chain(_dead(module), _dead_parts(module), _skipped(module)):
@@ -34,7 +34,7 @@ def stretches_not_run(module: PythonModule) -> Iterator[Stretch]:
 
 
 def is_run(module: PythonModule, at: Location) -> bool:
-    """Tell whether no condition on the distribution keeps a place from running on the target."""
+    """Tell whether a place may run on the target, judging by conditions on the distribution."""
     place = (at.line, at.column)
     return not any(item[:2] <= place < item[2:] for item in stretches_not_run(module))
 
@@ -57,7 +57,7 @@ def _dead(module: PythonModule) -> Iterator[tuple[ast.AST, ast.AST]]:
 
 
 def _dead_parts(module: PythonModule) -> Iterator[tuple[ast.AST, ast.AST]]:
-    """Yield the same of conditions without branches, and of ``match``."""
+    """Yield those of conditional expressions and of ``match``."""
     for both in module.walk(ast.BoolOp):
         ending = isinstance(both.op, ast.Or)
         for at, value in enumerate(both.values[:-1], 1):
@@ -71,7 +71,7 @@ def _dead_parts(module: PythonModule) -> Iterator[tuple[ast.AST, ast.AST]]:
 
 
 def _left_out(module: PythonModule, node: ast.stmt) -> Iterator[tuple[ast.AST, ast.AST]]:
-    """Yield what follows a statement that leaves its block on the target."""
+    """Yield the statements after one that leaves its block on the target."""
     if not _leaves(module, node):
         return
     field, number = module.index.place(node)
@@ -81,7 +81,7 @@ def _left_out(module: PythonModule, node: ast.stmt) -> Iterator[tuple[ast.AST, a
 
 
 def _leaves(module: PythonModule, statement: ast.stmt) -> bool:
-    """Tell whether what follows a statement in its block is not reached on the target."""
+    """Tell whether a statement leaves its block on the target."""
     if isinstance(statement, ast.If):
         decided = holds(module, statement.test)
         branches = [statement.body, statement.orelse]
@@ -94,7 +94,7 @@ def _leaves(module: PythonModule, statement: ast.stmt) -> bool:
 
 
 def _skipped(module: PythonModule) -> Iterator[tuple[ast.AST, ast.AST]]:
-    """Yield the bodies of tests that are skipped."""
+    """Yield the bodies of skipped tests."""
     for function in module.function_nodes:
         conditions = skip_conditions(module, function)
         if any(holds(module, item.test) is (not item.needed) for item in conditions):
@@ -102,7 +102,7 @@ def _skipped(module: PythonModule) -> Iterator[tuple[ast.AST, ast.AST]]:
 
 
 def cases(module: PythonModule, choice: ast.Match) -> Sequence[bool | None]:
-    """Return which cases of a ``match`` run on the target; ``None`` where that is not known."""
+    """Return which cases of a ``match`` run on the target; ``None`` where unknown."""
     value = text_on_target(module, choice.subject)
     if value is None:
         return [None] * len(choice.cases)

@@ -27,21 +27,21 @@ _ORDERS: Mapping[type[ast.cmpop], Callable[[Any, Any], bool]] = {
 _ROS_VERSION = "ROS_VERSION"
 _OF_ENVIRONMENT = (VARIABLE, _ROS_VERSION)
 ASKED = (*_OF_ENVIRONMENT, "ros_version", "version_info", "hexversion")
-"""What a file mentions that asks for the distribution, or for the Python that it brings."""
+"""Words in files that test the distribution or its Python version."""
 _DEEPEST = 20
-"""The most names that a condition is followed through."""
+"""The maximum number of names to follow in a condition."""
 
 
 def holds(
     module: SyntaxTree, test: ast.expr, depth: int = 0, *, is_asked: bool = False
 ) -> bool | None:
-    """Return whether a condition is true on the target; ``None`` if that is not known.
+    """Return whether a condition is true on the target; ``None`` if unknown.
 
     Args:
         module: The file.
         test: The condition.
-        depth: The names that it was followed through.
-        is_asked: Whether the distribution is known to decide it.
+        depth: The number of names followed so far.
+        is_asked: Whether it certainly depends on the distribution.
     """
     if not is_asked and not module.mentions(*ASKED):
         return None
@@ -63,14 +63,14 @@ def holds(
 
 
 def open_parts(module: SyntaxTree, test: ast.expr, depth: int = 0) -> Iterator[ast.expr]:
-    """Yield the parts of a condition that the target leaves open.
+    """Yield the parts of a condition that are unknown on the target.
 
-    Of ``is_old_distro and self.ready`` that is ``self.ready`` on an old one, and nothing elsewhere.
+    For ``is_old_distro and self.ready`` that is ``self.ready`` on an old one, else nothing.
 
     Args:
         module: The file.
         test: The condition.
-        depth: The names that it was followed through.
+        depth: The number of names followed so far.
     """
     if holds(module, test) is not None:
         return
@@ -100,7 +100,7 @@ def asks(module: SyntaxTree, value: ast.expr) -> bool:
 
 
 def text_on_target(module: SyntaxTree, value: ast.expr) -> str | None:
-    """Return the text that the distribution makes of an expression; ``None`` if it does not."""
+    """Return the string value of an expression on the target; ``None`` if independent of it."""
     text, notes = _DistributionEvaluator(module).trace(value)
     return text if notes and isinstance(text, str) else None
 
@@ -112,7 +112,7 @@ def worth(module: SyntaxTree, value: ast.expr) -> tuple[object, bool]:
 
 
 def _only_value(module: SyntaxTree, test: ast.expr) -> ast.expr | None:
-    """Return what a name is set to, if that happens once."""
+    """Return the value of a name that is set once."""
     match module.index.bindings_of(test):
         case [binding] if binding.kind == "assignment":
             return binding.value
@@ -175,7 +175,7 @@ class _DistributionEvaluator(Evaluator):
         return False
 
     def _returned(self, name: str, at: ast.expr) -> object:
-        """Return what a function of the file without arguments does, if that is all that it is."""
+        """Return the value of a function without arguments, if it only returns one."""
         lookup = self.module.index.lookup(name, at)
         match [item.node for item in (lookup[1] if lookup else ())]:
             case [ast.FunctionDef(body=[*_, ast.Return(value=value)] as body, decorator_list=[])]:
@@ -266,7 +266,7 @@ class _DistributionEvaluator(Evaluator):
         return UNKNOWN if result is None else result
 
     def _is_ros_version(self, node: ast.expr) -> bool:
-        """Tell whether a name, or the argument of a conversion, is called ``ros_version``."""
+        """Tell whether a name, or the argument of a conversion, is ``ros_version``."""
         match node:
             case ast.Call(args=[argument], keywords=[]):
                 return self._is_ros_version(argument)
@@ -275,7 +275,7 @@ class _DistributionEvaluator(Evaluator):
         return False
 
     def _ros_version_as(self, other: object) -> object:
-        """Return ROS_VERSION as a number or as text, like the value in the comparison."""
+        """Return ROS_VERSION with the type of the compared value."""
         if str(other) not in {"1", "2"} or not isinstance(other, int | str):
             return UNKNOWN
         self.note(_ROS_VERSION)

@@ -38,11 +38,11 @@ class Element(NamedTuple):
     node: ast.expr
     value: object
     conditional: bool = False
-    """Added under a condition or in a loop."""
+    """Whether it is added under a condition or in a loop."""
 
 
 class Elements(NamedTuple):
-    """The items of a list, as far as they are known."""
+    """The known items of a list."""
 
     items: tuple[Element, ...]
     complete: bool
@@ -50,22 +50,22 @@ class Elements(NamedTuple):
 
 
 MAX_DEPTH = 60
-"""The deepest nesting of expressions, through names too."""
+"""The maximum nesting of expressions, also through names."""
 MOST_ASSIGNMENTS = 200
-"""The most assignments of a name; with more its value is unknown."""
+"""The maximum number of assignments of a name; with more its value is unknown."""
 MAX_STEPS = 20_000
-"""The most expressions visited for one value: names that refer to each other multiply."""
+"""The maximum number of expressions visited for one value, as references multiply."""
 MOST_STEPS = 300_000
-"""Expressions visited for all values of a file; from then on, for each no more than FEW_STEPS."""
+"""The number of expressions visited in a file, after which each value gets only FEW_STEPS."""
 FEW_STEPS = 100
 
 
 class Evaluator:
     """Evaluates the expressions of one module.
 
-    A name is worth what it is assigned, if all its assignments agree; a list grows by the
+    A name has the value of its assignments, if they agree; a list is extended by the
     ``append`` and ``extend`` calls that follow in the same block. Subclasses add what
-    attributes and calls are worth.
+    values of attributes and calls.
     """
 
     def __init__(self, module: SyntaxTree) -> None:
@@ -155,7 +155,7 @@ class Evaluator:
         return value if isinstance(value, int | float) and type(value) is not bool else UNKNOWN
 
     def elements(self, node: ast.expr) -> Elements:
-        """Return the items of a list or tuple, each with the place where it is written."""
+        """Return the items of a list or tuple, each with its location."""
         if self._depth == 0:
             self._start()
         self._depth += 1
@@ -169,7 +169,7 @@ class Evaluator:
         return Elements(tuple(items), complete)
 
     def trace(self, node: ast.expr | None) -> tuple[object, frozenset[str]]:
-        """Return a value, and the notes made on the way by subclasses: where it comes from."""
+        """Return a value, and the notes by subclasses about its origin."""
         outer, self._notes = self._notes, frozenset()
         value = self.evaluate(node)
         notes, self._notes = self._notes, outer
@@ -178,11 +178,11 @@ class Evaluator:
     # -- for subclasses
 
     def note(self, text: str) -> None:
-        """Remember something about the value that is being evaluated."""
+        """Add a note about the value being evaluated."""
         self._notes |= {text}
 
     def cut(self) -> None:
-        """Mark the value being evaluated as provisional, so that it is not remembered."""
+        """Mark the value being evaluated as provisional, so that it is not cached."""
         self._is_cut = True
 
     def imported(self, name: str) -> object:
@@ -196,19 +196,19 @@ class Evaluator:
         return UNKNOWN
 
     def attribute(self, node: ast.Attribute) -> object:
-        """Return the value of an attribute that is none of the known constants."""
+        """Return the value of an attribute other than known constants."""
         del node
         return UNKNOWN
 
     def call(self, node: ast.Call) -> object:
-        """Return the value of a call of none of the known functions."""
+        """Return the value of a call other than of known functions."""
         del node
         return UNKNOWN
 
     # -- lists
 
     def _collect(self, node: ast.expr, items: list[Element], depth: int) -> Iterator[bool]:
-        """Append the items of a list; yield false for every part that is not known."""
+        """Append the items of a list; yield false for every unknown part."""
         self._steps += 1
         if depth > MAX_DEPTH or self._steps > self._most:
             self._is_cut = True
@@ -426,7 +426,7 @@ class Evaluator:
 
     @contextmanager
     def _bound(self, scope: ast.AST, values: Mapping[str, object]) -> Iterator[None]:
-        """Give names of a scope values for a while."""
+        """Bind names of a scope to values temporarily."""
         outer = self._local
         self._local = {**outer, **{(scope, name): value for name, value in values.items()}}
         try:

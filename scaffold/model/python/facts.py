@@ -32,11 +32,11 @@ class Exports(NamedTuple):
     """Whether there may be more: a star import, a module ``__getattr__``, ``globals()``."""
     functions: tuple[str, ...]
     coroutines: tuple[str, ...]
-    """The functions that are ``async`` and have no decorator."""
+    """The ``async`` functions without decorators."""
     classes: tuple[str, ...]
 
     def defines(self, name: str) -> bool | None:
-        """Tell whether an attribute of this name can be had; ``None`` if unknown."""
+        """Tell whether an attribute of this name exists; ``None`` if unknown."""
         if name in self.names:
             return True
         return None if self.is_open or name in self.doubtful else False
@@ -84,7 +84,7 @@ def paths_importing(package: Package, *roots: str) -> Iterator[str]:
 
 @fact
 def rospack_lookups(package: Package, path: str) -> tuple[Location, ...]:
-    """Return where a node of ROS 2 looks for packages in ``ROS_PACKAGE_PATH``.
+    """Return the places where a ROS 2 node uses ``ROS_PACKAGE_PATH``.
 
     rospkg can be installed next to ROS 2, but only ROS 1 sets that variable.
     """

@@ -12,7 +12,7 @@ from scaffold.model.python.skips import skip_conditions
 from scaffold.record import NamedTuple
 
 _LEAVING = (ast.Return, ast.Raise, ast.Continue, ast.Break)
-"""Statements after which the rest of a block is not run."""
+"""Statements that leave their block."""
 _ENDING = frozenset(
     {"sys.exit", "exit", "quit", "os._exit"}
     | {"pytest.skip", "pytest.fail", "pytest.xfail", "pytest.exit"}
@@ -30,9 +30,9 @@ def is_handled(
 
     Args:
         module: The file.
-        node: Where it is raised.
+        node: The place where it is raised.
         exception: The last part of its name, such as ``AttributeError``.
-        is_broad: Whether a handler of any exception counts.
+        is_broad: Whether handlers of any exception are accepted.
     """
     expecting = {exception, *_ALL} if is_broad else {exception}
     child = node
@@ -53,15 +53,15 @@ def is_handled(
 
 
 def has_fallback(module: PythonModule, node: ast.AST, *, is_rare: bool) -> bool:
-    """Tell whether a handler of any exception does instead what fails at a node.
+    """Tell whether a handler of any exception replaces a failing node.
 
-    A handler that logs, or that sets a constant, hides a failure that comes every time; one that
-    comes at times is what such handlers are for.
+    A handler that logs, or that sets a constant, hides a permanent failure; occasional
+    failures are what such handlers are for.
 
     Args:
         module: The file.
-        node: What fails.
-        is_rare: Whether it fails at times only.
+        node: The failing node.
+        is_rare: Whether it only fails occasionally.
     """
     child = node
     for parent in module.parents(node):
@@ -78,7 +78,7 @@ def has_fallback(module: PythonModule, node: ast.AST, *, is_rare: bool) -> bool:
 
 
 def _goes_on(module: PythonModule, failing: ast.stmt, handler: ast.ExceptHandler) -> bool:
-    """Tell whether everything has a value after a handler, or nothing is run after it."""
+    """Tell whether all names are set after a handler, or no code follows it."""
     if any(isinstance(node, ast.Raise) for node in module.below(handler, ast.Raise)):
         return False
     if leaves_block(module, handler.body[-1]):
@@ -89,7 +89,7 @@ def _goes_on(module: PythonModule, failing: ast.stmt, handler: ast.ExceptHandler
 
 
 def _replaces(module: PythonModule, failing: ast.stmt, handler: ast.ExceptHandler) -> bool:
-    """Tell whether a handler gets by other means what a statement is for."""
+    """Tell whether a handler computes the result of a statement in another way."""
     for instead in handler.body:
         match failing, instead:
             case ast.Assign(targets=[target]), ast.Assign(targets=[other], value=value):
@@ -106,7 +106,7 @@ def _replaces(module: PythonModule, failing: ast.stmt, handler: ast.ExceptHandle
 
 
 def _does_the_same(module: PythonModule, first: ast.Call, second: ast.Call) -> bool:
-    """Tell whether two calls are of one function, or of methods that are given the same."""
+    """Tell whether two calls are of one function, or of methods with equal arguments."""
     if module.text(first.func) == module.text(second.func):
         return True
     match first.func, second.func:
@@ -118,16 +118,16 @@ def _does_the_same(module: PythonModule, first: ast.Call, second: ast.Call) -> b
 
 
 def _expected_in(parent: ast.AST, child: ast.AST) -> set[str]:
-    """Return what a ``with`` expects of a statement in it: ``with pytest.raises(TypeError):``."""
+    """Return the exceptions that a ``with`` expects: ``with pytest.raises(TypeError):``."""
     if not isinstance(parent, ast.With) or child not in parent.body:
         return set()
     return set().union(*map(expected_errors, parent.items))
 
 
 def is_unevaluated(module: PythonModule, node: ast.AST) -> bool:
-    """Tell whether a name is in an annotation that Python does not evaluate, or for type checkers.
+    """Tell whether a name is in an unevaluated annotation, or only for type checkers.
 
-    It never evaluates those of variables in functions, and those that are text.
+    Python never evaluates those of local variables, and those that are strings.
     """
     child = node
     is_text = isinstance(node, ast.Constant)
@@ -144,7 +144,7 @@ def is_unevaluated(module: PythonModule, node: ast.AST) -> bool:
 
 
 def _is_never_evaluated(module: PythonModule, node: ast.AST, parent: ast.AST) -> bool:
-    """Tell whether a node is for type checkers, or an annotation in a file where those are text."""
+    """Tell whether a node is for type checkers, or a postponed annotation."""
     match parent:
         case ast.If(test=ast.Name() | ast.Attribute() as test, body=body):
             return node in body and module.text(test).rpartition(".")[2] == "TYPE_CHECKING"
@@ -168,8 +168,8 @@ def is_guarded_by(module: PythonModule, node: ast.AST, value: ast.expr) -> bool:
 
     Args:
         module: The file.
-        node: What runs.
-        value: The expression; a condition asks about it when it holds the same words.
+        node: The executed node.
+        value: The expression; a condition is about it if it contains the same words.
     """
     words = ast.unparse(value)
     child = node
@@ -187,7 +187,7 @@ def is_guarded_by(module: PythonModule, node: ast.AST, value: ast.expr) -> bool:
 
 
 def caught_around(module: PythonModule, node: ast.AST) -> frozenset[str]:
-    """Return the last parts of the names of what is caught around a node in its function."""
+    """Return the last parts of the names of exceptions caught around a node in its function."""
     result: set[str] = set()
     child = node
     for parent in module.parents(node):
@@ -207,13 +207,13 @@ class Condition(NamedTuple):
     test: ast.expr
     needed: bool
     is_of_leaving: bool = False
-    """Of an earlier branch that leaves."""
+    """Whether it is that of an earlier branch that leaves the block."""
 
 
 def conditions_on(module: PythonModule, node: ast.AST) -> list[ast.expr]:
     """Return the conditions in its function that decide whether a node is run.
 
-    Those of branches and loops around it, what is ahead of it in ``and``, and the conditions of
+    Those of branches and loops around it, earlier operands of ``and``, and the conditions of
     earlier branches that leave.
     """
     result: list[ast.expr] = []
@@ -227,11 +227,11 @@ def conditions_on(module: PythonModule, node: ast.AST) -> list[ast.expr]:
 
 
 def all_conditions(module: PythonModule, node: ast.AST) -> Iterator[Condition]:
-    """Yield the conditions that decide whether a node is run, those of skipped tests too.
+    """Yield the conditions that decide whether a node is run, including those of skipped tests.
 
     Args:
         module: The file.
-        node: What runs; the conditions around its function count as well.
+        node: The executed node; the conditions around its function are included.
     """
     child = node
     for parent in module.parents(node):
@@ -243,10 +243,10 @@ def all_conditions(module: PythonModule, node: ast.AST) -> Iterator[Condition]:
 
 
 def values_asked(module: PythonModule, test: ast.expr) -> list[ast.expr]:
-    """Return what a condition asks for: itself, and what is behind its names and functions.
+    """Return the expressions that a condition depends on, through names and functions.
 
-    What names and attributes in it are set to, what functions of the file return, and what is
-    behind those as long as they are conditions themselves.
+    The values of names and attributes in it, of functions of the file, and those
+    behind them, as long as they are conditions themselves.
 
     Args:
         module: The file.
@@ -274,7 +274,7 @@ def _is_question(value: ast.expr) -> bool:
 
 
 def _behind(module: PythonModule, node: ast.AST) -> Iterator[ast.expr]:
-    """Yield what a name or an attribute is set to, and what a function returns."""
+    """Yield the values of a name or an attribute, and those returned by a function."""
     match node:
         case ast.Name(id=name):
             lookup = module.index.lookup(name, node)
@@ -308,7 +308,7 @@ def _choices(module: PythonModule, constant: ast.Constant) -> Iterator[ast.expr]
 
 
 def _stored(module: PythonModule, name: str) -> Iterator[ast.expr]:
-    """Yield what an attribute of ``self`` is set to."""
+    """Yield the values of an attribute of ``self``."""
     for store in module.index.attributes(name):
         match module.parent(store):
             case ast.Assign(targets=targets, value=value) if store in targets:
@@ -318,7 +318,7 @@ def _stored(module: PythonModule, name: str) -> Iterator[ast.expr]:
 
 
 def leaves_block(module: PythonModule, statement: ast.stmt) -> bool:
-    """Tell whether what follows a statement in its block is never reached."""
+    """Tell whether a statement always leaves its block."""
     match statement:
         case ast.Expr(value=ast.Call(func=func)):
             name = func.id if isinstance(func, ast.Name) else ""
@@ -329,7 +329,7 @@ def leaves_block(module: PythonModule, statement: ast.stmt) -> bool:
 
 
 def _conditions_of(module: PythonModule, child: ast.AST, parent: ast.AST) -> Iterator[Condition]:
-    """Yield the conditions that decide in a node whether one right below it is run."""
+    """Yield the conditions in a node that decide whether its child is run."""
     match parent:
         case ast.If(test=test) | ast.While(test=test) if child is not test:
             yield Condition(test, child in parent.body)

@@ -5,13 +5,13 @@ from __future__ import annotations
 import ast
 
 IMPORT_ERRORS = frozenset({"ImportError", "ModuleNotFoundError", "Exception", "BaseException"})
-"""What a missing import is caught with."""
+"""The exceptions that catch a missing import."""
 _EXPECT = frozenset({"suppress", "raises", "assertRaises", "assertRaisesRegex"})
-"""What an exception is expected with: ``with pytest.raises(ImportError):``."""
+"""Functions that expect an exception: ``with pytest.raises(ImportError):``."""
 
 
 def catches_import_errors(node: ast.Try) -> bool:
-    """Tell whether a ``try`` has a handler for an import that fails."""
+    """Tell whether a ``try`` has a handler for a failed import."""
     return any(
         handler.type is None or not IMPORT_ERRORS.isdisjoint(last_names(handler.type))
         for handler in node.handlers
@@ -19,7 +19,7 @@ def catches_import_errors(node: ast.Try) -> bool:
 
 
 def expected_errors(item: ast.withitem) -> set[str]:
-    """Return the last parts of the names of what ``suppress``, ``raises`` and the like expect."""
+    """Return the last parts of the names of exceptions in ``suppress``, ``raises`` and the like."""
     match item.context_expr:
         case ast.Call(func=func, args=args) if not _EXPECT.isdisjoint(last_names(func)):
             return set().union(*map(last_names, args))

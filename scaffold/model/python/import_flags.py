@@ -13,14 +13,14 @@ from scaffold.model.python.scopes import Binding
 
 
 def asks_which_release(module: PythonModule, condition: Condition, package: str) -> bool:
-    """Tell whether a condition asks, by an import of a package, which release of it there is.
+    """Tell whether a condition tests the release of a package by an import.
 
-    The handler of the import has another one from the same package, or what the condition is on
+    The handler of the import has another one from the same package, or the conditional code
     runs only after the handler.
 
     Args:
         module: The file.
-        condition: What it must be for something to run.
+        condition: The condition and its required value.
         package: The top-level package.
     """
     for attempt in _attempts(module, condition.test):
@@ -34,7 +34,7 @@ def asks_which_release(module: PythonModule, condition: Condition, package: str)
 
 
 def _attempts(module: PythonModule, test: ast.expr) -> Iterator[ast.Try]:
-    """Yield the attempts of an import that bind a name in a condition."""
+    """Yield the ``try`` statements with an import that bind a name in a condition."""
     for name in ast.walk(test):
         for binding in _bindings(module, name):
             for parent in module.parents(binding.node):
@@ -82,7 +82,7 @@ def _settled(condition: Condition) -> Iterator[Condition]:
 
 
 def _is_said_by_failure(module: PythonModule, attempt: ast.Try, name: Condition) -> bool:
-    """Tell whether a name is what is needed after a failed import, and only then."""
+    """Tell whether a name has its required value only after a failed import."""
     by_field: defaultdict[str, set[bool | None]] = defaultdict(set)
     for binding in _bindings(module, name.test):
         field = _field_in(module, attempt, binding.node)

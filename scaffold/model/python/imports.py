@@ -132,7 +132,7 @@ class _Guards:
 
     @cached_property
     def _needed_by_tests(self) -> frozenset[str]:
-        """The packages that ``pytest.importorskip`` asks for."""
+        """The packages of ``pytest.importorskip`` calls."""
         if not self._module.mentions("importorskip"):
             return frozenset()
         return frozenset(
@@ -143,7 +143,7 @@ class _Guards:
         )
 
     def _is_never_run(self, node: ast.If, child: ast.AST) -> bool:
-        """Tell whether a branch is switched off, by a constant of the file, or is for ROS 1."""
+        """Tell whether a branch is disabled by a constant of the file, or is for ROS 1."""
         is_body = child in node.body
         return _is_switched(self._module, node.test, not is_body) or (
             holds(self._module, node.test) is (not is_body)

@@ -16,7 +16,7 @@ _CHANGING = frozenset(
 
 
 def list_literal(module: SyntaxTree, node: ast.Name) -> ast.expr | None:
-    """Return what a name is first assigned, if that looks like a list and nothing shadows."""
+    """Return the first value of a name, if that looks like a list."""
     lookup = module.index.lookup(node.id, node)
     if lookup is None:
         return None
@@ -29,7 +29,7 @@ def list_literal(module: SyntaxTree, node: ast.Name) -> ast.expr | None:
 
 
 def changes_of(module: SyntaxTree, node: ast.Name) -> Sequence[ast.Name]:
-    """Return where the list that a name refers to is changed."""
+    """Return the changes of the list in a name."""
     changes = [name for name in module.index.names(node.id) if _is_change(module, name)]
     if not changes:
         return ()
@@ -56,7 +56,7 @@ def _is_change(module: SyntaxTree, name: ast.Name) -> bool:
 
 
 def statement_of(module: SyntaxTree, node: ast.AST) -> ast.stmt | None:
-    """Return the statement that a node is, or is a part of."""
+    """Return the statement of a node."""
     for parent in (node, *module.parents(node)):
         if isinstance(parent, ast.stmt):
             return parent
@@ -64,7 +64,7 @@ def statement_of(module: SyntaxTree, node: ast.AST) -> ast.stmt | None:
 
 
 def is_straight(module: SyntaxTree, first: ast.stmt | None, change: ast.Name) -> bool:
-    """Tell whether a change is in the same block as the first assignment, below it."""
+    """Tell whether a change is in the same block as the first assignment, after it."""
     second = statement_of(module, change)
     if first is None or second is None or second.lineno < first.lineno:
         return False

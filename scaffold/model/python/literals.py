@@ -14,7 +14,7 @@ _LITERAL = (
 )
 _NAME = r"(?a)/?\w[\w./-]*"
 _LINE = 79
-"""A text that fits in a line of this length is not split."""
+"""The line length up to which a string need not be split."""
 
 
 def string_pieces(module: PythonModule, node: ast.expr) -> Iterator[tuple[int, int]]:
@@ -36,9 +36,9 @@ def string_pieces(module: PythonModule, node: ast.expr) -> Iterator[tuple[int, i
 
 
 def joined_names(module: PythonModule, node: ast.expr) -> Sequence[str]:
-    """Return the names that Python joins as a comma is missing: ``['left' 'right']``.
+    """Return names joined by a missing comma: ``['left' 'right']``.
 
-    Texts with spaces, parts of a path, and what would be too long for a line are broken on purpose.
+    Strings with spaces, parts of paths, and long strings are split on purpose.
     """
     if not isinstance(node, ast.Constant) or not isinstance(node.value, str):
         return ()

@@ -36,7 +36,7 @@ class Class(NamedTuple):
 
 
 _TEST_TOOLS = ("pytest", "unittest", "launch_testing")
-"""What tests mention that pytest or unittest runs."""
+"""Words in tests run by pytest or unittest."""
 
 
 def is_in_tests(path: str) -> bool:
@@ -51,7 +51,7 @@ def is_in_tests(path: str) -> bool:
 
 
 def is_collected(name: str) -> bool:
-    """Tell whether pytest runs a file of its own accord, by its name."""
+    """Tell whether pytest collects a file, by its name."""
     return name.startswith("test_") or name.endswith("_test.py")
 
 
@@ -83,7 +83,7 @@ class PythonModule(SyntaxTree):
         return is_in_tests(self.path) and not self._is_program()
 
     def _is_program(self) -> bool:
-        """Tell whether a file is named like a test, and is a program that tries something."""
+        """Tell whether a file is named like a test but is a program."""
         *directories, name = self.path.split("/")
         if name == "conftest.py" or not {"test", "tests"}.isdisjoint(directories):
             return False
@@ -149,7 +149,7 @@ class PythonModule(SyntaxTree):
         return result
 
     def defines(self, name: str) -> bool | None:
-        """Tell whether an attribute of this name can be had from the module.
+        """Tell whether the module has an attribute of this name.
 
         ``None`` if unknown: a star import, a module ``__getattr__``, ``globals()``.
         """

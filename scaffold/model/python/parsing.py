@@ -14,7 +14,7 @@ from scaffold.source import Location, NewerSyntaxError, ParseError, Source
 
 BOM = "\ufeff"
 MAX_CHARACTERS = 2_000_000
-"""Longer modules are not written by hand, and their trees would take a gigabyte."""
+"""The length limit of modules; the trees of longer ones would take a gigabyte."""
 
 """The Python of the target: syntax up to here is right whatever runs this tool."""
 
@@ -58,7 +58,7 @@ class Positions:
 
     @cached_property
     def _starts(self) -> list[int]:
-        """Offsets of the lines as Python counts them: a lone carriage return ends one too."""
+        """Offsets of the lines as in Python, where a lone carriage return ends one as well."""
         if "\r" in self._text:
             return [0, *(at.end() for at in re.finditer(r"\r\n|\r|\n", self._text))]
         return self._source.line_starts
@@ -77,7 +77,7 @@ class Positions:
         return starts[line - 1] + (self._shift if line == 1 else 0)
 
     def line_of(self, offset: int) -> int:
-        """Return the number of the line, from 1, that holds an offset."""
+        """Return the number of the line, from 1, with an offset."""
         return max(bisect_left(self._starts, offset + 1), 1)
 
     def offset(self, line: int, column: int) -> int:
@@ -94,7 +94,7 @@ def decode(path: str, data: bytes) -> Source:
     """Decode a Python file by its coding cookie, or as UTF-8 without one.
 
     Raises:
-        ParseError: the encoding is not known, or the bytes are not of this encoding.
+        ParseError: the encoding is unknown, or the bytes are invalid in it.
     """
     encoding = _declared_encoding(data)
     try:
@@ -128,7 +128,7 @@ def parse_tree(source: Source, positions: Positions) -> ast.Module:
     """Return the syntax tree.
 
     Raises:
-        NewerSyntaxError: the file is right for the target's Python, not for the running one.
+        NewerSyntaxError: the file is valid for the target's Python, not for the running one.
         ParseError: the file is not Python.
     """
     text = source.text
@@ -155,9 +155,9 @@ def parse_tree(source: Source, positions: Positions) -> ast.Module:
 
 
 def _feature_version() -> tuple[int, int] | None:
-    """Return the Python whose syntax is asked for, where that is older than the running one.
+    """Return the Python version of the target, if it is older than the running one.
 
-    Python itself knows nothing of what f-strings and defaults of types got later.
+    Python itself does not check later features of f-strings and type parameters.
     """
     version = distributions.target().python
     is_older = version < sys.version_info[:2] and version < _FIRST_TYPES
@@ -177,14 +177,14 @@ def _explain(
 
 
 def past_target(version: tuple[int, int]) -> str:
-    """Return the message for syntax that the target does not have yet."""
+    """Return the message for syntax that is newer than the target."""
     target = distributions.target()
     own = target.python
     return f"needs Python {version[0]}.{version[1]}, but ROS 2 {target.title} has {own[0]}.{own[1]}"
 
 
 def _place(source: Source, positions: Positions, error: SyntaxError) -> Location:
-    """Return where an error is, the same for every Python version that finds it."""
+    """Return the location of an error, independent of the Python version."""
     start, end = positions.line_span(max(error.lineno or 1, 1))
     line = source.text[start:end]
     if isinstance(error, IndentationError):
@@ -218,13 +218,13 @@ _NEWEST = (
     (r"^\s*except\s+[\w.]+\s*,", (3, 14)),
     (r"""(?i:(?<![\w'"])(?:t|rt|tr)['"])""", (3, 14)),
 )
-"""Where the target is older, this is Python 2, or nothing."""
+"""The newest version whose syntax is recognized."""
 _FIRST_TYPES = (3, 12)
-"""The version with parameters of types, and with f-strings as they are now."""
+"""The version that introduced type parameters and new f-strings."""
 
 
 def _newer_version(text: str, positions: Positions, error: SyntaxError) -> tuple[int, int] | None:
-    """Return the Python version whose syntax made an older one stumble."""
+    """Return the Python version of syntax that an older one rejects."""
     target = distributions.target().python
     running = target if _feature_version() is not None else sys.version_info[:2]
     match = re.search(r"only supported in Python 3\.(\d+) and greater", error.msg)
@@ -247,7 +247,7 @@ _DEEPEST_F_STRING = 8
 
 
 def _has_new_f_string(text: str, start: int, end: int) -> bool:
-    """Tell whether a line has an f-string that is right since Python 3.12 only."""
+    """Tell whether a line has an f-string that is only valid since Python 3.12."""
     for item in re.finditer(_F_STRING, text[start:end]):
         is_new, after = _scan_f_string(text, start + item.end(), item[1], 0)
         if is_new and after > 0:
@@ -256,7 +256,7 @@ def _has_new_f_string(text: str, start: int, end: int) -> bool:
 
 
 def _scan_f_string(text: str, at: int, quote: str, depth: int) -> tuple[bool, int]:
-    """Return whether replacement fields use later syntax, and the end; 0 if there is none."""
+    """Return whether replacement fields use newer syntax, and the end; 0 if there is none."""
     is_new = False
     while at < len(text) and depth < _DEEPEST_F_STRING:
         if text.startswith(quote, at):

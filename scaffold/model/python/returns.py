@@ -20,7 +20,7 @@ def returned(function: FunctionNode) -> Sequence[ast.Return]:
 
 
 def value_set_before(function: FunctionNode, statement: ast.Return) -> ast.expr | None:
-    """Return what the name that is returned was last set to, if no branch or loop is in between."""
+    """Return the last value of the returned name, if no branch or loop is in between."""
     name = statement.value.id if isinstance(statement.value, ast.Name) else None
     if name is None or statement not in function.body:
         return None
@@ -34,7 +34,7 @@ def value_set_before(function: FunctionNode, statement: ast.Return) -> ast.expr 
 
 
 def is_generator(function: FunctionNode) -> bool:
-    """Tell whether a call of the function gives a generator."""
+    """Tell whether a call of the function returns a generator."""
     return any(isinstance(node, ast.Yield | ast.YieldFrom) for node in _own_nodes(function))
 
 
@@ -44,7 +44,7 @@ def may_end(function: FunctionNode) -> bool:
 
 
 def may_end_with_items(function: FunctionNode) -> bool:
-    """Tell whether the end may be reached although the last argument, a list, is not empty."""
+    """Tell whether the end may be reached if the last argument, a list, is not empty."""
     *before, last = function.body
     names = [arg.arg for arg in function.args.args[-1:]]
     match last:
@@ -94,7 +94,7 @@ def _passes_one(statement: ast.stmt) -> bool:
 
 
 def _holds_until_shutdown(test: ast.expr) -> bool:
-    """Tell whether a condition is always true, or ``rclpy.ok()``: then the value is not used."""
+    """Tell whether a condition is always true, or ``rclpy.ok()``."""
     match test:
         case ast.Constant(value=value):
             return bool(value)
@@ -108,7 +108,7 @@ def _sets(node: ast.AST, name: str) -> bool:
 
 
 def _is_safe(statement: ast.stmt) -> bool:
-    """Tell whether a statement returns what cannot fail: ``return CancelResponse.ACCEPT``."""
+    """Tell whether a statement returns an expression that cannot raise, such as a constant."""
     match statement:
         case ast.Return(value=None | ast.Constant() | ast.Name()):
             return True

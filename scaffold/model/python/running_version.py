@@ -14,11 +14,11 @@ SWAPPED: dict[type[ast.cmpop], type[ast.cmpop]] = {
     ast.Eq: ast.Eq,
     ast.NotEq: ast.NotEq,
 }
-"""What compares the same with both sides exchanged."""
+"""The operators for exchanged operands."""
 
 
 class RunningVersion(tuple[int, ...]):
-    """``sys.version_info``, or ``sys.hexversion``: the first numbers of a longer version."""
+    """``sys.version_info``, or ``sys.hexversion``: the first components of a longer version."""
 
     __slots__ = ()
 

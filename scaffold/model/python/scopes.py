@@ -26,7 +26,7 @@ _NOT_NODES = frozenset(
     {"ctx", "op", "ops", "attr", "arg", "asname", "type_comment", "level", "module", "conversion"}
     | {"is_async", "simple", "type_ignores", "rest", "kwd_attrs"}
 )
-"""Fields without nodes, or whose nodes (operators, contexts) are shared and have no place."""
+"""Fields without nodes, or with shared nodes (operators, contexts) without locations."""
 
 Node = TypeVar("Node", bound=ast.AST)
 
@@ -34,7 +34,7 @@ _STATEMENTS = frozenset({ast.Module, *ast.stmt.__subclasses__()})
 _PLACE = attrgetter("lineno", "col_offset")
 
 MOST_BINDINGS = 200
-"""Of one name in one scope; each lookup reads them all; with more its value is unknown."""
+"""The maximum number of bindings of a name in a scope; with more its value is unknown."""
 
 
 class Binding(NamedTuple):
@@ -46,9 +46,9 @@ class Binding(NamedTuple):
     ``augmented``, ``parameter``, ``loop``, ``deletion`` or ``other``."""
     node: ast.AST
     value: ast.expr | None = None
-    """What is assigned, when it is written there."""
+    """The assigned value, if literal."""
     target: str = ""
-    """For an import: the full dotted name of what is imported, dots of the level in front."""
+    """For an import: the full dotted name, with leading dots."""
 
 
 class ScopeIndex:
@@ -58,11 +58,11 @@ class ScopeIndex:
         self.tree = tree
         self._parents: dict[ast.AST, ast.AST] = {}
         self._nodes: list[ast.AST] = []
-        """All nodes, each before what is below it."""
+        """All nodes in preorder."""
         self._spans: dict[ast.AST, tuple[int, int]] = {}
-        """Of statements: their numbers, and that of the first node after what is in them."""
+        """The index ranges of statements."""
         self._numbers: defaultdict[type[ast.AST], array[int]] = defaultdict(partial(array, "I"))
-        """By type."""
+        """The indices of nodes by type."""
         self._by_type: dict[type[ast.AST], list[ast.AST]] = {}
         self._sorted: dict[type[ast.AST], Sequence[ast.AST]] = {}
         self._scopes: dict[ast.AST, dict[str, list[Binding]]] | None = None
@@ -73,13 +73,13 @@ class ScopeIndex:
         self._attributes: dict[str, list[ast.Attribute]] | None = None
 
     def build(self, deepest: int) -> bool:
-        """Visit all nodes; give up and return false when they nest deeper than allowed."""
+        """Visit all nodes; return false if they are nested too deeply."""
         return self._visit(self.tree, deepest - 1)
 
     def _visit(self, node: ast.AST, levels: int) -> bool:
-        """Number a node and those below it; return false when they nest deeper than allowed.
+        """Number a node and its descendants; return false if they are nested too deeply.
 
-        A method, as a nested function would hold itself and with it the tree, as garbage.
+        A method, as a nested function would keep the tree in a reference cycle.
         """
         parents, numbers, nodes = self._parents, self._numbers, self._nodes
         kind = type(node)
@@ -106,13 +106,13 @@ class ScopeIndex:
 
     @property
     def nodes(self) -> Sequence[ast.AST]:
-        """All nodes, each before what is below it."""
+        """All nodes in preorder."""
         return self._nodes
 
     def below(self, node: ast.AST, *kinds: type[Node]) -> Iterator[Node]:
-        """Yield a node and those below it that are of some types, one type after the other.
+        """Yield a node and its descendants of some types, one type after the other.
 
-        The node may be of another module, as the method of a base class is.
+        The node may be of another module, such as the method of a base class.
         """
         span = self._spans.get(node)
         if span is None:
@@ -126,13 +126,13 @@ class ScopeIndex:
             yield from self._of_type(kind)[start:end]
 
     def _of_type(self, kind: type[Node]) -> list[Node]:
-        """Return the nodes of a type, each before what is below it."""
+        """Return the nodes of a type in preorder."""
         if kind not in self._by_type:
             self._by_type[kind] = [self._nodes[number] for number in self._numbers.get(kind, ())]
         return cast("list[Node]", self._by_type[kind])
 
     def of_types(self, *kinds: type[Node]) -> Iterator[Node]:
-        """Yield the nodes of some types, one type after the other, each before what is below it."""
+        """Yield the nodes of some types, one type after the other, in preorder."""
         for kind in kinds:
             yield from self._of_type(kind)
 
@@ -161,18 +161,18 @@ class ScopeIndex:
         return self._attributes.get(name, ())
 
     def parent(self, node: ast.AST) -> ast.AST | None:
-        """Return the node that holds another."""
+        """Return the parent of a node."""
         return self._parents.get(node)
 
     def parents(self, node: ast.AST) -> Iterator[ast.AST]:
-        """Yield the nodes around another, from the inside out."""
+        """Yield the ancestors of a node, from the inside out."""
         parent = self._parents.get(node)
         while parent is not None:
             yield parent
             parent = self._parents.get(parent)
 
     def place(self, statement: ast.AST) -> tuple[str, int]:
-        """Return the block of the parent node that a statement is in, and its index there.
+        """Return the block with a statement in its parent, and its index there.
 
         The block is ``body``, ``orelse``, ``finalbody`` or ``handlers``; empty, with a number of
         -1, for a node that is in no block.
@@ -208,14 +208,14 @@ class ScopeIndex:
         return scope
 
     def _is_first_iterable(self, generator: ast.comprehension, node: ast.AST) -> bool:
-        """Tell whether a node is what a comprehension goes over first, evaluated around it."""
+        """Tell whether a node is the first iterable of a comprehension, evaluated outside of it."""
         if node is not generator.iter:
             return False
         holder = self._parents[generator]
         return isinstance(holder, _COMPREHENSIONS) and holder.generators[0] is generator
 
     def bindings(self, scope: ast.AST) -> Mapping[str, Sequence[Binding]]:
-        """Return what a scope binds itself, by name."""
+        """Return the own bindings of a scope, by name."""
         if self._scopes is None:
             self._scopes = {}
             for owner, binding in self._all_bindings():
@@ -227,7 +227,7 @@ class ScopeIndex:
         return self._scopes.get(scope, {})
 
     def lookup(self, name: str, at: ast.AST) -> tuple[ast.AST, Sequence[Binding]] | None:
-        """Return the scope that binds a name seen from a node, and its bindings there."""
+        """Return the scope of a name used at a node, and its bindings there."""
         key = name, self.scope_of(at)
         if key not in self._looked_up:
             self._looked_up[key] = self._look_up(*key)
@@ -267,7 +267,7 @@ class ScopeIndex:
             yield redirected.get((owner, binding.name), owner), binding
 
     def _redirected_names(self) -> dict[tuple[ast.AST, str], ast.AST]:
-        """Return which names of which functions belong elsewhere: ``global``, ``nonlocal``."""
+        """Return the names of functions bound elsewhere: ``global``, ``nonlocal``."""
         redirected: dict[tuple[ast.AST, str], ast.AST] = {}
         for declared in self.all_of(ast.Global):
             scope = self.scope_of(declared)
@@ -326,7 +326,7 @@ class ScopeIndex:
         return scope
 
     def _of_target(self, node: ast.Name) -> Binding:
-        """Return the binding that a name makes where it is a target."""
+        """Return the binding of a name that is a target."""
         if isinstance(node.ctx, ast.Del):
             return Binding(node.id, "deletion", node)
         parent = self.parent(node)
@@ -348,7 +348,7 @@ class ScopeIndex:
     def _unpacked(
         self, node: ast.Name, targets: ast.Tuple | ast.List
     ) -> tuple[str, ast.expr | None]:
-        """Pair ``a, b = 1, 2`` when both sides are written out."""
+        """Pair ``a, b = 1, 2`` if both sides are literal."""
         above = self.parent(targets)
         if not isinstance(above, ast.Assign):
             return "other", None
@@ -374,7 +374,7 @@ def _places(parent: ast.AST) -> dict[ast.AST, tuple[str, int]]:
 
 
 def _inside(node: ast.AST) -> Iterator[ast.AST]:
-    """Yield a node and those below it, each before what is below it."""
+    """Yield a node and its descendants in preorder."""
     pending = [node]
     while pending:
         node = pending.pop()
@@ -383,7 +383,7 @@ def _inside(node: ast.AST) -> Iterator[ast.AST]:
 
 
 def children(node: ast.AST) -> Iterator[ast.AST]:
-    """Yield the nodes that a node holds, without contexts and operators."""
+    """Yield the children of a node, without contexts and operators."""
     for field in _FIELDS[type(node)]:
         value = getattr(node, field, None)
         for item in value if type(value) is list else (value,):
@@ -392,7 +392,7 @@ def children(node: ast.AST) -> Iterator[ast.AST]:
 
 
 class _Fields(dict[type[ast.AST], tuple[str, ...]]):
-    """The fields of a node type that can hold nodes worth visiting."""
+    """The fields of a node type with nodes to visit."""
 
     def __missing__(self, kind: type[ast.AST]) -> tuple[str, ...]:
         names = () if kind in _LEAVES else tuple(f for f in kind._fields if f not in _NOT_NODES)
@@ -404,7 +404,7 @@ _FIELDS = _Fields()
 
 
 def _is_inside(scope: ast.AST, child: ast.AST) -> bool:
-    """Tell whether a direct child of a scope is evaluated in it, not around it."""
+    """Tell whether a child of a scope is evaluated inside of it."""
     match scope:
         case ast.FunctionDef() | ast.AsyncFunctionDef() | ast.ClassDef():
             return isinstance(child, ast.stmt)

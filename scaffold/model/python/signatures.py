@@ -6,12 +6,12 @@ import ast
 
 
 def misfit_of_context(arguments: ast.arguments, count: int, words: set[str]) -> str:
-    """Say what does not fit between a function and what an OpaqueFunction gives it.
+    """Describe the mismatch between a function and its arguments from an OpaqueFunction.
 
     Args:
         arguments: The parameters of the function.
-        count: How many of them are given by position, the context included.
-        words: The names of what is given besides.
+        count: The number of positional arguments, including the context.
+        words: The names of the keyword arguments.
 
     Returns:
         Words that follow the name of the function; empty if the call fits.

@@ -17,7 +17,7 @@ _NEEDED = {
     "unittest.case.skipIf": False,
     "unittest.case.skipUnless": True,
 }
-"""What the condition of a mark must be for the test to run, and to pass."""
+"""The required value of the condition of a mark, for the test to run and pass."""
 _OF_BLOCK = "pytestmark"
 """The name of the marks of all tests in a module or a class."""
 _DEEPEST = 5
@@ -28,11 +28,11 @@ class SkipCondition(NamedTuple):
 
     test: ast.expr
     needed: bool
-    """What it must be for the test to run."""
+    """The value required for the test to run."""
 
 
 def skip_conditions(module: PythonModule, function: FunctionNode) -> Iterator[SkipCondition]:
-    """Yield the conditions that decide whether a test runs: its own, of its class and file.
+    """Yield the conditions for a test to run: its own, and those of its class and file.
 
     Args:
         module: The file.

@@ -22,11 +22,11 @@ Parsed = TypeVar("Parsed", bound="SyntaxTree")
 _DEFAULTS_OF_TYPES = (3, 13)
 """The version whose type parameters may have defaults."""
 MAX_DEPTH = 300
-"""Levels of a syntax tree; real modules stay below 50, and visitors of a tree recurse."""
+"""The depth limit of syntax trees; real modules stay below 50, and visitors recurse."""
 
 
 class SyntaxTree:
-    """A parsed Python file: its nodes, where they are, and what their names stand for."""
+    """A parsed Python file: its nodes, their locations, and their qualified names."""
 
     def __init__(self, source: Source, tree: ast.Module, index: ScopeIndex) -> None:
         self.source = source
@@ -35,11 +35,11 @@ class SyntaxTree:
         self.index = index
         self._positions = Positions(source)
         self._names: dict[ast.AST, frozenset[str]] = {}
-        """The full names of expressions that were asked about."""
+        """The cached full names of expressions."""
         self._roots: dict[tuple[str, ast.AST], frozenset[str]] = {}
-        """What a name is imported as, by the scope that it is seen from."""
+        """The imported full names of names, by scope."""
         self._attributes: dict[tuple[frozenset[str], str], frozenset[str]] = {}
-        """The full names of attributes, by those of what they begin with and the rest."""
+        """The full names of attributes, by those of their roots and the rest."""
         self._words: dict[ast.expr, frozenset[str]] = {}
         self._mentions: dict[str, bool] = {}
 
@@ -48,8 +48,8 @@ class SyntaxTree:
         """Parse a file.
 
         Raises:
-            ParseError: it is not Python, or nested too deeply to be read.
-            TooLargeError: it holds more code than people write.
+            ParseError: it is not Python, or nested too deeply.
+            TooLargeError: it has more code than people write.
             NewerSyntaxError: only a newer Python than the running one can parse it.
         """
         positions = Positions(source)
@@ -69,7 +69,7 @@ class SyntaxTree:
         return cls.parse(decode(path, data))
 
     def _refuse_later_syntax(self) -> None:
-        """Give the verdict of the target's Python when a later one runs this tool."""
+        """Reject syntax that the target's Python lacks, if a later one runs this tool."""
         if distributions.target().python >= _DEFAULTS_OF_TYPES:
             return
         type_var: type[ast.AST] | None = getattr(ast, "TypeVar", None)
@@ -84,7 +84,7 @@ class SyntaxTree:
         return self.index.all_of(kind)
 
     def below(self, node: ast.AST, *kinds: type[Node]) -> Iterator[Node]:
-        """Yield a node and those below it that are of some types, one type after the other."""
+        """Yield a node and its descendants of some types, one type after the other."""
         return self.index.below(node, *kinds)
 
     @cached_property
@@ -97,23 +97,23 @@ class SyntaxTree:
         return sorted(nodes, key=lambda node: (node.lineno, node.col_offset))
 
     def parent(self, node: ast.AST) -> ast.AST | None:
-        """Return the node around another."""
+        """Return the parent of a node."""
         return self.index.parent(node)
 
     def parents(self, node: ast.AST) -> Iterator[ast.AST]:
-        """Yield the nodes around another, from the inside out."""
+        """Yield the ancestors of a node, from the inside out."""
         return self.index.parents(node)
 
     def is_inside(self, node: ast.AST, scope: ast.AST) -> bool:
-        """Tell whether a node is somewhere below another."""
+        """Tell whether a node is a descendant of another one."""
         return any(parent is scope for parent in self.parents(node))
 
     def enclosing(self, node: ast.AST, *kinds: type[Node]) -> Node | None:
-        """Return the innermost node of some types around another."""
+        """Return the innermost ancestor of some types."""
         return next((parent for parent in self.parents(node) if isinstance(parent, kinds)), None)
 
     def enclosing_function(self, node: ast.AST) -> FunctionNode | None:
-        """Return the function around a node, lambdas aside."""
+        """Return the function around a node, ignoring lambdas."""
         for parent in self.parents(node):
             if isinstance(parent, ast.FunctionDef | ast.AsyncFunctionDef):
                 return parent
@@ -126,7 +126,7 @@ class SyntaxTree:
     def calls_of(self, *functions: str) -> Sequence[ast.Call]:
         """Return the calls of functions that certainly have these full names; see `qualified_name`.
 
-        They are in the order of the text, or of the names for several.
+        They are in source order, or by name for several names.
         """
         return [call for function in functions for call in self._calls.get(function, ())]
 
@@ -141,9 +141,9 @@ class SyntaxTree:
         return result
 
     def span(self, node: ast.AST) -> tuple[int, int]:
-        """Return the offsets of a node's first character and of what follows it.
+        """Return the start and end offsets of a node.
 
-        Inside an f-string it is the whole string: before Python 3.12 no one knew better.
+        Inside an f-string it is the whole string, as before Python 3.12.
         """
         around: ast.AST | None = node
         while around is not None and not isinstance(around, ast.stmt):
@@ -165,9 +165,9 @@ class SyntaxTree:
         return self.source.location(*self.span(node))
 
     def exact_location(self, node: ast.AST) -> Location:
-        """Return the place of a node; inside an f-string its own, where the parser is right.
+        """Return the location of a node, also inside an f-string if the parser is right.
 
-        Before Python 3.12 it may be elsewhere, in a string of several lines for instance.
+        Before Python 3.12 it may be wrong, for example in a multiline string.
         """
         whole = self.location(node)
         if not isinstance(node, ast.expr) or isinstance(node, ast.JoinedStr):
@@ -201,7 +201,7 @@ class SyntaxTree:
         return self.source.text[start:end]
 
     def words_of(self, condition: ast.expr) -> frozenset[str]:
-        """Return the names and attributes in a condition, written out: ``self.topic``."""
+        """Return the names and attributes in a condition as text: ``self.topic``."""
         if condition not in self._words:
             self._words[condition] = frozenset(
                 ast.unparse(item)
@@ -211,7 +211,7 @@ class SyntaxTree:
         return self._words[condition]
 
     def mentions(self, *texts: str) -> bool:
-        """Tell whether the file contains any of some texts; each is searched for once."""
+        """Tell whether the file contains any of some texts; results are cached."""
         mentions = self._mentions
         for text in texts:
             if text not in mentions:
@@ -223,9 +223,9 @@ class SyntaxTree:
     def qualified_name(self, node: ast.AST) -> str | None:
         """Return the full dotted name of an expression, through the imports in its scope.
 
-        ``Node`` becomes ``rclpy.node.Node``; a name that nothing binds is a builtin and stays
-        as it is; relative imports keep their dots. ``None`` for what the module makes itself
-        and for what is unknown.
+        ``Node`` becomes ``rclpy.node.Node``; an unbound name is a builtin and is
+        unchanged; relative imports keep their dots. ``None`` for names defined in the module
+        and for unknown ones.
         """
         names = self.qualified_names(node)
         if len(names) != 1:
@@ -234,9 +234,9 @@ class SyntaxTree:
         return name
 
     def qualified_names(self, node: ast.AST) -> frozenset[str]:
-        """Return all full names that an expression may have: imports in ``try`` give several.
+        """Return all possible full names of an expression: imports in ``try`` give several.
 
-        Empty for what the module makes itself and for what is unknown.
+        Empty for names defined in the module and for unknown ones.
         """
         result = self._names.get(node)
         if result is None:
@@ -267,7 +267,7 @@ class SyntaxTree:
 
     @cached_property
     def _imported_names(self) -> frozenset[str]:
-        """All names that an import binds somewhere."""
+        """All names bound by imports."""
         aliases = self.walk(ast.alias)
         return frozenset(item.asname or item.name.partition(".")[0] for item in aliases)
 

@@ -26,11 +26,11 @@ class Unknown(Enum):
 
 
 UNKNOWN: Final = Unknown.UNKNOWN
-"""Not known without running the code. Compare with ``is``; it is false."""
+"""An unknown value. Compare with ``is``; it is falsy."""
 
 
 class Glob:
-    """Placeholder in a list for the paths that match a pattern."""
+    """A placeholder in a list for the paths that match a pattern."""
 
     __slots__ = ("filtered", "pattern", "recursive")
 
@@ -39,7 +39,7 @@ class Glob:
         self.recursive = recursive
         """Whether ``**`` matches any directories."""
         self.filtered = filtered
-        """Only some of the paths: there is a condition."""
+        """Whether a condition selects some of the paths."""
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Glob) and repr(self) == repr(other)
@@ -73,7 +73,7 @@ class PathValue:
 
 
 MAX_LENGTH = 20_000
-"""Characters or items; longer values are not evaluated."""
+"""The maximum number of characters or items; longer values are unknown."""
 MAX_NUMBER = 10**18
 
 _SIMPLE_PERCENT = r"(?:[^%]|%[sdifrg%]|%0?\d{0,2}d|%\.\d{1,2}f|%\(\w+\)[sdifr])*"
@@ -150,7 +150,7 @@ def held_small(value: object) -> object:
 
 
 def binary(kind: type[ast.operator], left: object, right: object) -> object:
-    """Return the value of ``left`` and ``right`` put together, as far as that is sure."""
+    """Return the value of a binary operation, if certain."""
     if isinstance(left, int | float) and isinstance(right, int | float):
         return _arithmetic(kind, left, right)
     if kind is ast.Mod and isinstance(left, str):
@@ -194,7 +194,7 @@ def _percent(form: str, values: object) -> object:
 
 
 def format_text(form: str, args: Sequence[object], keywords: Mapping[str, object]) -> str | None:
-    """Return ``form.format(...)`` if only plain fields and printable values are in it."""
+    """Return ``form.format(...)`` if it has only plain fields and printable values."""
     if not re.fullmatch(_SIMPLE_FORMAT, form) or not all(
         map(_is_printable, (*args, *keywords.values()))
     ):
@@ -210,7 +210,7 @@ def _is_printable(value: object) -> bool:
 
 
 def join_paths(parts: Sequence[str]) -> str:
-    """Join as os.path.join does on POSIX, whatever the machine."""
+    """Join paths like os.path.join on POSIX."""
     path = parts[0]
     for part in parts[1:]:
         if part.startswith("/"):
@@ -223,7 +223,7 @@ def join_paths(parts: Sequence[str]) -> str:
 def text_method(
     text: str, method: str, args: Sequence[object], keywords: Mapping[str, object]
 ) -> object:
-    """Return what a method of a string gives."""
+    """Return the result of a string method."""
     if method == "format":
         formatted = format_text(text, args, keywords)
         return UNKNOWN if formatted is None else formatted
@@ -245,7 +245,7 @@ def text_method(
 def path_method(
     path: PathValue | Glob, method: str, args: Sequence[object], keywords: Mapping[str, object]
 ) -> object:
-    """Return what a method of a path gives; matches of a pattern pass through."""
+    """Return the result of a path method; globs pass through."""
     if method in {"as_posix", "__str__"} and not args:
         return path if isinstance(path, Glob) else path.text
     if isinstance(path, PathValue) and not keywords and all(isinstance(arg, str) for arg in args):
@@ -292,7 +292,7 @@ def _converted(args: Sequence[object], keywords: Mapping[str, object], kind: typ
 
 
 def _listed(args: Sequence[object], keywords: Mapping[str, object]) -> object:
-    """``list``, ``tuple``, ``sorted`` and ``set`` change nothing that anyone asks for."""
+    """``list``, ``tuple``, ``sorted`` and ``set`` are treated alike."""
     del keywords
     values = args[0] if args else []
     return list(values) if isinstance(values, list | tuple) else UNKNOWN

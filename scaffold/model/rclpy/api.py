@@ -34,7 +34,7 @@ PLACES: Mapping[str, str] = {
     "Duration": "rclpy.duration",
     "Time": "rclpy.time",
 }
-"""Where names are that are often looked for in ``rclpy`` itself."""
+"""The modules of names that are often imported from ``rclpy`` itself."""
 _MADE: Mapping[str, str] = {
     "create_publisher": "rclpy.publisher.Publisher",
     "create_subscription": "rclpy.subscription.Subscription",
@@ -48,7 +48,7 @@ _MADE: Mapping[str, str] = {
     "get_parameter_or": PARAMETER,
     "declare_parameter": PARAMETER,
 }
-"""What the methods of a node give."""
+"""The classes returned by methods of a node."""
 _GIVEN: Mapping[str, str] = {
     "rclpy.clock.Clock.now": "rclpy.time.Time",
     "rclpy.client.Client.call_async": "rclpy.task.Future",
@@ -60,20 +60,20 @@ _GIVEN: Mapping[str, str] = {
 _RESULTS: Mapping[str, str] = {
     "rclpy.action.client.ActionClient.send_goal_async": "rclpy.action.client.ClientGoalHandle",
 }
-"""What the future that a method gives holds in the end."""
+"""The classes of the results of futures returned by methods."""
 GOAL_HANDLE = "rclpy.action.server.ServerGoalHandle"
 _GOAL_CALLBACKS = ("execute_callback", "handle_accepted_callback", "cancel_callback")
 _DEEPEST = 20
 
 
 def known_names() -> Mapping[str, frozenset[str]]:
-    """Return what modules and classes have, by their full names; methods end in ``()``."""
+    """Return the names in modules and classes by full name; methods end in ``()``."""
     return names_of(distributions.target())
 
 
 @cache
 def names_of(distribution: Distribution) -> Mapping[str, frozenset[str]]:
-    """Return what modules and classes of a distribution have; see `known_names`."""
+    """Return the names in modules and classes of a distribution; see `known_names`."""
     with open(distribution.path("names.txt"), encoding="utf-8") as file:
         pairs = [line.partition(": ") for line in file]
     return {owner: frozenset(names.split()) for owner, _, names in pairs}
@@ -104,7 +104,7 @@ def _places(distribution: Distribution) -> Mapping[str, str]:
 
 
 def class_of(file: RclpyFile, node: ast.expr, depth: int = 0) -> str | None:
-    """Return the class of rclpy, as the table calls it, that an expression is an object of."""
+    """Return the rclpy class of an expression, by its name in the table."""
     classes = file.classes_of
     if node not in classes and depth <= _DEEPEST:
         classes[node] = None  # ends the recursion of what is assigned to itself
@@ -133,7 +133,7 @@ def _find_class(file: RclpyFile, node: ast.expr, depth: int) -> str | None:
 
 
 def _class_made(file: RclpyFile, call: ast.Call, func: ast.Attribute, depth: int) -> str | None:
-    """Return the class of what a method gives."""
+    """Return the class returned by a method."""
     owner = file.owner_of(func.value)
     if owner is not None:
         is_own = hasattr(owner, "method") and owner.method(func.attr) is not None
@@ -147,7 +147,7 @@ def _class_made(file: RclpyFile, call: ast.Call, func: ast.Attribute, depth: int
 
 
 def _is_annotated_as_node(file: RclpyFile, node: ast.expr) -> bool:
-    """Tell whether an expression is a parameter of a function, or is set to one, that is a node."""
+    """Tell whether an expression is a function parameter annotated as a node, or set to one."""
     argument = file.parameter_of(file.evaluator.single_value(node))
     if argument is None or argument.annotation is None:
         return False
@@ -155,7 +155,7 @@ def _is_annotated_as_node(file: RclpyFile, node: ast.expr) -> bool:
 
 
 def _class_of_result(file: RclpyFile, node: ast.expr, depth: int) -> str | None:
-    """Return the class of what a future holds: the handle of a goal that was sent."""
+    """Return the class of the result of a future: the handle of a sent goal."""
     future = future_given(file, node)
     made = file.evaluator.single_value(node if future is None else future)
     if isinstance(made, ast.Call) and isinstance(made.func, ast.Attribute):
@@ -165,7 +165,7 @@ def _class_of_result(file: RclpyFile, node: ast.expr, depth: int) -> str | None:
 
 
 def _class_of_argument(file: RclpyFile, node: ast.expr, depth: int) -> str | None:
-    """Return the class of what a callback is given: a future that is done, a goal handle."""
+    """Return the class of a callback argument: a done future, a goal handle."""
     argument = file.parameter_of(node)
     if argument is not None and argument in _goal_arguments(file):
         return GOAL_HANDLE
@@ -176,7 +176,7 @@ def _class_of_argument(file: RclpyFile, node: ast.expr, depth: int) -> str | Non
 
 
 def _goal_arguments(file: RclpyFile) -> set[ast.arg]:
-    """Return the arguments that action servers call functions with the handle of a goal for."""
+    """Return the function parameters that receive goal handles from action servers."""
     if file.goal_arguments is not None:
         return file.goal_arguments
     file.goal_arguments = result = set[ast.arg]()
@@ -193,13 +193,13 @@ def _goal_arguments(file: RclpyFile) -> set[ast.arg]:
 
 
 def future_given(file: RclpyFile, node: ast.expr) -> ast.expr | None:
-    """Return the future that is done when a callback is called with what a name refers to."""
+    """Return the future passed to a callback as the argument in a name."""
     argument = file.parameter_of(node)
     return _futures(file).get(argument) if argument is not None else None
 
 
 def _futures(file: RclpyFile) -> Mapping[ast.arg, ast.expr]:
-    """Return the futures that are done when callbacks are called, by their argument."""
+    """Return the futures passed to done callbacks, by parameter."""
     if file.futures is not None:
         return file.futures
     file.futures = result = dict[ast.arg, ast.expr]()

@@ -1,4 +1,4 @@
-"""NumPy arrays in code, and dtypes that strings name."""
+"""NumPy arrays in code, and dtypes given as strings."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ def is_array(file: RclpyFile, node: ast.expr, depth: int = 0) -> bool:
     Args:
         file: The file.
         node: The expression.
-        depth: How many expressions led to it.
+        depth: The number of expressions followed so far.
     """
     value = file.evaluator.single_value(node)
     if isinstance(value, ast.Call):
@@ -56,7 +56,7 @@ def is_array(file: RclpyFile, node: ast.expr, depth: int = 0) -> bool:
 
 
 def type_names(file: RclpyFile) -> Iterator[ast.Constant]:
-    """Yield the strings by which calls of NumPy name a type."""
+    """Yield the strings given as a type to NumPy calls."""
     for call in file.module.walk(ast.Call):
         for node in _types(file, call):
             if isinstance(node, ast.Constant) and isinstance(node.value, str):
@@ -64,7 +64,7 @@ def type_names(file: RclpyFile) -> Iterator[ast.Constant]:
 
 
 def _types(file: RclpyFile, call: ast.Call) -> Iterator[ast.expr]:
-    """Yield what a call gives for a type."""
+    """Yield the type arguments of a call."""
     names = file.module.qualified_names(call.func)
     is_of_numpy = any(name.startswith("numpy.") for name in names)
     at = 0 if DTYPE in names else 1 if not names.isdisjoint(_TYPED) else None

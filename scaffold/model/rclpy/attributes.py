@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 
 def used_by_classes(file: RclpyFile) -> dict[ast.ClassDef, list[ast.Attribute]]:
-    """Return what classes read of themselves, but for what the file sets on whatever object."""
+    """Return the attributes that classes read from ``self`` and the file never sets."""
     module = file.module
     read: list[ast.Attribute] = []
     stored: set[str] = set()
@@ -43,7 +43,7 @@ def used_by_classes(file: RclpyFile) -> dict[ast.ClassDef, list[ast.Attribute]]:
 
 
 def _owner(file: RclpyFile, attribute: ast.Attribute) -> ast.ClassDef | None:
-    """Return the class of which an attribute is read: of ``self``, or of what a variable holds."""
+    """Return the class of an attribute access: that of ``self``, or of a variable."""
     class_ = file.evaluator.self_class(attribute.value)
     if class_ is None and isinstance(attribute.value, ast.Name):
         made = file.evaluator.single_value(attribute.value)
@@ -53,7 +53,7 @@ def _owner(file: RclpyFile, attribute: ast.Attribute) -> ast.ClassDef | None:
 
 
 def defined_by(node: NodeClass) -> set[str]:
-    """Return what a class and its bases define, in methods and on ``self``."""
+    """Return the names defined by a class and its bases, in methods and on ``self``."""
     result: set[str] = set()
     owner: NodeClass | None = node
     if node.is_lifecycle:
@@ -71,7 +71,7 @@ def defined_by(node: NodeClass) -> set[str]:
 
 
 def is_read_in_full(node: NodeClass) -> bool:
-    """Tell whether a class and its bases are read in full, and make no names at run time."""
+    """Tell whether a class and its bases are fully known, and define no names at run time."""
     owner: NodeClass | None = node
     while owner is not None:
         bindings = owner.file.module.index.bindings(owner.node)
@@ -86,7 +86,7 @@ def is_read_in_full(node: NodeClass) -> bool:
 
 
 def is_unused(package: Package, file: RclpyFile, entity: Entity) -> bool:
-    """Tell whether nothing in the package uses what was created, after it is stored."""
+    """Tell whether a stored object is never used in the package."""
     if entity.attribute:
         names = file.module.index.attributes(entity.attribute)
         is_read = any(isinstance(node.ctx, ast.Load) for node in names)
@@ -100,7 +100,7 @@ def is_unused(package: Package, file: RclpyFile, entity: Entity) -> bool:
 
 
 def is_used_elsewhere(package: Package, file: RclpyFile, attribute: str) -> bool:
-    """Tell whether other modules of the package use an attribute that a class of a file sets.
+    """Tell whether other modules of the package use an attribute set by a class of a file.
 
     A class that sets an attribute of the same name on ``self`` uses its own.
     """
@@ -113,7 +113,7 @@ def is_used_elsewhere(package: Package, file: RclpyFile, attribute: str) -> bool
 
 @fact
 def _uses_of_another(package: Package, path: str, attribute: str) -> bool:
-    """Tell whether a file uses an attribute, and none of its classes sets it on ``self``."""
+    """Tell whether a file uses an attribute that none of its classes sets on ``self``."""
     if attribute.encode() not in package.data(path):  # most files need not be parsed
         return False
     nodes = package.module(path).index.attributes(attribute)
@@ -125,12 +125,12 @@ def _uses_of_another(package: Package, path: str, attribute: str) -> bool:
 
 @fact
 def names_of_bases(package: Package) -> frozenset[str]:
-    """Return the classes of the package that others inherit from: those may define the rest."""
+    """Return the classes of the package with subclasses, which may define more."""
     return _of_all_files(package, _bases_in)
 
 
 def is_overridden(package: Package, method: FunctionNode, class_: ast.ClassDef) -> bool:
-    """Tell whether the package makes no object of a class, but derives from it with this method."""
+    """Tell whether a class is never instantiated, but has subclasses with this method."""
     if class_.name not in names_of_bases(package):
         return False
     overriding = f"{class_.name}.{method.name}" in _overridden_methods(package)
@@ -167,7 +167,7 @@ def _called_in(package: Package, path: str) -> frozenset[str]:
 
 @fact
 def given_from_outside(package: Package) -> frozenset[str]:
-    """Return the attributes that code of the package sets on other objects than ``self``."""
+    """Return the attributes that code of the package sets on objects other than ``self``."""
     return _of_all_files(package, _given_in)
 
 

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 def resolve(file: RclpyFile, node: ast.expr) -> Callback:
-    """Return what an expression evaluates to as a callback."""
+    """Return the callback of an expression."""
     module = file.module
     if isinstance(node, ast.Call):
         if module.qualified_name(node.func) == "functools.partial" and node.args:
@@ -67,12 +67,12 @@ def function_of(file: RclpyFile, node: ast.AST) -> FunctionNode | ast.Lambda | N
 def reached(
     file: RclpyFile, function: FunctionNode | ast.Lambda, skipped: Container[ast.AST] = ()
 ) -> Sequence[FunctionNode | ast.Lambda]:
-    """Return a function and what it calls in the same file: methods of self, functions.
+    """Return a function and the functions and methods that it calls in the same file.
 
     Args:
         file: The file.
         function: The function.
-        skipped: Functions to leave out, with what only they call.
+        skipped: Functions to skip, with those that only they call.
     """
     result: dict[FunctionNode | ast.Lambda, None] = {}
     pending = [function] if function not in skipped else []
@@ -99,7 +99,7 @@ def _is_static_method(function: FunctionNode) -> bool:
 
 
 def _returns_function(function: FunctionNode | ast.Lambda) -> bool:
-    """Tell whether calling a function may give another function: it returns something."""
+    """Tell whether a function may return another function."""
     if isinstance(function, ast.Lambda):
         return True
     return any(
@@ -108,9 +108,9 @@ def _returns_function(function: FunctionNode | ast.Lambda) -> bool:
 
 
 def alternatives(file: RclpyFile, callback: Callback) -> Sequence[Callback]:
-    """Return the callbacks that a variable or a condition chooses from, or the one that is given.
+    """Return the possible callbacks of a variable or a condition, or the only one.
 
-    All are passed in the same place: each has to take what is passed there.
+    All are passed in the same place and must accept the same arguments.
     """
     if callback.function is not None or callback.is_called:
         return [callback]
@@ -119,7 +119,7 @@ def alternatives(file: RclpyFile, callback: Callback) -> Sequence[Callback]:
 
 
 def _chosen_from(file: RclpyFile, node: ast.expr, depth: int = 0) -> Sequence[ast.expr]:
-    """Return the expressions that an expression is one of; nothing if that is not known."""
+    """Return the alternatives of an expression; empty if unknown."""
     if isinstance(node, ast.IfExp):
         return [node.body, node.orelse]
     lookup = file.module.index.lookup(node.id, node) if isinstance(node, ast.Name) else None
@@ -133,7 +133,7 @@ def _chosen_from(file: RclpyFile, node: ast.expr, depth: int = 0) -> Sequence[as
 
 
 def _column(file: RclpyFile, target: ast.AST) -> Sequence[ast.expr]:
-    """Return what a variable of a loop is in each row of a table."""
+    """Return the values of a loop variable in each row of a table."""
     parent = file.module.parent(target)
     at = (
         parent.elts.index(target) if isinstance(parent, ast.Tuple) and target in parent.elts else -1
@@ -148,7 +148,7 @@ def _column(file: RclpyFile, target: ast.AST) -> Sequence[ast.expr]:
 
 
 def numbers_taken(callback: Callback) -> range | None:
-    """Return the numbers of positional arguments that a callback takes; ``None``: not known."""
+    """Return the accepted numbers of positional arguments of a callback; ``None`` if unknown."""
     function = callback.function
     if function is None or callback.is_called:
         return None
@@ -170,7 +170,7 @@ def numbers_taken(callback: Callback) -> range | None:
 
 
 def _given_before(node: ast.expr) -> int | None:
-    """Return how many arguments ``partial(function, 'left')`` gives; ``None``: not known."""
+    """Return the number of arguments in ``partial(function, 'left')``; ``None`` if unknown."""
     match node:
         case ast.Call(args=[ast.Name() | ast.Attribute(), *given], keywords=[]):
             return (

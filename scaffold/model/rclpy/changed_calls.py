@@ -19,9 +19,9 @@ _ABOVE = {"TimeoutError": "OSError"}
 
 
 def changed_calls(module: PythonModule) -> Iterator[ChangedUse]:
-    """Yield the calls that mean something else on the target than where the code comes from.
+    """Yield the calls with another meaning on the target than on the source distribution.
 
-    Calls that run on one of both only are left out: they never meant anything else.
+    Calls that run on only one of them are skipped.
     """
     changes = [change for change in of_kind("call") if change.is_changed]
     words = (name.rpartition(".")[2] for change in changes for name in change.names)
@@ -53,7 +53,7 @@ def _called(file: RclpyFile, call: ast.Call) -> set[str]:
 
 
 def _is_meant(file: RclpyFile, call: ast.Call, change: Change) -> bool:
-    """Tell whether a call has the arguments that the change is about, and is not ready for it."""
+    """Tell whether a call has the changed arguments, and is not prepared for the change."""
     if any(word.arg is None for word in call.keywords) or _is_ready(file.module, call, change):
         return False
     if change.without and _argument(call, change.without) is not None:
@@ -79,14 +79,14 @@ def _is_ready(module: PythonModule, call: ast.Call, change: Change) -> bool:
 
 
 def _is_caught(module: PythonModule, call: ast.Call, error: str) -> bool:
-    """Tell whether code goes on after an error of a call, as it does without one."""
+    """Tell whether code continues after an error of a call as without one."""
     if not caught_around(module, call).isdisjoint({error, _ABOVE.get(error, error)}):
         return True
     return has_fallback(module, call, is_rare=True)
 
 
 def _argument(call: ast.Call, keyword: str, place: int | None = None) -> ast.expr | None:
-    """Return what a call gives for an argument, by its name or at its position."""
+    """Return an argument of a call, by name or position."""
     for word in call.keywords:
         if word.arg == keyword:
             return word.value
@@ -107,7 +107,7 @@ def _is_none(node: ast.AST | None) -> bool:
 
 
 def _runs_on_both(module: PythonModule, call: ast.Call, name: str) -> bool:
-    """Tell whether a call runs on the target and where the code comes from."""
+    """Tell whether a call runs on both the target and the source distribution."""
     if is_asked_for(module, call, name):
         return False
     origin = distributions.origin() or distributions.target()

@@ -29,11 +29,11 @@ _VERSION = re.compile(
     r"version_info|__version__|VERSION|\b[Vv]ersion(?:\.parse)?\(|(?i:distro)"
     r"|(?i:ros|rclpy|numpy|np|python)_?version"
 )
-"""Matches conditions that ask for a version of Python, of ROS or of a package."""
+"""Matches conditions on a version of Python, of ROS or of a package."""
 _FINDERS = frozenset({"importlib.util.find_spec", "pkgutil.find_loader", IMPORT_OR_SKIP})
-"""Functions that ask whether there is a module."""
+"""Functions that test whether a module exists."""
 _MOST = 3
-"""With more arguments that have no name, a call may give any of them by its position."""
+"""The number of positional arguments from which a call may give any of them."""
 _CONSTANT = re.compile(r"\b[A-Z_][A-Z0-9_]*")
 
 
@@ -43,21 +43,21 @@ class ChangedUse(NamedTuple):
     change: Change
     location: Location
     shown: str
-    """The name, as a message calls it."""
+    """The name in messages."""
     error: str
-    """What happens where the name is gone."""
+    """The error if the name was removed."""
     replacement: str = ""
-    """What takes its place; empty if nothing does."""
+    """The replacement; empty if there is none."""
     edits: tuple[Edit, ...] = ()
-    """Put the replacement in its place."""
+    """The edits that use the replacement."""
 
 
 def changed_uses(module: PythonModule, changes: Sequence[Change]) -> Iterator[ChangedUse]:
-    """Yield the uses of names of some changes, where nothing asks for a version first.
+    """Yield the uses of changed names that are not guarded by a version check.
 
     Args:
         module: The file.
-        changes: Of names.
+        changes: The changes of names.
     """
     wanted = [
         change for change in changes if any(_is_mentioned(module, name) for name in change.names)
@@ -71,7 +71,7 @@ def changed_uses(module: PythonModule, changes: Sequence[Change]) -> Iterator[Ch
 
 
 def _is_mentioned(module: PythonModule, name: str) -> bool:
-    """Tell whether a file may use a name; methods of objects of rclpy need no import of it."""
+    """Tell whether a file may use a name; methods of rclpy objects need no import."""
     root, word = name.partition(".")[0], name.rpartition(".")[2].rstrip("*")
     return module.mentions(word) and (root == "rclpy" or module.mentions(root))
 
@@ -99,7 +99,7 @@ class _Search:
         ]
 
     def _match(self, name: str) -> tuple[Change, str] | None:
-        """Return the change of a full name, and the last part of what takes its place."""
+        """Return the change of a full name, and the last part of its replacement."""
         if name in self._plain:
             change = self._plain[name]
             return change, change.use
@@ -109,7 +109,7 @@ class _Search:
         return None
 
     def imports(self) -> Iterator[ChangedUse]:
-        """Yield what imports name."""
+        """Yield the uses in imports."""
         for node in self._module.walk(ast.ImportFrom):
             if not node.level and node.module:
                 yield from self._imported_from(node, node.module)
@@ -146,7 +146,7 @@ class _Search:
                 yield from self._use(node, at, full, "ImportError", (change, written), place)
 
     def attributes(self) -> Iterator[ChangedUse]:
-        """Yield attributes of modules, classes and objects."""
+        """Yield the uses as attributes of modules, classes and objects."""
         for node in self._module.walk(ast.Attribute):
             for name in self._names(node):
                 matched = self._match(name)
@@ -159,7 +159,7 @@ class _Search:
                 break
 
     def calls(self) -> Iterator[ChangedUse]:
-        """Yield calls with or without an argument that changed."""
+        """Yield the calls with or without a changed argument."""
         for call in self._module.walk(ast.Call) if self._calls else ():
             given = [call.func, *(word.value for word in call.keywords)]
             names = frozenset().union(*map(self._module.qualified_names, given))
@@ -175,7 +175,7 @@ class _Search:
                         yield use._replace(shown=shown)
 
     def type_names(self) -> Iterator[ChangedUse]:
-        """Yield strings that name a type of NumPy."""
+        """Yield the strings with a NumPy type."""
         if not any(name.startswith(f"{DTYPE}.") for name in self._plain):
             return
         for node in type_names(self._file):
@@ -200,7 +200,7 @@ class _Search:
                 yield f"{class_}.{node.attr}"
 
     def _is_logger(self, node: ast.expr) -> bool:
-        """Tell whether an expression is the logger of a node, whatever the node is."""
+        """Tell whether an expression is the logger of any node."""
         value = self._file.evaluator.single_value(node)
         match value:
             case ast.Call(func=ast.Attribute(attr="get_logger", value=of), args=[], keywords=[]):
@@ -210,7 +210,7 @@ class _Search:
         return class_of(self._file, node) == _LOGGER
 
     def _is_fallback(self, node: ast.AST, replacement: str) -> bool:
-        """Tell whether an import, or a name, is for where another import or its successor fails."""
+        """Tell whether an import or name is a fallback for another import or its replacement."""
         is_import = isinstance(node, ast.Import | ast.ImportFrom)
         expected = _OF_IMPORT if is_import else {"AttributeError"}
         child = node
@@ -255,7 +255,7 @@ class _Search:
 
 
 def _argument_meant(call: ast.Call, change: Change) -> ast.AST | None:
-    """Return what of a call a change is about; ``None`` if it is not about the call."""
+    """Return the changed part of a call; ``None`` if it is not affected."""
     words = {word.arg: word for word in call.keywords}
     if change.having or None in words:
         return words.get(change.having) if change.having else None
@@ -274,13 +274,13 @@ def _mentions(body: Sequence[ast.stmt], attribute: str) -> bool:
 
 
 def is_asked_for(module: PythonModule, node: ast.AST, name: str, replacement: str = "") -> bool:
-    """Tell whether conditions that ask for a version, or for a name, decide that a node runs.
+    """Tell whether a node is guarded by conditions on a version or a name.
 
     Args:
         module: The file.
-        node: What uses the name.
+        node: The use of the name.
         name: The full name.
-        replacement: What takes its place.
+        replacement: The replacement.
     """
     asked = _Asked(module, name, {name.rpartition(".")[2], replacement} - {""})
     for condition in all_conditions(module, node):
@@ -299,7 +299,7 @@ def is_asked_for(module: PythonModule, node: ast.AST, name: str, replacement: st
 def is_tried(module: PythonModule, call: ast.Call, keyword: str) -> bool:
     """Tell whether code handles the case that a function rejects the arguments of a call.
 
-    It catches ``TypeError``, has a fallback, or asks for the argument or a version first.
+    It catches ``TypeError``, has a fallback, or checks the argument or a version first.
 
     Args:
         module: The file.
@@ -314,7 +314,7 @@ def is_tried(module: PythonModule, call: ast.Call, keyword: str) -> bool:
 
 
 def _around(module: PythonModule, node: ast.AST) -> Iterator[tuple[ast.AST, ast.AST]]:
-    """Yield the nodes around another, each with the one in it."""
+    """Yield the ancestors of a node, each with the child on the path."""
     for parent in module.parents(node):
         yield parent, node
         node = parent
@@ -328,16 +328,16 @@ def _is_unsure_case(module: PythonModule, parent: ast.AST, child: ast.AST) -> bo
 
 
 class _Asked(NamedTuple):
-    """A condition that decides whether a name is used."""
+    """A condition around the use of a name."""
 
     module: PythonModule
     name: str
     """The full name."""
     words: set[str]
-    """The last parts of the name, and of what takes its place."""
+    """The last parts of the name and its replacement."""
 
     def is_behind(self, test: ast.expr) -> bool:
-        """Tell whether a condition, or what is behind its names, asks for a version or a word.
+        """Tell whether a condition, directly or through names, tests a version or a word.
 
         A version of Python, of ROS or of a package.
         """
@@ -347,7 +347,7 @@ class _Asked(NamedTuple):
         )
 
     def is_for_import(self, test: ast.expr) -> bool:
-        """Tell whether a condition asks whether something of the package was imported."""
+        """Tell whether a condition tests whether an import from the package succeeded."""
         flags = filter(_is_flag, _CONSTANT.findall(self.module.text(test)))
         return any(map(self._is_of_import, flags))
 
@@ -378,7 +378,7 @@ class _Asked(NamedTuple):
         return roots == {self.name.partition(".")[0]}
 
     def _is_of_import(self, flag: str) -> bool:
-        """Tell whether a flag records that something of the package was imported."""
+        """Tell whether a flag records that an import from the package succeeded."""
         setting = [node for node in self.module.walk(ast.Try) if flag in _assigned(node)]
         return not setting or any(
             item.root == self.name.partition(".")[0]
@@ -389,7 +389,7 @@ class _Asked(NamedTuple):
 
 
 def _is_flag(name: str) -> bool:
-    """Tell whether a constant is called like those that say whether an import went well."""
+    """Tell whether a constant is named like flags of successful imports."""
     return name.endswith("_AVAILABLE") or name.lstrip("_").startswith(("HAS_", "HAVE_"))
 
 

@@ -15,15 +15,15 @@ if TYPE_CHECKING:
     from scaffold.model.python.module import PythonModule
 
 _MAKING = frozenset({"__init__", "__new__", "__post_init__", "__getattribute__"})
-"""Methods that may give an object other values than those in its class."""
+"""Methods that may override the class attributes of an object."""
 
 
 @fact
 def constants_of(package: Package, path: str) -> Mapping[str, object]:
     """Return the constants of a Python file, and the values in its classes; raises ViewError.
 
-    Constants are in capitals: what has another name may be set by anybody. A value in a class,
-    such as the default of a dataclass, has the name of the class in front: ``Topics.image``.
+    Constants are in capitals: other names may be changed by any code. A value in a class,
+    such as the default of a dataclass, is prefixed with the class: ``Topics.image``.
     """
     return dict(_constants(package.module(path)))
 

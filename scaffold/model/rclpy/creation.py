@@ -78,7 +78,7 @@ _CLASSES = {
 } | {f"message_filters.{kind}": kind for kind in _FILTERS}
 """The classes whose constructors create something."""
 _DEFAULT_DEPTH = 10
-"""Of the subscriptions of ``message_filters``, which need no quality of service."""
+"""The default depth of subscriptions of ``message_filters``."""
 
 
 class Creation:
@@ -107,7 +107,7 @@ class Creation:
         return None
 
     def _may_be_of_rclpy(self, func: ast.Attribute) -> bool:
-        """Tell whether a method of what is not known to be a node may be rclpy's."""
+        """Tell whether a method of an unknown object may be that of an rclpy node."""
         if not self._file.uses_rclpy:
             return False
         class_ = self._file.evaluator.self_class(func.value)
@@ -171,7 +171,7 @@ class Creation:
         return None
 
     def _qos_given(self, node: ast.expr) -> Qos:
-        """Return the quality of service of an expression, also of a constant or function."""
+        """Return the quality of service of an expression, also through a constant or function."""
         qos = qos_of(self._file.evaluator, node)
         if qos != Qos(qos.location):
             return qos
@@ -198,7 +198,7 @@ class Creation:
         )
 
     def _registered(self, call: ast.Call) -> list[Callback]:
-        """Return the callbacks that are registered at a message filter."""
+        """Return the callbacks registered with a message filter."""
         result: list[Callback] = []
         for attribute in self._file.module.index.attributes("registerCallback"):
             parent = self._file.module.parent(attribute)
@@ -211,7 +211,7 @@ class Creation:
         return result
 
     def _inputs(self, given: Argument | None) -> list[Endpoint | None] | None:
-        """Return the subscriptions that a synchronizer waits for, if their number is known."""
+        """Return the input subscriptions of a synchronizer, if their number is known."""
         if given is None:
             return None
         made = self._file.evaluator.single_value(given.node)

@@ -24,30 +24,30 @@ class Argument(NamedTuple):
     name: str
     node: ast.expr
     value: object
-    """Evaluated; ``UNKNOWN`` for what is not a constant."""
+    """The value; ``UNKNOWN`` if not constant."""
     location: Location
 
 
 class Callback(NamedTuple):
-    """What is passed as a callback."""
+    """An expression passed as a callback."""
 
     node: ast.expr
     name: str | None
-    """The method's or function's name; ``None`` for a lambda or what is not known."""
+    """The name of the method or function; ``None`` for a lambda or if unknown."""
     function: FunctionNode | ast.Lambda | None
-    """Its definition, if that is in the same file."""
+    """Its definition, if it is in the same file."""
     module: PythonModule
     """The file that passes it."""
     is_called: bool
-    """The function is called where it should be passed: ``self.on_timer()``."""
+    """Whether it is called instead of passed: ``self.on_timer()``."""
     is_bound: bool
-    """A method, so ``self`` is not among the arguments that it is called with."""
+    """Whether it is a bound method, called without ``self``."""
     is_partial: bool = False
-    """Wrapped in ``functools.partial``: some arguments are given already."""
+    """Whether it is wrapped in ``functools.partial``, with some arguments given."""
 
     @property
     def location(self) -> Location:
-        """The place of what is passed."""
+        """The location of the passed expression."""
         return self.module.location(self.node)
 
 
@@ -58,24 +58,24 @@ class Qos(NamedTuple):
     profile: str | None = None
     """The predefined profile: ``sensor_data`` ..."""
     depth: int | Unknown | None = UNKNOWN
-    """``None``: not given, though the history needs it."""
+    """The depth; ``None`` if missing, though the history needs it."""
     history: str | Unknown = UNKNOWN
     reliability: str | Unknown = UNKNOWN
     durability: str | Unknown = UNKNOWN
 
 
 class Created(NamedTuple):
-    """The common fields of everything that a call creates."""
+    """The common fields of all objects created by a call."""
 
     call: ast.Call
     location: Location
     """The whole call."""
     owner: NodeDefinition | None
-    """The node it is created on, if that is known."""
+    """The node that creates it, if known."""
     attribute: str | None
-    """Stored in this attribute of ``self``."""
+    """The attribute of ``self`` that stores it."""
     variable: str | None
-    """Stored in this variable."""
+    """The variable that stores it."""
     function: FunctionNode | None
     """The function that creates it."""
     arguments: Mapping[str, Argument]
@@ -83,11 +83,11 @@ class Created(NamedTuple):
     has_unknown_arguments: bool
     """There is a ``*`` or ``**``: more arguments may be given."""
     is_conditional: bool
-    """Created under a condition or in a loop."""
+    """Whether it is created under a condition or in a loop."""
 
 
 class Entity:
-    """Something a node creates."""
+    """An object created by a node."""
 
     def __init__(self, created: Created) -> None:
         self.created = created
@@ -110,7 +110,7 @@ AnyEntity = TypeVar("AnyEntity", bound=Entity)
 
 
 class Endpoint(Entity):
-    """Something with a name and an interface type that other nodes can reach."""
+    """An entity with a name and an interface type: a publisher, a service and so on."""
 
     type_parameter = "msg_type"
     name_parameter = "topic"
@@ -129,16 +129,16 @@ class Endpoint(Entity):
         self.interface = interface
         """``std_msgs/msg/String``; ``None`` if that is unknown."""
         self.name = name
-        """As written: not expanded, not remapped."""
+        """The name as written, neither expanded nor remapped."""
         self.from_parameters = from_parameters
-        """The name is computed from the defaults of these parameters."""
+        """The parameters whose defaults give the name."""
         self.qos = qos
-        """``None`` when none is given."""
+        """The quality of service; ``None`` if not given."""
         self.callback = callback
 
     @property
     def from_parameter(self) -> str | None:
-        """The name is the default of this parameter alone."""
+        """The only parameter whose default is the name."""
         return next(iter(self.from_parameters)) if len(self.from_parameters) == 1 else None
 
     @property
@@ -194,9 +194,9 @@ class Synchronizer(Entity):
     ) -> None:
         super().__init__(created)
         self.inputs = inputs
-        """What it waits for, ``None`` for what is no known subscription; ``None`` if not known."""
+        """The inputs, ``None`` for unknown subscriptions; ``None`` if unknown."""
         self.callbacks = callbacks
-        """What ``registerCallback`` is called with."""
+        """The callbacks passed to ``registerCallback``."""
 
 
 class Service(Endpoint):
@@ -242,7 +242,7 @@ class Timer(Entity):
         self.period = period
         """In seconds."""
         self.from_parameters = from_parameters
-        """The period is computed from the defaults of these parameters."""
+        """The parameters whose defaults give the period."""
         self.callback = callback
 
 
@@ -262,19 +262,19 @@ class Parameter(Entity):
     ) -> None:
         super().__init__(created)
         self.name = name
-        """With the namespace of ``declare_parameters`` in front."""
+        """The name, with the namespace of ``declare_parameters``."""
         self.name_node = given.name
         self.name_location = name_location
         self.default = default
-        """Evaluated; ``UNKNOWN`` also when none is given."""
+        """The value; ``UNKNOWN`` also if none is given."""
         self.default_node = given.value
-        """``None`` when no default is given."""
+        """The expression of the default; ``None`` if not given."""
         self.declared_type = declared_type
-        """The type, if that is given in place of a default: ``Parameter.Type.DOUBLE``."""
+        """The type, if given instead of a default: ``Parameter.Type.DOUBLE``."""
         self.descriptor_node = given.descriptor
-        """``None`` when no descriptor is given."""
+        """The expression of the descriptor; ``None`` if not given."""
         self.descriptor = descriptor
-        """``None`` if its value is unknown."""
+        """The descriptor; ``None`` if unknown."""
 
     @property
     def type(self) -> str | None:
@@ -304,14 +304,14 @@ class RclpyCall(NamedTuple):
     location: Location
     function: FunctionNode | None
     handlers: frozenset[str]
-    """Full names of the exceptions that are caught around it in the same function."""
+    """Full names of the exceptions caught around it in the same function."""
     in_finally: bool
     asks_ok: bool
-    """Under ``if rclpy.ok():``."""
+    """Whether it is under ``if rclpy.ok():``."""
     in_with: bool
-    """``with rclpy.init() ...:`` this call itself, or its body around another call."""
+    """Whether it is, or is inside of, ``with rclpy.init() ...:``."""
     outer_handlers: frozenset[str] = frozenset()
-    """What is caught wherever the function that holds it is called in the file."""
+    """The exceptions caught around all calls of its function in the file."""
 
     @property
     def catches_keyboard_interrupt(self) -> bool:
@@ -323,7 +323,7 @@ _SCALARS: Mapping[type, str] = {bool: "bool", int: "integer", float: "double", s
 
 
 def parameter_type(value: object) -> str | None:
-    """Return the ROS type of a parameter value as rclpy sees it."""
+    """Return the ROS type of a parameter value for rclpy."""
     if isinstance(value, list | tuple):
         kinds = {_SCALARS.get(type(item)) for item in value}
         if not kinds:

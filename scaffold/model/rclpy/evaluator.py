@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 PARAMETER_CALLS = frozenset({"get_parameter", "declare_parameter", "get_parameter_or"})
 NOTE = "parameter:"
-"""In front of a parameter's name, in the notes of a value that is its default."""
+"""The prefix of a parameter name in the notes of a value that is its default."""
 
 _ACCESSORS: Mapping[str, type] = {
     "double_value": float,
@@ -50,7 +50,7 @@ class NodeEvaluator(AttributeEvaluator):
         return UNKNOWN if self.stores(last) else self._constant(name)
 
     def argument(self, node: ast.arg) -> object:
-        """Return what all calls of a constructor or private function in the file agree on."""
+        """Return the argument on which all calls of a constructor or private function agree."""
         function = self.module.parent(self.module.parent(node) or node)
         if not isinstance(function, ast.FunctionDef | ast.AsyncFunctionDef):
             return UNKNOWN
@@ -62,7 +62,7 @@ class NodeEvaluator(AttributeEvaluator):
         return self._common([self.evaluate(value) for value in given])
 
     def _common(self, values: Sequence[object]) -> object:
-        """Return the value that all values are."""
+        """Return the common value of all values."""
         if any(value is UNKNOWN or not same(value, values[0]) for value in values):
             return UNKNOWN
         return values[0] if values else UNKNOWN
@@ -86,7 +86,7 @@ class NodeEvaluator(AttributeEvaluator):
         return UNKNOWN if isinstance(value, list | dict) else value
 
     def _default_in_class(self, node: ast.Attribute) -> object:
-        """Return what an attribute of an object that is made without arguments begins with.
+        """Return the initial value of an attribute of an object created without arguments.
 
         Such as that of a dataclass, ``Topics().image``, if the file never sets it.
         """
@@ -100,7 +100,7 @@ class NodeEvaluator(AttributeEvaluator):
         return self.imported(f"{name}.{node.attr}") if name else UNKNOWN
 
     def _parameter(self, node: ast.expr) -> object:
-        """Return the default of the parameter that an expression such as a call reads."""
+        """Return the default of the parameter read by an expression."""
         call = self.single_value(node)
         if not isinstance(call, ast.Call):
             return UNKNOWN

@@ -58,7 +58,7 @@ NODE_CLASSES = frozenset(
 )
 
 MAX_BASES = 40
-"""Limit on classes that inherit from each other; real code has fewer."""
+"""The maximum depth of inheritance; real code has less."""
 
 
 def rclpy_file(modules: Modules, path: str) -> RclpyFile:
@@ -67,7 +67,7 @@ def rclpy_file(modules: Modules, path: str) -> RclpyFile:
 
 
 def rclpy_paths(package: Package) -> Sequence[str]:
-    """Return the Python files that import rclpy, tests aside: those try what nodes must not do."""
+    """Return the Python files that import rclpy, except tests, which may misuse it on purpose."""
 
     def find() -> Iterator[str]:
         for path in package.python_files:
@@ -81,7 +81,7 @@ def rclpy_paths(package: Package) -> Sequence[str]:
 
 
 def rclpy_files(package: Package, *, mentioning: Sequence[str] = ()) -> Iterator[RclpyFile]:
-    """Yield what the Python files that import rclpy say; tests try what nodes must not do.
+    """Yield the rclpy views of Python files that import rclpy, except tests.
 
     Args:
         package: The package.
@@ -102,7 +102,7 @@ class RclpyFile:
     def __init__(self, module: PythonModule, modules: Modules | None = None) -> None:
         self.module = module
         self.modules = modules
-        """Where other files come from: the package."""
+        """The source of other files: the package."""
         self._reads = reads.current()
         self._own = OwnModules(module, modules)
         self.related_classes = ClassRelations(module).related
@@ -172,7 +172,7 @@ class RclpyFile:
         return {}
 
     def node_class(self, node: ast.ClassDef) -> NodeClass | None:
-        """Return the view of a class if it inherits from rclpy's Node."""
+        """Return the view of a class if it inherits from Node of rclpy."""
         classes = self._classes_by_node
         if node not in classes:
             classes[node] = None  # ends the recursion of a class that inherits from itself
@@ -182,7 +182,7 @@ class RclpyFile:
         return classes[node]
 
     def is_node_class(self, node: ast.expr) -> bool:
-        """Tell whether an expression is a class of rclpy's nodes, or what makes one."""
+        """Tell whether an expression is a node class of rclpy, or a factory of one."""
         return not NODE_CLASSES.isdisjoint(self.module.qualified_names(node))
 
     def _new_node_class(self, node: ast.ClassDef) -> NodeClass | None:
@@ -223,9 +223,9 @@ class RclpyFile:
         return None
 
     def definition_of(self, node: ast.expr) -> tuple[RclpyFile, ast.FunctionDef | ast.expr] | None:
-        """Return the function, or the value of the constant, that a name of the package refers to.
+        """Return the function or constant value of a name in the package, with its file.
 
-        With the file that it is in. A name that is bound more than once has none.
+        A name that is bound more than once has none.
         """
         callback = self.callback(node)
         if isinstance(callback.function, ast.FunctionDef):
@@ -269,7 +269,7 @@ class RclpyFile:
         return None
 
     def method_of(self, call: ast.Call) -> ast.Attribute | None:
-        """Return the method that is called, also through ``declare = self.declare_parameter``."""
+        """Return the called method, also through ``declare = self.declare_parameter``."""
         func: ast.expr | None = call.func
         if isinstance(func, ast.Name) and func.id in self._method_variables:
             func = self.evaluator.single_value(func)
@@ -277,7 +277,7 @@ class RclpyFile:
 
     @cached_property
     def _method_variables(self) -> frozenset[str]:
-        """The variables that a method of a node is stored in."""
+        """The variables that store a method of a node."""
         return frozenset(
             target.id
             for method in NODE_METHODS
@@ -288,7 +288,7 @@ class RclpyFile:
         )
 
     def defines(self, node: ast.ClassDef, method: str, depth: int = MAX_BASES) -> bool:
-        """Tell whether a class, or a base class in the package, has a method of its own."""
+        """Tell whether a class, or a base class in the package, defines a method."""
         if method in self.module.index.bindings(node):
             return True
         for expression in node.bases if depth else ():
@@ -298,7 +298,7 @@ class RclpyFile:
         return False
 
     def _classes_named(self, expression: ast.expr) -> Iterator[tuple[RclpyFile, ast.ClassDef]]:
-        """Yield the classes of the package that an expression may name."""
+        """Yield the classes of the package that an expression may refer to."""
         for binding in self.module.index.bindings_of(expression):
             if isinstance(binding.node, ast.ClassDef):
                 yield self, binding.node
@@ -310,7 +310,7 @@ class RclpyFile:
                 yield file, class_.node
 
     def parameter_of(self, node: ast.expr | None) -> ast.arg | None:
-        """Return the function parameter that an expression is the name of."""
+        """Return the function parameter of a name."""
         bound = self.module.index.only_node(node)
         return bound if isinstance(bound, ast.arg) else None
 
@@ -326,7 +326,7 @@ class RclpyFile:
         return list(self._creation.entities())
 
     publishers = _entities(Publisher)
-    """All publishers, also those of nodes that are not known."""
+    """All publishers, also those of unknown nodes."""
     subscriptions = _entities(Subscription)
     """All subscriptions."""
     services = _entities(Service)
@@ -344,7 +344,7 @@ class RclpyFile:
     parameters = _entities(Parameter)
     """All declared parameters."""
     parameter_reads = _entities(ParameterRead)
-    """All places where parameters are read by name."""
+    """All reads of parameters by name."""
 
     def interface(self, node: ast.expr) -> str | None:
         """Return the interface type that an expression names: ``std_msgs/msg/String``."""
@@ -373,7 +373,7 @@ class RclpyFile:
     # -- callbacks
 
     def is_number(self, node: ast.Attribute) -> bool:
-        """Tell whether an attribute of ``self`` is a number wherever its class assigns to it."""
+        """Tell whether all values assigned to an attribute of ``self`` are numbers."""
         class_ = self.module.enclosing_class(node)
         if class_ is None or not isinstance(node.value, ast.Name) or node.value.id != "self":
             return False
@@ -390,20 +390,20 @@ class RclpyFile:
         return bool(evaluated) and all(type(value) in {int, float} for value in evaluated)
 
     def callback(self, node: ast.expr) -> Callback:
-        """Return what an expression evaluates to as a callback."""
+        """Return the callback of an expression."""
         if node not in self._callbacks:
             self._callbacks[node] = node_callbacks.resolve(self, node)
         return self._callbacks[node]
 
     @cached_property
     def callbacks(self) -> Sequence[tuple[Entity, Callback]]:
-        """What the executor calls: callbacks of timers, subscriptions, services and actions."""
+        """The callbacks of timers, subscriptions, services and actions."""
         return [
             (entity, callback) for entity in self.entities for callback in _callbacks_of(entity)
         ]
 
     synchronizers = _entities(Synchronizer)
-    """What waits for messages of several topics."""
+    """The message synchronizers."""
 
     def calls_in(self, function: FunctionNode | ast.Lambda) -> Sequence[ast.Call]:
         """Return the calls in the body of a function, except those of functions inside."""

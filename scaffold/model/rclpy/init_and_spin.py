@@ -52,7 +52,7 @@ def _is_executor(file: RclpyFile, node: ast.expr) -> bool:
 
 
 def _entered(file: RclpyFile, node: ast.Name) -> ast.expr | None:
-    """Return what ``with ... as name`` is entered with."""
+    """Return the context manager of ``with ... as name``."""
     for binding in file.module.index.bindings_of(node):
         parent = file.module.parent(binding.node)
         if isinstance(parent, ast.withitem):
@@ -88,7 +88,7 @@ def _rclpy_call(file: RclpyFile, call: ast.Call, name: str, outside: _Outside) -
 
 
 def _handlers_around(file: RclpyFile, node: ast.AST) -> set[str]:
-    """Return what is caught around a node in its function."""
+    """Return the exceptions caught around a node in its function."""
     handlers: set[str] = set()
     child = node
     for parent in file.module.parents(node):
@@ -104,7 +104,7 @@ def _handlers_around(file: RclpyFile, node: ast.AST) -> set[str]:
 
 
 class _Outside:
-    """What is caught around the functions of a file, by all that call them there."""
+    """The exceptions caught around all calls of the functions of a file."""
 
     def __init__(self, file: RclpyFile) -> None:
         self._file = file
@@ -116,7 +116,7 @@ class _Outside:
                 self._calls.setdefault(call.func.id, []).append(call.func)
 
     def around(self, node: ast.AST) -> frozenset[str]:
-        """Return what all calls of a node's function catch."""
+        """Return the exceptions caught around all calls of a node's function."""
         function = self._file.module.enclosing_function(node)
         if function is None or self._depth > _MAX_CALLS:
             return frozenset()

@@ -32,7 +32,7 @@ def log_calls(file: RclpyFile) -> Iterator[ast.Call]:
 
 
 def is_of_rclpy(file: RclpyFile, method: ast.expr) -> bool:
-    """Tell whether ``get_logger`` of some object is rclpy's, not one that a class here defines.
+    """Tell whether ``get_logger`` is that of rclpy, not one defined by a class of the file.
 
     Args:
         file: The file.

@@ -13,7 +13,7 @@ SUBSTITUTIONS = frozenset({"node", "ns", "namespace"})
 
 
 def topic_problem(name: str) -> str | None:
-    """Return what is wrong with the name of a topic, service or action, as it may be written.
+    """Return the problem with the name of a topic, service or action as written.
 
     ``rcl/validate_topic_name.c`` before expansion, ``rmw/validate_full_topic_name.c`` after it.
     """
@@ -24,7 +24,7 @@ def topic_problem(name: str) -> str | None:
 
 
 def part_problem(part: str) -> str | None:
-    """Return what is wrong with a part of such a name, whatever is before and after it."""
+    """Return the problem with a part of such a name, whatever the rest."""
     wrong = re.search(r"[^A-Za-z0-9_/~{}]", part)
     if wrong:
         return f"{_shown(wrong[0])} is not allowed"
@@ -65,7 +65,7 @@ def _shown(character: str) -> str:
 
 
 def node_problem(name: str) -> str | None:
-    """Return what is wrong with the name of a node (``rmw/validate_node_name.c``)."""
+    """Return the problem with the name of a node (``rmw/validate_node_name.c``)."""
     if not name:
         return "it is empty"
     wrong = re.search(r"[^A-Za-z0-9_]", name)
@@ -79,7 +79,7 @@ def node_problem(name: str) -> str | None:
 
 
 def namespace_problem(name: str) -> str | None:
-    """Return what is wrong with a namespace given to a node (``rmw/validate_namespace.c``)."""
+    """Return the problem with a namespace given to a node (``rmw/validate_namespace.c``)."""
     if name in {"", "/"}:
         return None
     if "~" in name or "{" in name:

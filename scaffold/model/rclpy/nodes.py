@@ -40,7 +40,7 @@ def _own(kind: type[AnyEntity]) -> cached_property[Sequence[AnyEntity]]:
 
 
 class NodeDefinition:
-    """A node that the code creates: from its own class, or as an object."""
+    """A node created by the code: with its own class, or as an object."""
 
     def __init__(self, file: RclpyFile, name: str, location: Location) -> None:
         self.file = file
@@ -50,9 +50,9 @@ class NodeDefinition:
         self.is_lifecycle = False
 
     publishers = _own(Publisher)
-    """What it publishes, those of base classes not included."""
+    """Its publishers, without those of base classes."""
     subscriptions = _own(Subscription)
-    """What it subscribes to."""
+    """Its subscriptions."""
     services = _own(Service)
     """The services it offers."""
     clients = _own(Client)
@@ -66,12 +66,12 @@ class NodeDefinition:
     parameters = _own(Parameter)
     """The parameters it declares."""
     parameter_reads = _own(ParameterRead)
-    """Where it reads parameters."""
+    """Its parameter reads."""
     # -- what its constructor is given
 
     @cached_property
     def constructor_call(self) -> ast.Call | None:
-        """The call that reaches the constructor of rclpy's Node."""
+        """The call of the constructor of rclpy's Node."""
         return None
 
     @cached_property
@@ -86,7 +86,7 @@ class NodeDefinition:
 
     @cached_property
     def node_name_location(self) -> Location:
-        """The place of the node's name; without one, of the node."""
+        """The location of the node's name, or of the node without one."""
         node = self.node_name_node
         return self.file.module.location(node) if node else self.location
 
@@ -98,7 +98,7 @@ class NodeDefinition:
 
     @cached_property
     def declares_automatically(self) -> bool:
-        """Whether parameters may be used that are not declared here."""
+        """Whether undeclared parameters may be used."""
         for name in (
             "allow_undeclared_parameters",
             "automatically_declare_parameters_from_overrides",
@@ -111,7 +111,7 @@ class NodeDefinition:
 
     @cached_property
     def is_declared_by_overrides(self) -> bool:
-        """Whether rclpy certainly declares each parameter that is set from outside."""
+        """Whether rclpy certainly declares each parameter override."""
         node = self._constructor_argument("automatically_declare_parameters_from_overrides", None)
         return node is not None and self.file.evaluator.evaluate(node) is True
 
@@ -130,7 +130,7 @@ class NodeDefinition:
 
 
 class NodeObject(NodeDefinition):
-    """A node without a class of its own: ``node = rclpy.create_node('talker')``."""
+    """A node without its own class: ``node = rclpy.create_node('talker')``."""
 
     def __init__(self, file: RclpyFile, name: str, location: Location, call: ast.Call) -> None:
         super().__init__(file, name, location)
@@ -138,7 +138,7 @@ class NodeObject(NodeDefinition):
 
     @cached_property
     def constructor_call(self) -> ast.Call | None:
-        """The call that makes it."""
+        """The call that creates it."""
         return self._call
 
 
@@ -151,9 +151,9 @@ class NodeClass(NodeDefinition):
         self.base = base
         """The base class, if that is a node class of the same package."""
         self.depth: int = base.depth + 1 if base else 1
-        """Classes between it and rclpy's Node."""
+        """The number of classes between it and rclpy's Node."""
         self.base_index = 0
-        """Which of the base classes makes it a node."""
+        """The index of the base class that makes it a node."""
 
     @cached_property
     def methods(self) -> Mapping[str, FunctionNode]:
@@ -202,12 +202,12 @@ class NodeClass(NodeDefinition):
 
     @property
     def calls_super_init(self) -> bool:
-        """Whether the base class's constructor is run; so without an own constructor."""
+        """Whether the constructor of the base class is run, also by inheritance."""
         return self.constructor is None or self.super_init is not None
 
     @cached_property
     def is_made_later(self) -> bool:
-        """Whether another method than the constructor calls the one of the base class."""
+        """Whether a method other than the constructor calls that of the base class."""
         for name, method in self.methods.items():
             for call in self.file.calls_in(method) if name != "__init__" else ():
                 match call.func:
@@ -237,7 +237,7 @@ class NodeClass(NodeDefinition):
 
     @cached_property
     def node_name(self) -> str | Unknown:
-        """The name given to rclpy's Node, by this class or by all that make objects of it."""
+        """The name given to rclpy's Node, by this class or by all code that instantiates it."""
         if self.constructor is None:
             return self.base.node_name if self.base else UNKNOWN
         node, file = self.name_given(None, self.file)
@@ -246,7 +246,7 @@ class NodeClass(NodeDefinition):
     def name_given(
         self, call: ast.Call | None, caller: RclpyFile
     ) -> tuple[ast.expr | None, RclpyFile]:
-        """Return the expression that names the node when ``call`` reaches the constructor."""
+        """Return the expression of the node name if ``call`` reaches the constructor."""
         constructor = self.constructor
         if constructor is None:
             if self.base is not None:

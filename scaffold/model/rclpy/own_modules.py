@@ -26,7 +26,7 @@ class Modules(Protocol):
         """Return a parsed Python file; raises ViewError."""
 
     def remember(self, key: object, build: Callable[[], View]) -> View:
-        """Return what ``build`` makes; it is made once for a key."""
+        """Return the result of ``build``, which is called once per key."""
 
 
 class OwnModules:

@@ -27,13 +27,13 @@ PROFILES: Mapping[str, tuple[int, str, str, str]] = {
 """Depth, history, reliability and durability of the predefined profiles of rclpy 7.1."""
 
 Conflict = tuple[str, str]
-"""What is offered, and what is asked for instead: ``is BEST_EFFORT``, ``requests RELIABLE``."""
+"""The offered and the requested policy: ``is BEST_EFFORT``, ``requests RELIABLE``."""
 
 _QOS_PARAMETERS = ("history", "depth", "reliability", "durability")
 
 
 def qos_of(evaluator: AttributeEvaluator, node: ast.expr) -> Qos:
-    """Return the quality of service that an expression evaluates to."""
+    """Return the quality of service of an expression."""
     at = evaluator.module.location(node)
     qos = _plain(evaluator, evaluator.single_value(node), at)
     return _with_later_changes(evaluator, qos, node)
@@ -97,7 +97,7 @@ def _policy(evaluator: AttributeEvaluator, node: ast.expr | None, default: str) 
 
 
 def _with_later_changes(evaluator: AttributeEvaluator, qos: Qos, node: ast.expr) -> Qos:
-    """Apply ``qos.depth = 5`` before the use; what may or may not happen is not known."""
+    """Apply assignments such as ``qos.depth = 5`` before the use; ``None`` if uncertain."""
     if not isinstance(node, ast.Name | ast.Attribute):
         return qos
     for name in _QOS_PARAMETERS:
@@ -164,11 +164,11 @@ class Offered(Protocol):
 
     @property
     def profile(self) -> Mapping[str, str] | None:
-        """What ``profile_words`` returns of it."""
+        """The result of ``profile_words``."""
 
 
 def conflict_of(publisher: Offered, subscription: Offered) -> Conflict | None:
-    """Return what is offered and what is asked for, if that does not fit."""
+    """Return the offered and the requested policy, if they are incompatible."""
     offered, asked = publisher.qos, subscription.qos
     if offered is None or asked is None:
         return None
@@ -192,7 +192,7 @@ def _conflict_of_time(
 
 
 def profile_words(endpoint: Endpoint) -> dict[str, str] | None:
-    """Return what is given to the QoSProfile of an endpoint; none for a depth or a preset."""
+    """Return the arguments of the QoSProfile of an endpoint; empty for a depth or a preset."""
     argument = endpoint.argument("qos_profile")
     if argument is None or endpoint.qos is None or endpoint.qos.reliability is None:
         return None

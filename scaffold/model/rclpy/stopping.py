@@ -15,8 +15,8 @@ _ENDS = frozenset({"shutdown", "try_shutdown"})
 def only_while_stopping(module: PythonModule, node: ast.AST) -> bool:
     """Tell whether code comes after ``rclpy.spin()`` in a program that runs until it is stopped.
 
-    A program that shuts rclpy down itself, in a callback, goes on there with its work; one whose
-    constructor does so gives up.
+    A program that shuts rclpy down itself, in a callback, continues to work there; one whose
+    constructor does so fails.
     """
     return _is_after_spin(module, node) and not _ends_itself(module, node)
 

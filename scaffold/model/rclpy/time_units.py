@@ -11,16 +11,16 @@ if TYPE_CHECKING:
     from scaffold.model.rclpy.file import RclpyFile
 
 _LARGEST = 10_000
-"""Nanoseconds that nobody waits for: in a comparison, such a number is of another unit."""
+"""The number of nanoseconds below which a compared number has another unit."""
 # linear: fixed words
 _SPEED = re.compile(r"\.(?:linear|angular|angular_velocity|linear_acceleration)\.[xyz]$")
 _UNITS = {1.0: "nanoseconds", 1e-3: "microseconds", 1e-6: "milliseconds"}
-"""What ``nanoseconds`` are after a factor."""
+"""The unit of ``nanoseconds`` after a factor."""
 _TIMES = frozenset({"rclpy.time.Time", "rclpy.duration.Duration"})
 
 
 def unit_problems(file: RclpyFile) -> Iterator[tuple[ast.expr, str]]:
-    """Yield expressions whose unit is certainly wrong, and what is wrong about them."""
+    """Yield expressions with a certainly wrong unit, and the problem."""
     for compared in file.module.walk(ast.Compare):
         if len(compared.ops) == 1 and isinstance(
             compared.ops[0], ast.Lt | ast.LtE | ast.Gt | ast.GtE
@@ -56,7 +56,7 @@ def _compared(file: RclpyFile, time: ast.expr, limit: ast.expr) -> Iterator[tupl
 
 
 def _scale(file: RclpyFile, node: ast.expr) -> float | None:
-    """Return the factor that ``nanoseconds`` of rclpy are multiplied by in an expression."""
+    """Return the factor of ``nanoseconds`` of rclpy in an expression."""
     value = file.evaluator.single_value(node)
     match value:
         case ast.Attribute(attr="nanoseconds"):
@@ -82,7 +82,7 @@ def _mixed(node: ast.BinOp) -> Iterator[tuple[ast.expr, str]]:
 
 
 def _added(file: RclpyFile, node: ast.BinOp) -> Iterator[tuple[ast.expr, str]]:
-    """Find ``stamp.sec + stamp.nanosec / 1e6``, and the sum of both parts as they are."""
+    """Find ``stamp.sec + stamp.nanosec / 1e6``, and the sum without a factor."""
     for operand, other in ((node.left, node.right), (node.right, node.left)):
         first, second = _part(file, operand, "sec"), _part(file, other, "nanosec")
         if first is None or second is None or first[0] != second[0]:
@@ -97,7 +97,7 @@ def _added(file: RclpyFile, node: ast.BinOp) -> Iterator[tuple[ast.expr, str]]:
 
 
 def _part(file: RclpyFile, node: ast.expr, part: str) -> tuple[str, float] | None:
-    """Return the time whose part an expression is, and the factor that the part has."""
+    """Return the time of a part such as ``nanosec``, and the factor of the part."""
     value = node if isinstance(node, ast.Attribute) else file.evaluator.single_value(node)
     match value:
         case ast.Attribute(attr=name, value=time) if name == part:
@@ -148,7 +148,7 @@ def _factors(node: ast.expr) -> Iterator[ast.expr]:
 
 
 def _multiplied(file: RclpyFile, node: ast.BinOp) -> Iterator[tuple[ast.expr, str]]:
-    """Find a speed that is multiplied by a step in milliseconds, and by nothing else known."""
+    """Find a speed multiplied by a step in milliseconds."""
     factors = list(_factors(node))
     if not any(_SPEED.search(file.module.text(item)) for item in factors):
         return
@@ -166,7 +166,7 @@ _NEAR = 1e-6
 
 
 def _made_of_seconds(file: RclpyFile, call: ast.Call) -> Iterator[tuple[ast.expr, str]]:
-    """Find ``Time(seconds=stamp.sec)``, which leaves ``nanosec`` out."""
+    """Find ``Time(seconds=stamp.sec)``, which drops ``nanosec``."""
     if file.module.qualified_name(call.func) not in _TIMES:
         return
     match call:
@@ -190,7 +190,7 @@ def _made_of_seconds(file: RclpyFile, call: ast.Call) -> Iterator[tuple[ast.expr
 
 
 def _written_in_seconds(file: RclpyFile, call: ast.Call) -> Iterator[tuple[ast.expr, str]]:
-    """Find ``writer.write(topic, data, int(time.time()))``: a bag counts nanoseconds."""
+    """Find ``writer.write(topic, data, int(time.time()))``: bags use nanoseconds."""
     match call:
         case ast.Call(func=ast.Attribute(attr="write", value=writer), args=[_, _, stamp]):
             made = file.evaluator.single_value(writer)

@@ -18,17 +18,17 @@ _DEFAULTS: Mapping[str, tuple[int, str]] = {
     "rclpy.clock.Clock": (9, "SYSTEM_TIME"),
     "rclpy.clock.ROSClock": (9, "ROS_TIME"),
 }
-"""Where the clock type is passed by place, if it can be, and the type without it."""
+"""The position of the clock type argument, if any, and the default type."""
 NUMBER = "number"
-"""What counts as a clock type where a number is in place of a time."""
+"""The pseudo clock type of a number in place of a time."""
 _SECONDS = frozenset({"time.time", "time.monotonic", "time.perf_counter", "time.time_ns"})
 _DEEPEST = 5
 
 
 def clocks_of(file: RclpyFile, node: ast.expr, depth: int = 0) -> Mapping[ast.expr, str | None]:
-    """Return the clock types that a time may have, by the expressions that it may come from.
+    """Return the possible clock types of a time, by its origins.
 
-    ``None`` for an expression whose clock type is not known, ``NUMBER`` for a number.
+    ``None`` for an unknown clock type, ``NUMBER`` for a number.
     """
     result: dict[ast.expr, str | None] = {}
     for origin in file.evaluator.origins(node):
@@ -83,7 +83,7 @@ def _type_of_clock(file: RclpyFile, node: ast.expr) -> str | None:
 
 
 def _made(file: RclpyFile, call: ast.Call) -> str | None:
-    """Return the clock type of a time or a clock that is made."""
+    """Return the clock type of a constructed time or clock."""
     name = file.module.qualified_name(call.func) or ""
     if name not in _DEFAULTS or any(word.arg is None for word in call.keywords):
         return None

@@ -22,7 +22,7 @@ LISTENERS = frozenset({"tf2_ros.TransformListener", "tf2_ros.transform_listener.
 
 
 CONVERSIONS = frozenset({"tf2_geometry_msgs", "tf2_sensor_msgs", "tf2_kdl", "tf2_bullet", "tf2_2d"})
-"""The modules that teach buffers to transform their messages, by being imported."""
+"""The modules that register conversions of messages for tf2 buffers on import."""
 
 
 class Lookup(NamedTuple):
@@ -32,11 +32,11 @@ class Lookup(NamedTuple):
     call: ast.Call
     buffer: ast.expr
     arguments: Mapping[str, ast.expr]
-    """By the names of the parameters."""
+    """The arguments by parameter."""
 
 
 def lookups_in(file: RclpyFile) -> Iterator[Lookup]:
-    """Yield the calls that ask a buffer of tf2, in the order of the methods."""
+    """Yield the calls of lookup methods of tf2 buffers, by method."""
     if not file.module.mentions("tf2_ros"):
         return
     for method, names in _SIGNATURES.items():
@@ -56,7 +56,7 @@ def lookups_in(file: RclpyFile) -> Iterator[Lookup]:
 
 
 def buffer_made(file: RclpyFile, node: ast.expr) -> ast.Call | None:
-    """Return the call that makes the buffer of tf2 that an expression refers to."""
+    """Return the call that creates the tf2 buffer of an expression."""
     made = file.evaluator.single_value(node)
     if isinstance(made, ast.Call) and not _BUFFERS.isdisjoint(
         file.module.qualified_names(made.func)
@@ -66,12 +66,12 @@ def buffer_made(file: RclpyFile, node: ast.expr) -> ast.Call | None:
 
 
 def buffers_in(file: RclpyFile) -> Iterator[ast.Call]:
-    """Yield the calls that make buffers of tf2."""
+    """Yield the calls that create tf2 buffers."""
     for call in file.module.walk(ast.Call) if file.module.mentions("Buffer(") else ():
         if not _BUFFERS.isdisjoint(file.module.qualified_names(call.func)):
             yield call
 
 
 def is_spun_by_listener(file: RclpyFile) -> bool:
-    """Tell whether a listener of the file has a thread of its own, or may have one."""
+    """Tell whether a listener of the file has its own thread, or may have one."""
     return file.module.mentions("spin_thread")

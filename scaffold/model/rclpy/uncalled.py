@@ -24,11 +24,11 @@ _NAMING = (".py", ".cfg", ".toml", ".cpp", ".hpp")
 """The endings of files that may call a function of Python, or tell who does."""
 _LAUNCH = frozenset({"launch", "launch_ros"})
 _LOOKUPS = ("getattr(", "globals(", "locals(", "vars(", "__dict__", "eval(", "exec(")
-"""What finds a function by a name that is only made when the program runs."""
+"""Functions that look up names computed at run time."""
 
 
 def may_be_in_uncalled_function(package: Package, path: str, line: int) -> bool:
-    """Tell whether a line may be in such a function; this costs less than to parse the file.
+    """Tell whether a line may be in such a function, without parsing the file.
 
     Raises:
         ViewError: the file cannot be read.
@@ -53,10 +53,10 @@ def may_be_in_uncalled_function(package: Package, path: str, line: int) -> bool:
 
 
 def is_in_uncalled_function(package: Package, module: PythonModule, line: int) -> bool:
-    """Tell whether a line is in a function of a program or launch file that nothing names.
+    """Tell whether a line is in a function of a program or launch file that is never mentioned.
 
     A library is used from elsewhere, but for what helps the programs of its package, or launch
-    files; a class may be called by a base of which nothing is known.
+    files; a class may be called by an unknown base.
     """
     is_launch_file = module.path.endswith("launch.py")
     if is_launch_file and _is_in_unused_guard(module, line):
@@ -91,7 +91,7 @@ def _helps_programs(package: Package, module: PythonModule) -> bool:
 
 
 def _is_in_unused_guard(module: PythonModule, line: int) -> bool:
-    """Tell whether a line is run only when Python runs a launch file that launches nothing then."""
+    """Tell whether a line only runs if a launch file is run by Python, which launches nothing."""
     guard = module.main_guard_node
     if guard is None or module.mentions("LaunchService"):
         return False
@@ -99,7 +99,7 @@ def _is_in_unused_guard(module: PythonModule, line: int) -> bool:
 
 
 def _outermost_function(module: PythonModule, line: int) -> FunctionNode | None:
-    """Return the function of the module, or the method of one of its classes, at a line."""
+    """Return the module-level function or method at a line."""
     for node in module.function_nodes:
         if node.lineno <= line <= (node.end_lineno or node.lineno):
             parents = [*module.parents(node)]
@@ -109,7 +109,7 @@ def _outermost_function(module: PythonModule, line: int) -> FunctionNode | None:
 
 
 def _is_called_by_name(module: PythonModule, function: FunctionNode) -> bool:
-    """Tell whether neither Python, nor rclpy, nor another base calls a function by itself."""
+    """Tell whether a function is not called implicitly by Python, rclpy, or an unknown base."""
     if function.name in _ENTRIES or function.name.startswith("__"):
         return False
     class_ = module.enclosing_class(function)
@@ -122,7 +122,7 @@ def _is_called_by_name(module: PythonModule, function: FunctionNode) -> bool:
 
 
 def _is_named_in(package: Package, module: PythonModule, names: tuple[str, ...]) -> bool:
-    """Tell whether another module of a package has all of some names."""
+    """Tell whether another module of a package mentions all of some names."""
     for path in package.files:
         if not path.endswith(_NAMING) or path == module.path:
             continue
@@ -142,5 +142,5 @@ def _uses(text: str, names: tuple[str, ...]) -> bool:
 
 
 def _named_in(text: str, *names: str) -> int:
-    """Return how often a text has the name that is least often in it."""
+    """Return the count of the least frequent of some names in a text."""
     return min(len(re.findall(rf"\b{re.escape(name)}\b", text)) for name in names)

@@ -54,7 +54,7 @@ BRIDGED_TYPES: frozenset[tuple[str, str]] = frozenset(
     for package, *pairs in map(str.split, _MAPPINGS.strip().splitlines())
     for ros, _, gz in (pair.partition("=") for pair in pairs)
 )
-"""The types that can be connected: of ROS, and of Gazebo."""
+"""The supported pairs of ROS and Gazebo types."""
 
 
 class BridgeEntry(NamedTuple):
@@ -65,29 +65,29 @@ class BridgeEntry(NamedTuple):
     keys: dict[str, Scalar]
     """The keys by their text."""
     values: dict[str, Scalar]
-    """The values that are plain, by key."""
+    """The scalar values by key."""
 
     def text(self, key: str) -> str:
-        """Return a value, empty if there is none."""
+        """Return a value; empty if there is none."""
         value = self.values.get(key)
         return value.text if value is not None else ""
 
     @property
     def ros_topic(self) -> str:
-        """The topic of ROS, as the bridge takes it from several keys."""
+        """The ROS topic, which several keys may set."""
         names = map(self.text, ("ros_topic_name", "topic_name", "gz_topic_name"))
         return next(filter(None, names), "")
 
     @property
     def direction(self) -> str:
-        """What the bridge does; it is ``BIDIRECTIONAL`` without a word."""
+        """The direction; ``BIDIRECTIONAL`` by default."""
         return self.text("direction") or "BIDIRECTIONAL"
 
 
 def bridge_roots(package: Package) -> list[tuple[str, yaml_tree.YamlNode | ParseError]]:
-    """Return the files that configure a bridge, each with what is at the top of it.
+    """Return the configurations of bridges, each with the root of its YAML.
 
-    Where it is not YAML, with the mistake.
+    If it is not YAML, with the error.
     """
 
     def find() -> list[tuple[str, yaml_tree.YamlNode | ParseError]]:

@@ -13,11 +13,11 @@ import re
 from collections.abc import Callable, Iterator, Mapping
 
 Value = str | int | float | bool
-"""What a property may hold here; everything else is unknown."""
+"""The supported values of properties; all others are unknown."""
 
 UNKNOWN_MARK = "\0"
 SHARE_MARK = "\2"
-"""Around the name of the package of ``$(find package)``."""
+"""The marks around the package name of ``$(find package)``."""
 _MOST_TEXT = 5_000
 _TOKEN = re.compile(r"\${2,99}[{(]|\$\{[^}]{0,900}\}|\$\([^)]{0,900}\)|[^$]+|\$")
 _MATH: Mapping[str, object] = {
@@ -32,7 +32,7 @@ BUILT_IN = frozenset(
 )
 """The names that every expression of xacro may use."""
 COMMANDS = ("find", "env", "optenv", "dirname", "arg", "eval", "anon", "cwd")
-"""What ``$(...)`` may begin with."""
+"""The commands of ``$(...)``."""
 _OPERATORS: Mapping[type, Callable[..., object]] = {
     ast.Add: operator.add, ast.Sub: operator.sub, ast.Mult: operator.mul,
     ast.Div: operator.truediv, ast.FloorDiv: operator.floordiv, ast.Mod: operator.mod,
@@ -53,7 +53,7 @@ def tokens(text: str) -> Iterator[str]:
 
 
 def is_known(value: object) -> bool:
-    """Tell whether nothing in a value is left open."""
+    """Tell whether a value has no unknown parts."""
     return not (isinstance(value, str) and UNKNOWN_MARK in value)
 
 
@@ -63,7 +63,7 @@ def unknown(text: str) -> str:
 
 
 def literal(text: str) -> Value:
-    """Return the number, the truth or the text that xacro takes the value of a property for."""
+    """Return the number, bool or string that xacro reads from the value of a property."""
     if len(text) > 1 and text[0] == text[-1] == "'":
         return text[1:-1]
     if "_" in text:
@@ -77,10 +77,10 @@ def literal(text: str) -> Value:
 
 
 def truth(value: Value) -> bool | None:
-    """Return what a condition is; ``None`` if that is not known.
+    """Return the value of a condition; ``None`` if unknown.
 
     Raises:
-        ValueError: xacro refuses the condition.
+        ValueError: xacro rejects the condition.
     """
     if not is_known(value):
         return None
@@ -91,7 +91,7 @@ def truth(value: Value) -> bool | None:
 
 
 def names_in(expression: str) -> list[str]:
-    """Return the names that an expression takes from around it; raises SyntaxError."""
+    """Return the free names of an expression; raises SyntaxError."""
     tree = ast.parse(expression.strip(), mode="eval")
     bound = {
         node.id
@@ -107,11 +107,11 @@ def evaluate(expression: str, look_up: Callable[[str], Value]) -> Value:
     """Return the value of an expression.
 
     Args:
-        expression: What is inside of ``${...}``.
+        expression: The text inside of ``${...}``.
         look_up: Returns the value of a property.
 
     Raises:
-        NotKnownError: it is not known.
+        NotKnownError: it is unknown.
     """
     try:
         tree = ast.parse(expression.strip(), mode="eval")

@@ -17,9 +17,9 @@ if TYPE_CHECKING:
 
 ENDINGS = (".urdf", ".xacro")
 _OF_SRDF = frozenset({"disable_collisions", "end_effector", "group", "group_state"})
-"""Elements that only MoveIt reads."""
+"""Elements of SRDF, which only MoveIt reads."""
 _OF_OTHERS = frozenset({"test", "tests", "template", "templates"})
-"""Directories with files that are no robots of the package."""
+"""Directories whose files are no robots of the package."""
 
 
 class RobotFile(NamedTuple):
@@ -45,8 +45,8 @@ class RobotFile(NamedTuple):
 def robot_paths(package: Package) -> list[str]:
     """Return the files that are URDF or xacro by their name.
 
-    Tests are skipped, templates that something else fills in, and programs for browsers, which
-    draw a robot by a parser of their own.
+    Tests are skipped, as are templates of other tools, and programs for browsers, which
+    have their own parser.
     """
     return [
         path
@@ -58,7 +58,7 @@ def robot_paths(package: Package) -> list[str]:
 
 
 def _is_of_browser(package: Package, path: str) -> bool:
-    """Tell whether npm builds what is in a directory around a file."""
+    """Tell whether a file is in a directory built by npm."""
     parts = path.split("/")[:-1]
     return any(
         package.has("/".join((*parts[:depth], "package.json"))) for depth in range(len(parts) + 1)
@@ -66,10 +66,10 @@ def _is_of_browser(package: Package, path: str) -> bool:
 
 
 def robot_file(package: Package, path: str) -> RobotFile | None:
-    """Return a file; ``None`` if it has a document type, which xacro reads and we do not.
+    """Return a file; ``None`` if it has a document type, which is not supported.
 
     Raises:
-        ViewError: there is none, or it is not well-formed.
+        ViewError: it does not exist, or is not well-formed.
     """
 
     def read() -> RobotFile | None:
@@ -95,10 +95,10 @@ def robot_file(package: Package, path: str) -> RobotFile | None:
 
 
 def _is_read_by_urdfdom(package: Package, path: str, error: ParseError) -> bool:
-    """Tell whether a mistake is outside of the elements at the top, and nothing runs xacro on it.
+    """Tell whether an error is outside of the top elements of a file that xacro does not read.
 
-    urdfdom takes the first ``<robot>`` at the top (tinyxml2), whatever else is there; a needless
-    end tag ends the document for it. xacro refuses both.
+    urdfdom reads the first ``<robot>`` at the top (tinyxml2) and ignores the rest; a surplus
+    end tag ends the document. xacro rejects both.
     """
     source = xml_reader.decode(path, package.data(path))
     at = source.offset(error.location.line, error.location.column)
@@ -116,10 +116,10 @@ def _is_read_by_urdfdom(package: Package, path: str, error: ParseError) -> bool:
 
 
 def source_of(package: Package, path: str) -> str:
-    """Return the source of a file of the share directory; the path itself if there is none."""
+    """Return the source of a file in the share directory; the path itself if there is none."""
     return share_of(package).files.get(path, path)
 
 
 def next_to(path: str, name: str) -> str:
-    """Return the path of a file that another one names relative to itself."""
+    """Return the path of a file given relative to another one."""
     return posixpath.normpath(posixpath.join(posixpath.dirname(path), name))

@@ -23,7 +23,7 @@ _NAMED = re.compile(r"(?:\$\(find ([\w-]+)\)|package://([\w-]+))((?:/[\w.+-]+)+)
 _LAUNCH = ("launch.py", "launch.xml", "launch.yaml", "launch.yml")
 _CONDITIONS = ("xacro:if", "xacro:unless")
 _OF_CONTROL = frozenset({"command_interface", "state_interface"})
-"""What joints of ros2_control have, which may be written by a macro of their own."""
+"""Elements of joints in ros2_control, which may be written by their own macro."""
 
 
 class Robots(NamedTuple):
@@ -32,7 +32,7 @@ class Robots(NamedTuple):
     whole: list[Expansion]
     """The robots."""
     fragments: list[Expansion]
-    """Files and macros that no robot here uses."""
+    """Files and macros not used by any robot."""
 
 
 def robots(package: Package) -> Robots:
@@ -41,7 +41,7 @@ def robots(package: Package) -> Robots:
 
 
 def urdf_parts(package: Package) -> Iterator[Part]:
-    """Yield each element of URDF that the files of a package make, with what each call gives it."""
+    """Yield each URDF element in the files of a package, with its values in each call."""
     expansions = robots(package)
     for expansion in (*expansions.whole, *expansions.fragments):
         if not expansion.file.is_robot:
@@ -90,7 +90,7 @@ def _robots(package: Package) -> Robots:
 
 
 def is_launched(package: Package, path: str) -> bool:
-    """Tell whether a launch file of a package names a file."""
+    """Tell whether a launch file of a package mentions a file."""
     return _mentioned_by_launch(package, path.rpartition("/")[2])
 
 
@@ -121,7 +121,7 @@ def _is_whole(expansion: Expansion) -> bool:
 
 
 def named_files(package: Package) -> Iterator[NamedFile]:
-    """Yield the files that URDF and xacro files name and that have to be there."""
+    """Yield the files that URDF and xacro files require."""
     parts = list(urdf_parts(package))
     certain = {id(part.element) for part in parts if part.is_certain}
     certain |= {key for expansion in robots(package).whole for key in expansion.certain}

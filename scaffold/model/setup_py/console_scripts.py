@@ -18,8 +18,8 @@ if TYPE_CHECKING:
 def node_scripts(package: Package) -> list[EntryPoint]:
     """Return the console scripts that start nodes: their module imports rclpy.
 
-    Others may be tools that rightly go to ``bin/``, such as the ament linters themselves, and
-    what extends the command ``ros2``, or is it. Those that data_files put where ``ros2 run`` looks
+    Others may be tools that belong in ``bin/``, such as the ament linters, and
+    extensions of the command ``ros2``. Those that data_files install for ``ros2 run``
     are found there.
     """
     if any(entry.group.startswith("ros2cli.") for entry in package.setup_py.entry_points):
@@ -33,7 +33,7 @@ def node_scripts(package: Package) -> list[EntryPoint]:
 
 
 def _put_into_lib(package: Package) -> Iterator[str]:
-    """Yield the names of the files that data_files put where ``ros2 run`` looks."""
+    """Yield the names of the files that data_files install for ``ros2 run``."""
     for data in package.setup_py.data_files:
         if str(data.destination).rstrip("/") == f"lib/{package.name}":
             for source in data.sources:

@@ -1,4 +1,4 @@
-"""Edits of setup.py that keep comments, formatting and everything else as it is."""
+"""Edits of setup.py that keep comments, formatting and everything else."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 MAX_LINE = 99
-"""Characters in a line, as ament_flake8 counts them."""
+"""The maximum line length of ament_flake8."""
 
 _STEP = "    "
 
@@ -25,8 +25,8 @@ _STEP = "    "
 def add_console_script(setup: SetupPy, name: str, target: str) -> Edit | None:
     """Return the edit that adds ``name = target`` to the console scripts.
 
-    ``None`` if an executable of that name is there already, or if no place is sure: an entry
-    point that cannot be seen, keywords from elsewhere.
+    ``None`` if an executable of that name exists already, or if no place is safe: an unknown
+    entry point, keywords from elsewhere.
     """
     if setup.call is None or not setup.entry_points_complete:
         return None
@@ -56,7 +56,7 @@ def add_data_files(setup: SetupPy, destination: str, sources: str) -> Edit | Non
     """Return the edit that adds ``(destination, sources)`` to data_files.
 
     Both are Python expressions: ``"'share/' + package_name"`` and ``"['package.xml']"``. What
-    they use must be imported; see ``add_import``. ``None`` if no place is sure.
+    they use must be imported; see ``add_import``. ``None`` if no place is safe.
     """
     if setup.call is None:
         return None
@@ -73,7 +73,7 @@ def add_data_files(setup: SetupPy, destination: str, sources: str) -> Edit | Non
 
 
 def package_expression(setup: SetupPy, name: str) -> str | None:
-    """Return the variable of setup.py that holds the package's name: ``package_name``."""
+    """Return the variable of setup.py with the package name: ``package_name``."""
     for variable, bindings in setup.module.index.bindings(setup.module.tree).items():
         values = [setup.evaluator.evaluate(binding.value) for binding in bindings]
         if values == [name]:
@@ -82,9 +82,9 @@ def package_expression(setup: SetupPy, name: str) -> str | None:
 
 
 def add_import(module: PythonModule, statement: str) -> Edit | None:
-    """Return the edit that adds an import of the standard library; ``None`` if it is there.
+    """Return the edit that adds an import of the standard library; ``None`` if it exists.
 
-    The place is the one that ament_flake8 asks for: the standard library first, by module name.
+    The place follows ament_flake8: the standard library first, by module name.
     """
     added = ast.parse(statement).body[0]
     key = _import_key(added)
@@ -114,7 +114,7 @@ def add_import(module: PythonModule, statement: str) -> Edit | None:
 
 
 class Text(NamedTuple):
-    """A string that is written as two adjacent literals if one would be too long."""
+    """A string, split into two adjacent literals if one would be too long."""
 
     quote: str
     start: str
@@ -148,7 +148,7 @@ def _render(item: str | Block | Text, indent: str, newline: str) -> str:
 
 
 def quote_of(setup: SetupPy) -> str:
-    """Return the quote that the entry points, else the other strings, are written with."""
+    """Return the quote used for the entry points, or else for other strings."""
     nodes = [point.node for point in setup.entry_points]
     nodes += [word.node for word in setup.keywords.values()]
     for node in nodes:
@@ -232,7 +232,7 @@ def _fill(module: PythonModule, holder: ast.expr, close: int, item: str | Block 
 
 
 def _past_parentheses(module: PythonModule, end: int, close: int) -> int:
-    """Return the end of an item with the parentheses around it, which no node has."""
+    """Return the end of an item with the parentheses around it, which are in no node."""
     text = module.source.text
     at = end
     while at < close:
@@ -260,7 +260,7 @@ def _comma(text: str, start: int, close: int) -> int | None:
 
 
 def _first_column(module: PythonModule, items: Sequence[ast.expr]) -> str | None:
-    """Return the indentation of the last item that starts a line of its own, if one does."""
+    """Return the indentation of the last item at the start of a line, if any."""
     text = module.source.text
     for node in sorted(items, key=lambda node: module.span(node)[0], reverse=True):
         start = _item_start(module, node)
@@ -271,7 +271,7 @@ def _first_column(module: PythonModule, items: Sequence[ast.expr]) -> str | None
 
 
 def _item_start(module: PythonModule, node: ast.expr) -> int:
-    """Return where an item starts, with its key or keyword and parentheses."""
+    """Return the start of an item with its key or keyword and parentheses."""
     parent = module.parent(node)
     start = module.span(node)[0]
     if isinstance(parent, ast.keyword):
@@ -286,14 +286,14 @@ def _item_start(module: PythonModule, node: ast.expr) -> int:
 
 
 def _indent(text: str, offset: int) -> str:
-    """Return the indentation of the line that holds an offset."""
+    """Return the indentation of the line with an offset."""
     start = text.rfind("\n", 0, offset) + 1
     line = text[start:offset]
     return line[: len(line) - len(line.lstrip(" \t"))]
 
 
 def _line(text: str, offset: int) -> str:
-    """Return the line that holds an offset."""
+    """Return the line with an offset."""
     return text[text.rfind("\n", 0, offset) + 1 :].partition("\n")[0].rstrip("\r")
 
 
@@ -320,7 +320,7 @@ def _is_standard(node: ast.Import | ast.ImportFrom) -> bool:
 
 
 def _after_docstring(module: PythonModule) -> int:
-    """Return the start of the first statement, the docstring aside."""
+    """Return the start of the first statement after the docstring."""
     text = module.source.text
     for node in module.tree.body:
         is_docstring = node is module.tree.body[0] and isinstance(node, ast.Expr)
@@ -344,9 +344,9 @@ def span(setup: SetupPy, name: str) -> tuple[int, int] | None:
 
 
 def insert(setup: SetupPy, text: str) -> Edit | None:
-    """Return the edit that adds a keyword on a line of its own, in front of ``entry_points``.
+    """Return the edit that adds a keyword on a separate line, before ``entry_points``.
 
-    ``None`` for a call that is not written with one keyword per line.
+    ``None`` unless the call has one keyword per line.
     """
     words = [word for word in setup.call.keywords if word.arg] if setup.call else []
     if not words:

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 def matches(pattern: Glob, files: Iterable[str]) -> list[str]:
-    """Return the files that ``glob.glob`` would find, run next to setup.py."""
+    """Return the files that ``glob.glob`` would find next to setup.py."""
     expression = _expression(posixpath.normpath(pattern.pattern), recursive=pattern.recursive)
     return [path for path in files if re.fullmatch(expression, path)]
 
@@ -39,7 +39,7 @@ def installed_data(package: Package) -> set[str] | None:
 
 
 def package_data(package: Package) -> list[Glob] | None:
-    """Return what is installed besides the modules; ``None`` if unknown."""
+    """Return the installed files other than modules; ``None`` if unknown."""
     setup = package.setup_py
     included = setup.keyword("include_package_data")
     elsewhere = (

@@ -27,7 +27,7 @@ class Keyword(NamedTuple):
 
     name: str
     value: object
-    """Evaluated; ``UNKNOWN`` if that cannot be done."""
+    """The value; ``UNKNOWN`` if it cannot be evaluated."""
     node: ast.expr
     """The expression of the value."""
     location: Location
@@ -35,22 +35,22 @@ class Keyword(NamedTuple):
 
 
 class EntryPoint(NamedTuple):
-    """One line such as ``talker = demo.talker:main``."""
+    """An entry point such as ``talker = demo.talker:main``."""
 
     group: str
     """``console_scripts`` ..."""
     name: str
     module: str
     function: str
-    """Dotted for an attribute of a class; empty without a colon."""
+    """The function, dotted for an attribute of a class; empty without a colon."""
     text: str
-    """As evaluated; the other parts are empty when this is not of the right form."""
+    """The whole text; the other parts are empty if it is malformed."""
     location: Location
     node: ast.expr
     malformed: str | None = None
-    """What is wrong with the form."""
+    """The error, if it is malformed."""
     joined: tuple[Location, ...] = ()
-    """The pieces, if the string is several literals in a row: a comma may be missing."""
+    """The locations of adjacent literals, if there are several: a comma may be missing."""
 
 
 class DataFile(NamedTuple):
@@ -64,24 +64,24 @@ class DataFile(NamedTuple):
     node: ast.expr
     destination_location: Location
     source_locations: tuple[Location, ...]
-    """As many as there are sources."""
+    """The locations of the sources."""
     conditional: bool = False
     """Added under a condition or in a loop."""
     malformed: str | None = None
 
 
 class FindPackages(NamedTuple):
-    """``find_packages(...)``: the packages are found when setup.py runs."""
+    """``find_packages(...)``: the packages are found at build time."""
 
     where: str | Unknown
     exclude: tuple[str, ...] | Unknown
     include: tuple[str, ...] | Unknown
     namespace: bool
-    """Directories without ``__init__.py`` count too."""
+    """Whether directories without ``__init__.py`` are included."""
     location: Location
 
     def leaves_out(self, name: str) -> bool | Unknown:
-        """Tell whether the patterns pass over a package, if there is one of this name."""
+        """Tell whether the patterns exclude a package of this name."""
         if isinstance(self.include, Unknown) or isinstance(self.exclude, Unknown):
             return UNKNOWN
         is_taken = any(fnmatchcase(name, pattern) for pattern in self.include)
@@ -119,7 +119,7 @@ class SetupPy:
 
     @cached_property
     def keywords(self) -> Mapping[str, Keyword]:
-        """The keyword arguments by name, those of a known ``**dict`` too."""
+        """The keyword arguments by name, including those of a known ``**dict``."""
         result: dict[str, Keyword] = {}
         for word in self.call.keywords if self.call else ():
             if word.arg is None:
@@ -132,7 +132,7 @@ class SetupPy:
 
     @cached_property
     def has_unknown_keywords(self) -> bool:
-        """Whether setup() gets a ``**something`` whose contents are unknown."""
+        """Whether setup() has an unknown ``**`` argument."""
         words = self.call.keywords if self.call else ()
         return any(word.arg is None and self._dict_of(word.value) is None for word in words)
 
@@ -141,7 +141,7 @@ class SetupPy:
         return self.keywords.get(name)
 
     def text(self, name: str) -> str | Unknown | None:
-        """Return the value of a keyword that should be a string; ``None`` without it."""
+        """Return the value of a string keyword; ``None`` without it."""
         word = self.keyword(name)
         if word is None:
             return UNKNOWN if self.has_unknown_keywords else None
@@ -158,7 +158,7 @@ class SetupPy:
         return result
 
     def _dict_of(self, node: ast.expr) -> ast.Dict | None:
-        """Return the dict literal that an expression is, or the name of one is assigned."""
+        """Return the dict literal of an expression, also through a name."""
         if isinstance(node, ast.Name):
             if not isinstance(self.evaluator.evaluate(node), dict):
                 return None
@@ -199,7 +199,7 @@ class SetupPy:
 
     @cached_property
     def packages(self) -> Sequence[str] | FindPackages | Unknown | None:
-        """The import packages that are installed; ``None`` without the keyword."""
+        """The installed import packages; ``None`` without the keyword."""
         word = self.keyword("packages")
         if word is None:
             return UNKNOWN if self.has_unknown_keywords else None
@@ -250,7 +250,7 @@ class SetupPy:
 
     @cached_property
     def data_files(self) -> Sequence[DataFile]:
-        """The entries of data_files that can be seen; see ``data_files_complete``."""
+        """The known entries of data_files; see ``data_files_complete``."""
         word = self.keyword("data_files")
         if word is None:
             return ()
@@ -262,7 +262,7 @@ class SetupPy:
 
     @cached_property
     def data_files_complete(self) -> bool:
-        """Whether ``data_files`` are all there are, each with all its sources."""
+        """Whether ``data_files`` are complete, each with all its sources."""
         word = self.keyword("data_files")
         if word is None:
             return not self.has_unknown_keywords
@@ -333,12 +333,12 @@ class SetupPy:
 
     @cached_property
     def entry_points(self) -> Sequence[EntryPoint]:
-        """The entry points that can be seen; see ``entry_points_complete``."""
+        """The known entry points; see ``entry_points_complete``."""
         return [point for point in self._all_entry_points if point is not None]
 
     @cached_property
     def entry_points_complete(self) -> bool:
-        """Whether ``entry_points`` are all there are."""
+        """Whether ``entry_points`` are complete."""
         if self.keyword("entry_points") is None and self.has_unknown_keywords:
             return False
         return all(point is not None for point in self._all_entry_points)
@@ -395,7 +395,7 @@ class SetupPy:
                 yield self._entry_point(group, text, at, node)
 
     def _lines_of(self, node: ast.expr, value: str) -> Iterator[tuple[str, Location]]:
-        """Yield the lines of a string that say something, with their places where written so."""
+        """Yield the non-empty lines of a string, with their locations if known."""
         start, end = self.module.span(node)
         at = start
         for line in value.splitlines():
@@ -427,7 +427,7 @@ class SetupPy:
         return EntryPoint(group, name, module, function, text, at, node, problem, joined)
 
     def _joined_literals(self, node: ast.expr) -> tuple[Location, ...]:
-        """Return the places of the adjacent literals that make one string."""
+        """Return the locations of the adjacent literals of a string."""
         if not isinstance(node, ast.Constant | ast.JoinedStr):
             return ()
         pieces = list(string_pieces(self.module, node))
@@ -439,9 +439,9 @@ def _is_dotted(name: str) -> bool:
 
 
 def _is_importable(module: str) -> bool:
-    """Tell whether an entry point can have a module, which it imports by its name as a text.
+    """Tell whether an entry point can have a module, which is imported by a string.
 
-    Other than in an ``import`` statement, parts of the name may begin with a digit.
+    Unlike in an ``import`` statement, parts of the name may start with a digit.
     """
     return re.fullmatch(r"\w+(?:\.\w+)*", module) is not None
 

@@ -12,14 +12,14 @@ if TYPE_CHECKING:
 
 _FILE = ".gitignore"
 _MOST_BYTES = 200_000
-"""Of such a file; people write some lines."""
+"""The size limit of ``.gitignore`` files."""
 _SUBMODULES = ".gitmodules"
 
 
 def is_untracked(package: Package, path: str) -> bool:
-    """Tell whether a ``.gitignore`` names a file or directory of a package, or one around it.
+    """Tell whether a ``.gitignore`` matches a file or directory of a package, or one around it.
 
-    Patterns that take back what others ignore are not supported.
+    Negated patterns are not supported.
     """
     if _is_of_submodule(package, path):
         return True
@@ -32,7 +32,7 @@ def is_untracked(package: Package, path: str) -> bool:
 
 
 def _ignore_files(package: Package, path: str) -> Iterator[tuple[str, str, str]]:
-    """Yield a path in the package, relative to a ``.gitignore``, and the patterns of that file."""
+    """Yield the path relative to each ``.gitignore``, with the patterns of that file."""
     for prefix, text in _texts(package, _FILE):
         yield path, f"{prefix}{path}", text
     directory, *rest = path.split("/")
@@ -44,7 +44,7 @@ def _ignore_files(package: Package, path: str) -> Iterator[tuple[str, str, str]]
 
 
 def _is_named(pattern: str, path: str, full_path: str) -> bool:
-    """Tell whether a pattern names a path, or a directory above it in the package.
+    """Tell whether a pattern matches a path, or a directory above it in the package.
 
     Args:
         pattern: A line of the file.
@@ -62,7 +62,7 @@ def _is_named(pattern: str, path: str, full_path: str) -> bool:
 
 
 def _is_of_submodule(package: Package, path: str) -> bool:
-    """Tell whether a path lies in a directory of the package that git fetches from elsewhere."""
+    """Tell whether a path is in a git submodule."""
     for prefix, text in _texts(package, _SUBMODULES):
         for line in text.splitlines():
             key, _, directory = line.partition("=")
@@ -72,9 +72,9 @@ def _is_of_submodule(package: Package, path: str) -> bool:
 
 
 def _texts(package: Package, name: str) -> Iterator[tuple[str, str]]:
-    """Yield what the files of a name say, from the package up to the root of the checkout.
+    """Yield the texts of files with a name, from the package up to the root of the checkout.
 
-    In front of each, the way from its directory to the package: ``src/talker/``.
+    Each with the relative path from its directory to the package: ``src/talker/``.
     """
     with contextlib.suppress(OSError):
         yield "", package.bytes_of(name, _MOST_BYTES).decode(errors="replace")

@@ -9,6 +9,6 @@ class Policy(NamedTuple):
     """The policy of a project."""
 
     licenses: tuple[str, ...] = ()
-    """SPDX identifiers of the licenses that packages may have; empty for any."""
+    """SPDX identifiers of the allowed licenses; empty for any."""
     implicit: tuple[str, ...] = ()
-    """Packages, rosdep keys and Python modules that are there without being declared."""
+    """Packages, rosdep keys and Python modules that need not be declared."""

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 _DISTROS = distributions.ENDED.union(distributions.NAMES)
 MAX_BYTES = 50_000_000
-"""Of one source; that of a distribution has less than one million."""
+"""The size limit of a source; that of a distribution has less than one million bytes."""
 
 
 class RosdepKeys:
@@ -61,7 +61,7 @@ class RosdepKeys:
 
 
 def cached_keys(disk: Disk, variables: Mapping[str, str] = os.environ) -> RosdepKeys | None:
-    """Return the keys of rosdep's cache; ``None`` if it does not hold all that the target needs.
+    """Return the keys of rosdep's cache; ``None`` if it lacks sources of the target.
 
     Args:
         disk: Records what was accessed.
@@ -96,10 +96,10 @@ def _file_of(url: str) -> str:
 
 
 def _has_key(source: bytes, key: str) -> bool:
-    """Tell whether the bytes plainly hold a key: a text, noted, in front of a dictionary.
+    """Tell whether the bytes contain a key: a memoized string before a dictionary.
 
-    In the second protocol, which rosdep writes: ``X``, the length, the text, ``q`` or ``r`` with
-    the number of the note, ``}``.
+    In protocol 2, which rosdep writes: ``X``, the length, the string, ``q`` or ``r`` with
+    the memo index, ``}``.
     """
     text = key.encode()
     start = b"X" + len(text).to_bytes(4, "little") + text
@@ -120,7 +120,7 @@ class _PlainUnpickler(pickle.Unpickler):
 
 
 def _keys(source: bytes) -> frozenset[str] | None:
-    """Return the keys of a source; ``None`` if it is not what rosdep writes."""
+    """Return the keys of a source; ``None`` if it has another form."""
     if len(source) > MAX_BYTES:
         return None
     try:

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 class Workspace:
-    """The packages of a workspace, with what they declare and define."""
+    """The packages of a workspace, with their declarations and definitions."""
 
     def __init__(
         self,
@@ -30,17 +30,17 @@ class Workspace:
         self.policy = policy or Policy()
         """The settings of the configuration that rules use."""
         self.disk = disk or Disk()
-        """What is accessed outside of the packages."""
+        """Records accesses outside of the packages."""
         self.around: UncheckedPackages | None = None
-        """The packages that were not given, but lie in the same workspace on disk."""
+        """The unchecked packages of the same workspace on disk."""
         self._near: dict[str, Workspace] = {}
 
     def add(self, package: Package) -> None:
-        """Add a package; only before the first look at the workspace."""
+        """Add a package, before the first use of the workspace."""
         self._packages.append(package)
 
     def forget(self) -> None:
-        """Drop what was made of the packages: the files of one have changed."""
+        """Drop data derived from the packages, after the files of one have changed."""
         for name in ("by_name", "interfaces"):
             self.__dict__.pop(name, None)
         self._near.clear()
@@ -60,14 +60,14 @@ class Workspace:
         return result
 
     def get(self, name: str) -> Package | None:
-        """Return the package of a name, if it is in the workspace."""
+        """Return the package with a name, if it is in the workspace."""
         package = self.by_name.get(name)
         return self.around.get(name) if package is None and self.around is not None else package
 
     def near(self, directory: str) -> Workspace:
         """Return the workspace with the closest package of each name.
 
-        A repository may hold several workspaces, which have packages of the same name.
+        A repository may have several workspaces with packages of the same name.
         """
         if len(self.by_name) == len(self._packages):
             return self
@@ -90,14 +90,14 @@ class Workspace:
 
     @cached_property
     def rosdep(self) -> RosdepKeys | None:
-        """What rosdep resolves on this machine; ``None`` if that is not known."""
+        """The rosdep keys of this machine; ``None`` if unknown."""
         from scaffold.model.workspace.rosdep import cached_keys
 
         return cached_keys(self.disk)
 
 
 def _shared(package: Package, directory: str) -> int:
-    """Return the length of the path that a package and a directory have in common."""
+    """Return the length of the common path of a package and a directory."""
     try:
         return len(os.path.commonpath((package.directory, directory)))
     except ValueError:  # an absolute path and a relative one
@@ -105,24 +105,24 @@ def _shared(package: Package, directory: str) -> int:
 
 
 class WorkspaceView:
-    """The workspace as one of its packages sees it; records which others it needs.
+    """The workspace as seen by one of its packages; records which others it uses.
 
     Args:
         workspace: The workspace.
-        directory: Where the package is.
+        directory: The directory of the package.
     """
 
     def __init__(self, workspace: Workspace, directory: str) -> None:
         self._workspace = workspace
         self._directory = directory
         self.used: dict[int, Package] = {}
-        """The packages that were looked up, by identity; also such as were not given."""
+        """The packages that were looked up, by identity, including unchecked ones."""
         self.uses_all = False
         self.uses_interfaces = False
-        """Whether definitions were looked up: those of any package that has some."""
+        """Whether interface definitions of any package were looked up."""
 
     def get(self, name: str) -> Package | None:
-        """Return the package of a name, if it is in the workspace."""
+        """Return the package with a name, if it is in the workspace."""
         result = self._workspace.near(self._directory).get(name)
         if result is not None:
             self.used[id(result)] = result
@@ -134,11 +134,11 @@ class WorkspaceView:
         yield from self._workspace.around or ()
 
     def forget(self) -> None:
-        """Drop what was made of the packages, but not whom the verdict needed."""
+        """Drop data derived from the packages, but keep the recorded uses."""
         self.__dict__.pop("interfaces", None)
 
     def is_hidden(self, package: Package) -> bool:
-        """Tell whether another package of the workspace has the name of this one, and wins."""
+        """Tell whether another package of the workspace with the same name takes precedence."""
         return self._workspace.get(package.name) not in {None, package}
 
     @property
@@ -154,12 +154,12 @@ class WorkspaceView:
 
     @property
     def disk(self) -> Disk:
-        """What is accessed outside of the packages."""
+        """Records accesses outside of the packages."""
         return self._workspace.disk
 
     @property
     def rosdep(self) -> RosdepKeys | None:
-        """What rosdep resolves on this machine; ``None`` if that is not known."""
+        """The rosdep keys of this machine; ``None`` if unknown."""
         return self._workspace.rosdep
 
     @cached_property

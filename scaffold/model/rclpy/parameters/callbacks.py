@@ -20,12 +20,12 @@ _REFUSED = "every change is rejected"
 
 
 def wrong_value(method: str, file: RclpyFile, value: ast.expr | None) -> str:
-    """Return the problem with the result of a callback that a method adds, else nothing."""
+    """Return the problem with the result of an added callback; empty if none."""
     return (_wrong_list if method == _PRE else _wrong_result)(file, value)
 
 
 def _wrong_result(file: RclpyFile, value: ast.expr | None) -> str:
-    """Return what is wrong about a value in place of a SetParametersResult, else nothing."""
+    """Return the problem with a value instead of a SetParametersResult; empty if none."""
     if value is None:
         return f"nothing, not a SetParametersResult: {_REFUSED}"
     fields = message_made(file, value, RESULT)
@@ -49,14 +49,14 @@ def _wrong_result(file: RclpyFile, value: ast.expr | None) -> str:
 
 
 def _one_of_constants(file: RclpyFile, value: ast.expr) -> ast.Constant | None:
-    """Return one of the constants that a variable is set to, if it is set to nothing else."""
+    """Return one of the constants of a variable, if it has no other values."""
     values = [binding.value for binding in file.module.index.bindings_of(value)]
     constants = [item for item in values if isinstance(item, ast.Constant)]
     return constants[0] if constants and len(constants) == len(values) else None
 
 
 def _wrong_list(file: RclpyFile, value: ast.expr | None) -> str:
-    """Return what is wrong about a value in place of a list of parameters, else nothing."""
+    """Return the problem with a value instead of a list of parameters; empty if none."""
     made = file.evaluator.single_value(value) if value is not None else None
     if made is None or (isinstance(made, ast.Constant) and made.value in {None, True, False}):
         return "nothing, not the list of parameters to set: TypeError"
@@ -65,7 +65,7 @@ def _wrong_list(file: RclpyFile, value: ast.expr | None) -> str:
 
 
 def _plain_results(file: RclpyFile, call: ast.Call) -> str:
-    """Return what a function of the file returns if that are constants alone; else nothing."""
+    """Return the results of a function of the file if they are constants; else empty."""
     function = file.callback(call.func).function
     if not isinstance(function, ast.FunctionDef) or function.decorator_list:
         return ""

@@ -1,4 +1,4 @@
-"""Which parameters a file declares, and their defaults."""
+"""The parameters that a file declares, and their defaults."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ class Declarations:
                 yield Declaration(UNKNOWN, None, None, None)
 
     def _rows(self, node: ast.expr | None) -> Sequence[Mapping[str, ast.expr]]:
-        """Return the values of the variables of a loop, per iteration, if a name is one of them.
+        """Return the values of the variables of a loop per iteration, if a name is one of them.
 
         Such as ``name`` and ``default`` in ``for name, default in [('rate', 1.0), ...]:``.
 
@@ -88,7 +88,7 @@ class Declarations:
         return rows or [{}]
 
     def _turns(self, node: ast.expr) -> Sequence[ast.expr]:
-        """Return the items of a list, or of the pairs of a dictionary; none if more is possible."""
+        """Return the items of a list, or the pairs of a dictionary; empty if there may be more."""
         match node:
             case ast.Call(func=ast.Attribute(attr="items", value=ast.Dict() as pairs), args=[]):
                 result = [
@@ -109,14 +109,14 @@ class Declarations:
         return [ast.copy_location(ast.Constant(name), node) for name in names]
 
     def full_name(self, prefix: str | Unknown, name: ast.expr | None) -> str | Unknown:
-        """Return a parameter's name with the namespace in front."""
+        """Return a parameter's name with its namespace."""
         text = self._file.evaluator.text(name)
         if text is UNKNOWN or prefix is UNKNOWN:
             return UNKNOWN
         return f"{prefix}.{text}" if prefix else text
 
     def default_of(self, receiver: ast.expr, name: str) -> object:
-        """Return the default that all declarations of a parameter agree on."""
+        """Return the default on which all declarations of a parameter agree."""
         owner = self._file.owner_of(receiver)
         nodes = [
             value
@@ -131,7 +131,7 @@ class Declarations:
 
     @property
     def _declarations(self) -> Mapping[str, Sequence[_Declaration]]:
-        """Owner and default of the declared parameters whose names are plain to see."""
+        """Owner and default of the declared parameters with known names."""
         if self._is_indexing:
             self._file.evaluator.cut()
             return {}
@@ -154,5 +154,5 @@ class Declarations:
 
 
 def _in_row(node: ast.expr | None, row: Mapping[str, ast.expr]) -> ast.expr | None:
-    """Return what an expression is in a turn of a loop."""
+    """Return the value of an expression in an iteration."""
     return row.get(node.id, node) if isinstance(node, ast.Name) else node

@@ -35,12 +35,12 @@ class Range(NamedTuple):
 
     @property
     def text(self) -> str:
-        """How people say it: ``0.0 to 1.0 in steps of 0.1``."""
+        """The range in words: ``0.0 to 1.0 in steps of 0.1``."""
         steps = f" in steps of {self.step}" if self.step else ""
         return f"{self.low} to {self.high}{steps}"
 
     def allows(self, value: float) -> bool:
-        """Tell whether rclpy takes a number; the ends are always right."""
+        """Tell whether rclpy accepts a number; the ends are always valid."""
         low, high = min(self.low, self.high), max(self.low, self.high)
         if self.type == "integer":
             on_step = not self.step or (value - low) % self.step == 0
@@ -66,7 +66,7 @@ _PLAIN = Descriptor(is_dynamic=False, is_read_only=False, ranges=[], is_typed=Fa
 
 
 def descriptor_of(file: RclpyFile, node: ast.expr | None) -> Descriptor | None:
-    """Return the descriptor that an expression makes; ``None`` when it is not known in full."""
+    """Return the descriptor of an expression; ``None`` if not fully known."""
     if node is None or (isinstance(node, ast.Constant) and node.value is None):
         return _PLAIN
     fields = message_made(file, node, DESCRIPTOR)
@@ -88,13 +88,13 @@ def descriptor_of(file: RclpyFile, node: ast.expr | None) -> Descriptor | None:
 
 
 def message_made(file: RclpyFile, node: ast.expr, kind: str) -> dict[str, ast.expr] | None:
-    """Return what the fields of a message are set to where an expression uses it.
+    """Return the values of the fields of a message where an expression uses it.
 
-    By keywords where it is made, and one by one below, in the same block; ``append`` on a field
-    makes a list of what is appended.
+    By keywords of the constructor, and by later assignments in the same block; ``append``
+    on a field gives a list.
 
     Returns:
-        The fields; ``None`` when it is no such message, or when more may be set.
+        The fields; ``None`` if it is no such message, or if more may be set.
     """
     if not isinstance(node, ast.Name):
         return _keywords(file, _kept(file, node), kind)
@@ -127,7 +127,7 @@ def _keywords(file: RclpyFile, node: ast.expr, kind: str) -> dict[str, ast.expr]
 
 
 def _kept(file: RclpyFile, node: ast.expr) -> ast.expr:
-    """Return what a name or attribute is set to once, if nothing else is done with its parts."""
+    """Return the only value of a name or attribute, if its parts are not changed."""
     if isinstance(node, ast.Name):
         uses: list[ast.AST] = [*file.module.index.names(node.id)]
     elif isinstance(node, ast.Attribute):
@@ -140,7 +140,7 @@ def _kept(file: RclpyFile, node: ast.expr) -> ast.expr:
 
 
 def _assigned_before(file: RclpyFile, node: ast.Name) -> Binding | None:
-    """Return the assignment a name has its value from: all are in the same block as the use."""
+    """Return the last assignment of a name, if all are in the same block as its use."""
     block = _block(file, node)
     last: Binding | None = None
     for binding in file.module.index.bindings_of(node):
@@ -171,7 +171,7 @@ def _is_between(use: ast.Name, first: ast.AST, last: ast.Name) -> bool:
 
 
 def _take(file: RclpyFile, use: ast.Name, first: Binding, fields: dict[str, ast.expr]) -> bool:
-    """Record what a use of the message sets; false if unknown."""
+    """Record the fields set by a use of the message; return false if unknown."""
     module = file.module
     parent = module.parent(use)
     above = module.parent(parent) if parent is not None else None
@@ -195,7 +195,7 @@ def _take(file: RclpyFile, use: ast.Name, first: Binding, fields: dict[str, ast.
 
 
 def _keeps(call: ast.Call) -> bool:
-    """Tell whether a call leaves the fields of its arguments as they are."""
+    """Tell whether a call does not change the fields of its arguments."""
     name = call.func.attr if isinstance(call.func, ast.Attribute) else ""
     name = call.func.id if isinstance(call.func, ast.Name) else name
     return name in _KEEPING or name[:1].isupper()

@@ -16,7 +16,7 @@ _DEPTH = 6
 
 
 def divisors(file: RclpyFile) -> frozenset[str]:
-    """Return the names of the parameters of a file by whose values it divides, unchecked."""
+    """Return the names of parameters used as divisors without a check."""
     module = file.module
     if not module.mentions(*_METHODS):
         return frozenset()
@@ -38,7 +38,7 @@ def divisors(file: RclpyFile) -> frozenset[str]:
 
 
 def _is_guarded(file: RclpyFile, node: ast.BinOp) -> bool:
-    """Tell whether a condition around a division asks for what it divides by."""
+    """Tell whether a condition around a division tests the divisor."""
     text = file.module.text(node.right)
     tests = [
         parent.test
@@ -49,7 +49,7 @@ def _is_guarded(file: RclpyFile, node: ast.BinOp) -> bool:
 
 
 def _parameter(file: RclpyFile, node: ast.expr, depth: int = 0) -> str | None:
-    """Return the parameter whose value an expression is, as it is."""
+    """Return the parameter whose unchanged value an expression is."""
     value = file.evaluator.single_value(node)
     if depth > _DEPTH:
         return None

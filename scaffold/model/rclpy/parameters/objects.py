@@ -1,4 +1,4 @@
-"""Expressions that are rclpy Parameter objects, and which parameter they are."""
+"""Expressions that are rclpy Parameter objects, and their parameters."""
 
 from __future__ import annotations
 
@@ -22,25 +22,25 @@ FIELDS = frozenset(
     {"bool_value", "integer_value", "double_value", "string_value", "byte_array_value"}
     | {"bool_array_value", "integer_array_value", "double_array_value", "string_array_value"}
 )
-"""The fields of ParameterValue that hold values."""
+"""The value fields of ParameterValue."""
 CALLBACKS = (
     "add_on_set_parameters_callback",
     "add_post_set_parameters_callback",
     "add_pre_set_parameters_callback",
 )
-"""The methods of a node that take a function to call with a list of parameters."""
+"""The methods of a node that register a callback with a list of parameters."""
 _NAMED = ("describe_parameter", "get_parameter_type", "set_descriptor", "undeclare_parameter")
 _LISTED = ("describe_parameters", "get_parameter_types", "get_parameters")
 _GIVING = frozenset({"get_parameter", "get_parameter_or", "declare_parameter"})
 
 
 def parameter_read(file: RclpyFile, node: ast.expr) -> tuple[NodeDefinition | None, str | Unknown]:
-    """Return the node and the name of the parameter that an expression is the object of.
+    """Return the node and the name of the parameter of a Parameter object.
 
     Such as ``self.get_parameter('rate')``, also through a variable or an attribute.
 
     Returns:
-        Node and name; ``None`` and ``UNKNOWN`` when the expression is no such call.
+        Node and name; ``None`` and ``UNKNOWN`` if the expression is no such call.
     """
     made = file.evaluator.single_value(node)
     if isinstance(made, ast.Subscript):
@@ -55,7 +55,7 @@ def parameter_read(file: RclpyFile, node: ast.expr) -> tuple[NodeDefinition | No
 
 
 def _listed(file: RclpyFile, node: ast.Subscript) -> tuple[NodeDefinition | None, str | Unknown]:
-    """Return what ``self.get_parameters(['rate', 'mode'])[0]`` is the object of."""
+    """Return the parameter of ``self.get_parameters(['rate', 'mode'])[0]``."""
     call = file.evaluator.single_value(node.value)
     index = file.evaluator.evaluate(node.slice)
     match call:
@@ -68,7 +68,7 @@ def _listed(file: RclpyFile, node: ast.Subscript) -> tuple[NodeDefinition | None
 
 
 def is_of_node(file: RclpyFile, created: Entity) -> bool:
-    """Tell whether a method is called on a node, by what is known or by the name of the object."""
+    """Tell whether a method is called on a node, as known or by the name of the object."""
     if created.owner is not None:
         return True
     func = file.method_of(created.call)
@@ -79,7 +79,7 @@ def is_of_node(file: RclpyFile, created: Entity) -> bool:
 
 
 def is_parameter_list(file: RclpyFile, node: ast.expr) -> bool:
-    """Tell whether an expression is certainly a list of rclpy's parameters."""
+    """Tell whether an expression is certainly a list of rclpy parameters."""
     made = file.evaluator.single_value(node)
     match made:
         case ast.Call(func=ast.Attribute(attr="get_parameters", value=receiver)):
@@ -89,7 +89,7 @@ def is_parameter_list(file: RclpyFile, node: ast.expr) -> bool:
 
 
 def is_listed_parameter(file: RclpyFile, node: ast.expr) -> bool:
-    """Tell whether an expression is an item of such a list: of a loop, or by its number."""
+    """Tell whether an expression is an item of such a list: in a loop, or by index."""
     if isinstance(node, ast.Subscript):
         is_number = type(file.evaluator.evaluate(node.slice)) is int
         return is_number and is_parameter_list(file, node.value)
@@ -105,7 +105,7 @@ def is_listed_parameter(file: RclpyFile, node: ast.expr) -> bool:
 
 
 def callback_arguments(file: RclpyFile) -> dict[ast.arg, FunctionNode | ast.Lambda]:
-    """Return what rclpy calls with a list of parameters: the argument, and its function."""
+    """Return the functions that rclpy calls with a list of parameters, by argument."""
     remembered = file.parameter_callbacks
     if remembered is not None:
         return remembered
@@ -127,7 +127,7 @@ def callback_arguments(file: RclpyFile) -> dict[ast.arg, FunctionNode | ast.Lamb
 
 
 def name_asked(file: RclpyFile, node: ast.AST, variable: str) -> str | None:
-    """Return the name that a parameter has where a node runs: ``if parameter.name == 'rate':``."""
+    """Return the certain name of a parameter at a node: ``if parameter.name == 'rate':``."""
     child = node
     for parent in file.module.parents(node):
         tests: list[ast.expr] = []
@@ -155,16 +155,16 @@ class ParameterMade(NamedTuple):
     """A ``Parameter(...)`` that is passed to a node to be set."""
 
     call: ast.Call
-    """Which sets it."""
+    """The call that sets it."""
     node: ast.expr
     name: str
     type: str | None
-    """``double``, ``not_set`` ...; ``None`` when it is not known."""
+    """``double``, ``not_set`` ...; ``None`` if unknown."""
     value: object
 
 
 def parameters_set(file: RclpyFile) -> Iterator[tuple[NodeDefinition, ParameterMade]]:
-    """Yield the parameters that a file sets on nodes that are known, one by one."""
+    """Yield the parameters that a file sets on known nodes, one by one."""
     for method in ("set_parameters", "set_parameters_atomically"):
         for attribute in file.module.index.attributes(method):
             call = file.module.parent(attribute)
@@ -207,7 +207,7 @@ class NameUsed(NamedTuple):
 
 
 def names_used(file: RclpyFile) -> Iterator[NameUsed]:
-    """Yield the parameters that a file describes, undeclares, sets, or gets as one of a list."""
+    """Yield the parameters that a file describes, undeclares, sets, or gets in a list."""
     for method in (*_NAMED, *_LISTED):
         for attribute in file.module.index.attributes(method):
             call, owner = file.module.parent(attribute), file.owner_of(attribute.value)
@@ -246,7 +246,7 @@ def _texts(
 
 
 def _looped(file: RclpyFile, node: ast.expr) -> list[ast.expr]:
-    """Return what a name refers to in a loop over a literal list."""
+    """Return the values of a name in a loop over a literal list."""
     bound = file.module.index.only_node(node)
     loop = file.module.parent(bound) if bound is not None else None
     if not isinstance(loop, ast.For | ast.comprehension):
@@ -256,7 +256,7 @@ def _looped(file: RclpyFile, node: ast.expr) -> list[ast.expr]:
 
 
 def types_compared(file: RclpyFile, attribute: ast.Attribute, name: str) -> set[str]:
-    """Return the types that a function compares the type of one parameter with."""
+    """Return the types with which a function compares the type of one parameter."""
     function = file.module.enclosing_function(attribute)
     result: set[str] = set()
     for other in file.module.index.attributes("type_"):
@@ -272,7 +272,7 @@ def types_compared(file: RclpyFile, attribute: ast.Attribute, name: str) -> set[
 
 
 def names_compared(file: RclpyFile, attribute: ast.Attribute) -> list[ast.expr]:
-    """Return what a name is compared with, one after the other."""
+    """Return the values that a name is compared with, in order."""
     match file.module.parent(attribute):
         case ast.Compare(left=left, ops=[ast.Eq()], comparators=[other]) if left is attribute:
             return [other]

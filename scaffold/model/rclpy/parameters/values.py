@@ -25,9 +25,9 @@ _POSITIONS = {
     "create_subscription": (1, 3),
     "create_timer": (0,),
 }
-"""Which arguments of a node's methods are names and numbers."""
+"""The arguments of node methods that are names and numbers."""
 _MOST_USES = 200
-"""Of one name; each object that is stored in it asks for all."""
+"""The maximum number of uses of a name, as they are scanned for each stored object."""
 
 
 def objects_used(file: RclpyFile) -> Iterator[tuple[Entity, ast.AST]]:
@@ -39,7 +39,7 @@ def objects_used(file: RclpyFile) -> Iterator[tuple[Entity, ast.AST]]:
 
 
 def _use_as_value(file: RclpyFile, call: ast.Call) -> ast.AST | None:
-    """Return a place where the object that a call gives is calculated with."""
+    """Return a place where the object returned by a call is used as a value."""
     if _stands_for_value(file, call):
         return call
     attribute, variable = file.stored_in(call)
@@ -58,7 +58,7 @@ def _use_as_value(file: RclpyFile, call: ast.Call) -> ast.AST | None:
 def _uses(
     file: RclpyFile, call: ast.Call, variable: str | None, attribute: str | None
 ) -> Sequence[ast.Name | ast.Attribute]:
-    """Return where what a call gives is stored and used, in its function or in its class."""
+    """Return the uses of the object returned by a call, in its function or class."""
     module = file.module
     class_ = module.enclosing_class(call) if attribute is not None else None
     if attribute is not None and class_ is not None:
@@ -75,7 +75,7 @@ def _uses(
 
 
 def _objects(file: RclpyFile) -> Iterator[Entity]:
-    """Yield the calls that give a Parameter."""
+    """Yield the calls that return a Parameter."""
     for read in file.parameter_reads:
         if read.owner is not None and read.method in {"get_parameter", "get_parameter_or"}:
             yield read
@@ -85,7 +85,7 @@ def _objects(file: RclpyFile) -> Iterator[Entity]:
 
 
 def _stands_for_value(file: RclpyFile, node: ast.AST) -> bool:
-    """Tell whether a node is where only the value makes sense."""
+    """Tell whether a node is in a place where only the value makes sense."""
     parent = file.module.parent(node)
     used = False
     match parent:

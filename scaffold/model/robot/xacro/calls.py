@@ -17,8 +17,8 @@ class Calls:
     """Binds calls to their macros.
 
     Args:
-        values: Evaluates what is passed.
-        problems: Gets the calls that do not fit.
+        values: Evaluates the arguments.
+        problems: Receives the invalid calls.
     """
 
     def __init__(self, values: Values, problems: Problems) -> None:
@@ -26,7 +26,7 @@ class Calls:
         self._problems = problems
 
     def bind(self, name: str, macro: Macro, element: Element, frame: Frame) -> Scope | None:
-        """Return the parameters of a call; ``None`` if it does not fit."""
+        """Return the parameters of a call; ``None`` if it is invalid."""
         scope = Scope(macro.scope or frame.scope)
         parameters = tuple(item for item in macro.parameters if not item.startswith("*"))
         given = element.attributes

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 _MOST_DEPTH = 40
 _MOST_PARTS = 30_000
-"""Elements of one robot; the largest of the public ones has 4 000."""
+"""The maximum number of elements of a robot; the largest public one has 4 000."""
 _UNPREFIXED = frozenset({"include", "macro", "property", "insert_block"})
 
 
@@ -35,8 +35,8 @@ class Expansion:
 
     Args:
         file: The file.
-        package: What is reported on; the file may include those of other packages.
-        is_open: Names may be defined elsewhere.
+        package: The checked package; the file may include those of other packages.
+        is_open: Whether names may be defined elsewhere.
     """
 
     def __init__(self, file: RobotFile, package: Package, *, is_open: bool = False) -> None:
@@ -44,13 +44,13 @@ class Expansion:
         self.root = Part(file.root.tag, file.root, file, is_certain=True)
         self.problems = Problems(file, package, is_open=is_open)
         self.files: set[tuple[str, str]] = set()
-        """The files that are included, by package and path."""
+        """The included files, by package and path."""
         self.certain: set[int] = set()
-        """The includes that are read with any arguments, by the identity of their elements."""
+        """The unconditional includes, by the identity of their elements."""
         self.patterns: list[str] = []
-        """Regular expressions of the names of files that may be included."""
+        """Regular expressions for names of files that may be included."""
         self.macros: set[int] = set()
-        """The macros that are called, by the identity of their elements."""
+        """The called macros, by the identity of their elements."""
         self._package = package
         self._values = Values(package, self.problems)
         self._calls = Calls(self._values, self.problems)
@@ -64,7 +64,7 @@ class Expansion:
 
     @property
     def arguments(self) -> frozenset[str]:
-        """The names that ``<xacro:arg>`` declares, in files that are included as well."""
+        """The names declared by ``<xacro:arg>``, also in included files."""
         return frozenset(self._arguments)
 
     def read(self) -> Expansion:

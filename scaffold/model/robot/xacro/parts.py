@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from scaffold.model.robot.files import RobotFile
 
 NOT_URDF = frozenset({"gazebo", "ros2_control", "transmission", "sensor", "plugin", "sdf"})
-"""Elements whose contents others read."""
+"""Elements with content for other readers."""
 
 
 class Part:
@@ -35,7 +35,7 @@ class Part:
         self.element = element
         self.file = file
         self.is_certain = is_certain
-        """Whether it is there with any arguments."""
+        """Whether it exists for all arguments."""
         self.attributes: dict[str, str] = {}
         """Unknown parts of a value are between two ``UNKNOWN_MARK``."""
         self.children: list[Part] = []
@@ -55,7 +55,7 @@ class Part:
         return next(iter(self.all(tag)), None)
 
     def at(self, name: str) -> Location:
-        """Return the place of the value of an attribute; of the tag, if there is none."""
+        """Return the location of the value of an attribute, or of the tag without one."""
         attribute = self.element.attributes.get(name)
         return attribute.location if attribute is not None else self.location
 
@@ -74,21 +74,21 @@ class Part:
 
 
 class NamedFile(NamedTuple):
-    """A file that another file refers to."""
+    """A file referenced by another one."""
 
     package: str
-    """The package whose share directory it is in; empty if the path is relative to a file."""
+    """The package of its share directory; empty if the path is relative to a file."""
     path: str
     """Relative to that directory, or to the package."""
     user: str
-    """The path of the file that names it."""
+    """The path of the referring file."""
     location: Location
     is_certain: bool
-    """Whether xacro comes to it with any arguments."""
+    """Whether it is referenced for all arguments."""
 
 
 def is_for_others(part: Part | None) -> bool:
-    """Tell whether an element or one around it is read by others than urdfdom."""
+    """Tell whether an element or a parent is for readers other than urdfdom."""
     while part is not None and part.tag not in NOT_URDF:
         part = part.holder
     return part is not None

@@ -21,11 +21,11 @@ class Undefined(NamedTuple):
     name: str
     location: Location
     known: tuple[str, ...]
-    """The names that are defined there."""
+    """The names defined there."""
 
 
 class Misfit(NamedTuple):
-    """A call that does not fit the macro."""
+    """A call that does not match its macro."""
 
     kind: str
     """``unknown``, ``missing``, ``block missing``, ``block unused`` or ``condition``."""
@@ -40,15 +40,15 @@ class Problems:
 
     Args:
         file: The file.
-        package: What is reported on; the file may include those of other packages.
-        is_open: Names may be defined elsewhere.
+        package: The checked package; the file may include those of other packages.
+        is_open: Whether names may be defined elsewhere.
     """
 
     def __init__(self, file: RobotFile, package: Package, *, is_open: bool) -> None:
         self.undefined: list[Undefined] = []
         self.misfits: list[Misfit] = []
         self.is_open = is_open
-        """Whether a file is included that is not known."""
+        """Whether an unknown file is included."""
         self.is_partial = False
         """Whether parts are missing, or may be."""
         self._package = package
@@ -57,7 +57,7 @@ class Problems:
     def note(
         self, kind: str, name: str, user: RobotFile, location: Location, known: tuple[str, ...]
     ) -> None:
-        """Note a name that nothing defines, and the file that uses it."""
+        """Record an undefined name, and the file that uses it."""
         is_ours = user.package is self._package and user.is_xacro
         if is_ours and not self.is_open and self._file.is_xacro:
             self.undefined.append(Undefined(kind, name, location, known))
@@ -71,7 +71,7 @@ class Problems:
         at: Attribute | Element,
         known: tuple[str, ...] = (),
     ) -> None:
-        """Note a call that does not fit, and the file that makes it."""
+        """Record an invalid call, and its file."""
         if user.package is self._package:
             place = at.name_location if isinstance(at, Element) else at.location
             self.misfits.append(Misfit(kind, macro, name, place, known))

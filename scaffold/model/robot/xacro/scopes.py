@@ -21,16 +21,16 @@ _PARAMETER_NAME = re.compile(r"\s*(\S+)")
 
 
 class Macro(NamedTuple):
-    """What a call of a name inserts, and where its names are looked up."""
+    """The body of a macro, and the scope of its names."""
 
     element: Element
     file: RobotFile
     parameters: dict[str, tuple[bool, str | None] | None]
-    """``None`` without a default; else whether the caller's value is taken, and the default."""
+    """``None`` without a default; else whether the caller's value is used, and the default."""
     scope: Scope | None
     is_ambiguous: bool
     macros: dict[str, Macro] | None = None
-    """What its body can call, where it was included with a namespace."""
+    """The macros that its body can call, if included with a namespace."""
 
     @property
     def is_shorthand(self) -> bool:
@@ -48,7 +48,7 @@ class Lazy(NamedTuple):
 
 
 class Block(NamedTuple):
-    """Elements that a call passes, or a property holds; they are read where they are inserted."""
+    """Elements passed by a call or in a property, expanded where they are inserted."""
 
     element: Element
     frame: Frame
@@ -65,7 +65,7 @@ class Scope:
         self.values: dict[str, Value | Lazy | Block] = {}
 
     def find(self, name: str) -> Scope | None:
-        """Return the nearest scope that has a name."""
+        """Return the innermost scope with a name."""
         scope: Scope | None = self
         while scope is not None:
             if name in scope.values:
@@ -74,7 +74,7 @@ class Scope:
         return None
 
     def target(self, which: str | None) -> Scope:
-        """Return the scope that ``scope="global"`` or ``"parent"`` means."""
+        """Return the scope of ``scope="global"`` or ``"parent"``."""
         if which == "parent":
             return self._parent or self
         scope = self
@@ -84,7 +84,7 @@ class Scope:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """All properties that can be used."""
+        """All visible properties."""
         names = [name for name in self.values if not name.startswith("*")]
         return (*names, *(self._parent.names if self._parent is not None else ()))
 

@@ -29,12 +29,12 @@ class Values:
 
     Args:
         package: What is reported on.
-        problems: Gets the names that nothing defines.
+        problems: Receives undefined names.
     """
 
     def __init__(self, package: Package, problems: Problems) -> None:
         self.argument_uses: list[tuple[str, Location]] = []
-        """The arguments that the files of the package use, and where."""
+        """The arguments used by the files of the package, with locations."""
         self._package = package
         self._problems = problems
         self._resolving: set[tuple[int, str]] = set()
@@ -49,12 +49,12 @@ class Values:
         return "" if attribute is None else self.attribute(attribute, frame)
 
     def literal(self, text: str, frame: Frame, place: Callable[[], Location]) -> Value:
-        """Return what a text is as the value of a property or a parameter."""
+        """Return the value of a text in a property or a parameter."""
         value = self.text(text, frame, place)
         return expressions.literal(value) if isinstance(value, str) else value
 
     def text(self, text: str, frame: Frame, place: Callable[[], Location]) -> Value:
-        """Return what a text is after evaluation."""
+        """Return a text after evaluation."""
         if "$" not in text:
             return text
         if not frame.file.is_xacro:
