@@ -44,9 +44,11 @@ def is_one_of_publishers(finding: TypeFinding) -> bool:
 
 
 def is_int_as_well(finding: TypeFinding) -> bool:
-    """Tell whether a number comes by a parameter that is annotated with ``int`` and ``float``."""
+    """Tell whether a number may be an int: an entry of a table, or a parameter for both."""
     place = finding.innermost
     node = place.value if isinstance(place, ast.keyword) else place
+    if isinstance(node, ast.Subscript):
+        return True
     if not isinstance(node, ast.Name):
         return False
     function = finding.module.enclosing_function(node)

@@ -38,6 +38,8 @@ _EXECUTOR = "rclpy.executors.Executor"
 _AROUND_FEEDBACK = frozenset({"feedback", "goal_id"})
 """The fields of the message that callbacks for feedback get."""
 _PLAIN = frozenset({"str", "int", "float", "bool", "bytes"})
+CONTAINER = re.compile(r"(dict|list|set)\[")
+"""Matches the type of a container, whatever is in it."""
 COROUTINE = "a coroutine"
 FUNCTION = "a function"
 TUPLE = "a tuple"
@@ -51,7 +53,18 @@ def known_owner(
     finding: TypeFinding, node: ast.Attribute, owner: str
 ) -> tuple[str, frozenset[str]] | None:
     """Return the name of what lacks an attribute and what it has; ``None`` if it may have it."""
+    container = CONTAINER.match(owner)
+    if container is not None and owner.endswith("]"):
+        is_replaced = _is_set_elsewhere(finding.package, node.value)
+        return None if is_replaced else (with_article(container[1]), frozenset())
     return _plain(node, owner) or _of_ros(finding, node, owner)
+
+
+def _is_set_elsewhere(package: Package, node: ast.expr) -> bool:
+    """Tell whether an attribute may be set by code that the type checker does not see as such."""
+    return isinstance(node, ast.Attribute) and any(
+        _sets(package, path, node.attr, r"(?<!\bself)") for path in package.python_files
+    )
 
 
 def _plain(node: ast.Attribute, owner: str) -> tuple[str, frozenset[str]] | None:
@@ -126,7 +139,7 @@ def _is_set(package: Package, name: str) -> bool:
 
 
 @fact
-def _sets(package: Package, path: str, name: str) -> bool:
-    pattern = rf"\.{name}\b\s*(?::[^=\n]+)?=[^=]".encode()
+def _sets(package: Package, path: str, name: str, before: str = "") -> bool:
+    pattern = rf"{before}\.{name}\b\s*(?::[^=\n]+)?=[^=]".encode()
     data = package.data(path)
     return name.encode() in data and re.search(pattern, data) is not None

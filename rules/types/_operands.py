@@ -9,6 +9,7 @@ import sys
 from scaffold.api.rclpy import RclpyFile, rclpy_file
 from scaffold.api.types import TypeFinding
 
+_LIBRARIES = frozenset({"ament_index_python", "numpy"})
 _DEEPEST = 4
 """Names that one value comes through."""
 
@@ -32,7 +33,7 @@ def are_sure(finding: TypeFinding) -> bool:
 
 def _is_sure(file: RclpyFile, node: ast.expr, depth: int) -> bool:
     match node:
-        case ast.Constant() | ast.JoinedStr():
+        case ast.Constant() | ast.JoinedStr() | ast.List() | ast.Tuple() | ast.Dict():
             return True
         case ast.Attribute(value=owner):
             return not any(isinstance(part, ast.Subscript) for part in ast.walk(owner))
@@ -43,5 +44,5 @@ def _is_sure(file: RclpyFile, node: ast.expr, depth: int) -> bool:
             return _is_sure(file, left, depth) and _is_sure(file, right, depth)
         case ast.Call(func=func):
             root = (file.module.qualified_name(func) or "").partition(".")[0]
-            return root == "numpy" or root in sys.stdlib_module_names or hasattr(builtins, root)
+            return root in _LIBRARIES or root in sys.stdlib_module_names or hasattr(builtins, root)
     return False

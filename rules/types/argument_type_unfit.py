@@ -629,6 +629,26 @@ class ArgumentTypeUnfit(TypeRule):
             "geometry_msgs.msg.TransformStamped or list, not a geometry_msgs.msg.PoseStamped: "
             "sendTransform() fails",
         ),
+        Example(
+            "a dictionary for a list of pairs, bytes that are asked for, and numbers of a table",
+            {
+                "lines.py": "import serial\nfrom rclpy.node import Node\n"
+                "from std_msgs.msg import Int32, String\n\nDEFAULTS = {'a': 1, 'b': 'c'}\n\n\n"
+                "class Lines(Node):\n"
+                "    def __init__(self):\n"
+                "        super().__init__('lines')\n"
+                "        self.declare_parameters('', DEFAULTS)\n"
+                "        self.declare_parameters('', list(DEFAULTS.items()))\n"
+                "        self.port = serial.Serial('/dev/ttyUSB0')\n\n"
+                "    def read(self):\n"
+                "        line = self.port.readline()\n"
+                "        found = {'at': len(line), 'part': len(line) / 2}\n"
+                "        return String(data=line) if line else Int32(data=found['at'])\n"
+            },
+            "11:37: 'parameters' of declare_parameters() must be a list, not a dict: "
+            "declare_parameters() fails",
+            "18:23: 'data' of std_msgs.msg.String is a str, not bytes: it cannot be published",
+        ),
         Example("callbacks in a table", {"arm.py": _TABLE.format("request, response")}),
         Example(
             "one of the callbacks in a table takes too little",

@@ -154,6 +154,19 @@ class AssignedTypeUnfit(TypeRule):
                 severity=Severity.WARNING,
             ),
         ),
+        Example(
+            "a member of an enumeration, and one that is an int as well",
+            {
+                "state.py": "from enum import Enum, IntEnum\n\nfrom std_msgs.msg import UInt8\n\n\n"
+                "class State(Enum):\n    IDLE = 0\n\n\n"
+                "class Gear(IntEnum):\n    FIRST = 1\n\n\n"
+                "state, gear = UInt8(), UInt8()\n"
+                "state.data = State.IDLE\n"
+                "gear.data = Gear.FIRST\n"
+            },
+            "15:14: 'data' of std_msgs.msg.UInt8 is an int, not a state.State: it cannot be "
+            "published",
+        ),
     )
 
     def judge(self, finding: TypeFinding) -> Diagnostic | None:

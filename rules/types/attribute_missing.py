@@ -24,6 +24,7 @@ from scaffold.api.rclpy import only_while_stopping
 from scaffold.api.types import TypeFinding, class_in, full_name
 
 from ._attribute_owners import (
+    CONTAINER,
     COROUTINE,
     FUNCTION,
     METHOD,
@@ -204,6 +205,20 @@ class AttributeMissing(TypeRule):
                 "def number(header: Header):\n"
                 "    if VERSION != 1:\n        return 0\n    return header.seq\n"
             },
+        ),
+        Example(
+            "a key of a dictionary as an attribute",
+            {
+                "lamps.py": "from rclpy.node import Node\nfrom std_msgs.msg import Bool\n\n\n"
+                "class Lamps(Node):\n"
+                "    def __init__(self):\n"
+                "        super().__init__('lamps')\n"
+                "        self.outputs = {'red': self.create_publisher(Bool, 'red', 10)}\n\n"
+                "    def blink(self):\n"
+                "        self.outputs['red'].publish(Bool(data=True))\n"
+                "        self.outputs.red.publish(Bool(data=True))\n"
+            },
+            "12:9: a dict has no 'red': AttributeError; write ['red']",
         ),
         Example("an attribute that exists", {"asker.py": _NODE.format("destroy")}),
         Example(
@@ -594,7 +609,9 @@ class AttributeMissing(TypeRule):
             return None
         name, owner = matched["name"], without_none(matched["of"])
         is_imported = finding.message.startswith("Module") and name in _IMPORTED
-        is_known = _is_named(finding, name, owner)
+        is_named = _is_named(finding, name, owner)
+        is_entry = is_named and owner.startswith("dict[")
+        is_known = is_named and CONTAINER.match(owner) is None
         is_known = is_known or _may_be_of_mock(finding, name)
         if name.startswith("_") or is_imported or is_known or _is_chosen(finding, node):
             return None
@@ -603,7 +620,7 @@ class AttributeMissing(TypeRule):
             return None
         shown, names = object_
         method = shown.rpartition(".")[2] if METHOD.fullmatch(owner) else ""
-        hint = _instead(shown, name, method)
+        hint = f"; write [{name!r}]" if is_entry else _instead(shown, name, method)
         closest = "" if hint else closest_name(finding.package, name, names - {name}, 0.6)
         if closest:
             hint = f"; did you mean {closest!r}?"

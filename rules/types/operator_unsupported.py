@@ -48,6 +48,7 @@ _INSTEAD = {
 }
 _ARRAY = re.compile(r"array\[\w+\]")
 _NUMBERS = frozenset({"an int", "a float"})
+_PLAIN = frozenset({"a str", "bytes", "a list", "a tuple", "a dict", "a set", *_NUMBERS})
 _TIMES = frozenset({"rclpy.time.Time", "rclpy.duration.Duration"})
 _PORT = (
     "import serial\nfrom rclpy.node import Node\n\n\n"
@@ -138,6 +139,19 @@ class OperatorUnsupported(TypeRule):
             },
         ),
         Example(
+            "a directory joined like a path, and a tuple with a list",
+            {
+                "load.py": "from ament_index_python.packages import get_package_share_directory\n"
+                "from rclpy.node import Node\n\nBASE = (1, 2)\n\n\n"
+                "def load(node: Node, name):\n"
+                "    share = get_package_share_directory('rover')\n"
+                "    node.get_logger().info(share + '/' + name)\n"
+                "    return share / 'config' / name, BASE + [3]\n"
+            },
+            "10:12: '/' does not work on two strs: TypeError; use os.path.join(...)",
+            "10:37: '+' does not work on a tuple and a list: TypeError",
+        ),
+        Example(
             "a text that is compared with a number",
             {"level.py": _LEVEL.format("msg.data > 3")},
             "6:12: '>' does not work on a str and an int: TypeError; use float(...)",
@@ -164,6 +178,8 @@ class OperatorUnsupported(TypeRule):
         if "a str" in words and not {*_NUMBERS, "bytes"}.isdisjoint(words):
             is_sure = "bytes" in words or are_sure(finding)
             return self.report(finding, _on_text(operator, words)) if is_sure else None
+        if _PLAIN.issuperset(words):
+            return self.report(finding, _on_plain(operator, words)) if are_sure(finding) else None
         if not any(classes) or not all(map(is_certain, types)):
             return None
         pair = " and ".join(dict.fromkeys(map(in_words, types)))
@@ -181,6 +197,13 @@ def _on_text(operator: str, words: Sequence[str]) -> str:
     if operator == "+":
         return f"'+' cannot join {words[0]} and {words[1]}: TypeError; use an f-string"
     return f"{operator!r} does not work on {words[0]} and {words[1]}: TypeError; use float(...)"
+
+
+def _on_plain(operator: str, words: Sequence[str]) -> str:
+    """Return the message about an operator between texts, containers and numbers."""
+    pair = f"two {words[0].partition(' ')[2]}s" if words[0] == words[1] else " and ".join(words)
+    hint = "; use os.path.join(...)" if (operator, pair) == ("/", "two strs") else ""
+    return f"{operator!r} does not work on {pair}: TypeError{hint}"
 
 
 def _hint(class_: str, operator: str) -> str:

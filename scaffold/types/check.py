@@ -16,7 +16,7 @@ from scaffold.model.package import Package
 from scaffold.model.reads import Reads, recorded
 from scaffold.types import environment, python_modules, ty
 from scaffold.types.findings_cache import Cache, Reported
-from scaffold.types.own_code import is_about_own, own_name
+from scaffold.types.own_code import is_about_own, own_name, with_own_marked
 from scaffold.types.passed_types import Types, signature
 from scaffold.types.project import Checked, Project, annotated, unannotated
 from scaffold.types.rewriting.passed import callers
@@ -34,17 +34,18 @@ _DIFFERENT = frozenset(
 """Those of which people use what some of the Pythons that distributions come with do not have."""
 _OF_MODULES = frozenset({"import-not-found", "missing-module-member"})
 _STR = r'`(?:str|Literal\["[^`]*"\])`'
-_BYTES = r'`(?:bytes|Literal\[b"[^`]*"\])`'
-_NUMBER = r"`(?:int\*?|float\*?|Literal\[-?\d+\])`"
+_CONTAINER = r"(?:dict|list|set|tuple)\[[^`]*\]"
+_PLAIN = rf"`(?:str|bytes|int\*?|float\*?|Literal\[[^`]*\]|{_CONTAINER})`"
 _NAMELESS = re.compile(
-    r"Object of type `(?:str|int|float|bool|bytes|CoroutineType\[.*\])` has no attribute `\w+`"
+    rf"Object of type `(?:str|int|float|bool|bytes|CoroutineType\[.*\]|{_CONTAINER})`"
+    r" has no attribute `\w+`"
     r"|Too many positional arguments: expected \d+, got \d+"
     r"|(?:Not enough|Too many) values to unpack: Expected \d+.*"
     r"|(?:Object of type|Cannot subscript object of type) `(?:int|float|bool)`"
     r"(?: is not (?:callable|iterable)| with no .*)"
     r"|Operator `[^`]+` is not supported between objects of type `array\[\w+\]` and .*"
-    rf"|Operator `[^`]+` is not supported between objects of type (?:{_STR} and {_NUMBER}"
-    rf"|{_NUMBER} and {_STR}|{_STR} and {_BYTES}|{_BYTES} and {_STR})"
+    r"|Operator `[^`]+` is not supported between (?:two )?objects of type "
+    rf"{_PLAIN}(?: and {_PLAIN})?"
     rf"|Argument to bound method `bytes\.\w+` is incorrect: Expected `.+`, found {_STR}"
 )
 """Matches reports of interest that name nothing of ROS."""
@@ -278,7 +279,7 @@ class TypeCheck:
             stubbed = self._stubbed - _roots(reached, are_stubs=False)
             stubbed |= _roots(reached, are_stubs=True)
             file.diagnostics = [
-                item
+                with_own_marked(item, reached.values())
                 for item in reported
                 if _concerns(item, stubbed) or is_about_own(item, reached.values())
             ]

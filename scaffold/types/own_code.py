@@ -10,6 +10,7 @@ import re
 from collections.abc import Iterable, Iterator, Sequence
 
 from scaffold.types.sources import Source
+from scaffold.types.stubs.marks import MARK
 from scaffold.types.ty import TyDiagnostic
 
 CALLEE = r"[^\W\d]\w*(?:\.\w+)?"
@@ -18,6 +19,8 @@ _OWNER = re.compile(
 )
 # linear: what comes before the name has no backquote
 _CALL = re.compile(rf"[^`]*(?:`\w+`[^`]*)*? (?:[a-z]+ )*`({CALLEE})`(?:: expected .*)?")
+_FOUND = re.compile(r"found `((?:Literal\[)?([A-Z][^\W_]\w*)(?:\.[^`|]*)?)`$")
+"""Matches a value of a class without a mark, or a member of an enumeration."""
 _CALLS = frozenset(
     {
         "missing-argument",
@@ -43,6 +46,21 @@ def is_about_own(item: TyDiagnostic, sources: Iterable[Source]) -> bool:
     if not defining or any(_CHANGING.search(data) for data in _with_bases(name, files)):
         return False
     return item.kind in _CALLS or len(defining) == 1  # else the object may be of another class
+
+
+def with_own_marked(item: TyDiagnostic, sources: Iterable[Source]) -> TyDiagnostic:
+    """Return a report with the class of the value that is found marked if a file defines it."""
+    found = _FOUND.search(item.message)
+    if found is None:
+        return item
+    definition = _definition(found[2].encode())
+    defining = [it for it in sources if it.path and definition.search(it.data)]
+    class_ = re.compile(rb"^class %b\b" % found[2].encode(), re.MULTILINE)
+    if len(defining) != 1 or not class_.search(defining[0].data):
+        return item
+    stem = defining[0].path.rpartition("/")[2].removesuffix(".py")
+    marked = MARK.join([found[2], *(defining[0].dotted or stem).split(".")])
+    return item._replace(message=f"{item.message[: found.start(1)]}{marked}`")
 
 
 def own_name(item: TyDiagnostic) -> bytes:

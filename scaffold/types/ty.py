@@ -7,6 +7,7 @@ environment: it reads nothing of the user's but the files to check.
 from __future__ import annotations
 
 import os
+import re
 import selectors
 import signal
 import time
@@ -51,6 +52,8 @@ KINDS = (
 )
 """The rules of ty that ours are made of; all others are off."""
 
+_NARROWED = re.compile(r" & ~Always(?:Falsy|Truthy)")
+"""Matches what a condition showed of a type, such as that a text is not empty."""
 CONFIGURATION = "ty.toml"
 LIBRARY = "lib"
 """Where the importable packages of the workspace are, relative to the project."""
@@ -248,7 +251,7 @@ def _parse(output: bytes) -> Iterator[tuple[str, TyDiagnostic]]:
                     kind,
                     *(begin["line"], begin["column"]),
                     *(end["line"], end["column"]),
-                    entry["description"].removeprefix(f"{kind}: "),
+                    _NARROWED.sub("", entry["description"].removeprefix(f"{kind}: ")),
                 ),
             )
     except (ValueError, KeyError, TypeError) as error:

@@ -17,11 +17,11 @@ _BUILTINS = frozenset(
 _ANYTHING = re.compile(r"\b(?:Unknown|Any|object|Todo|Never|Divergent)\b|@")
 _CONTAINER = re.compile(r"(?:list|dict|set|tuple)\[[^|]*\]")
 _CLASSES = re.compile(rf"(?:{MARKED}|bytes|None)(?: \| (?:{MARKED}|bytes|None))*")
-_NARROWED = re.compile(r"\(?([^()&]{1,200}) & ~Always(?:Falsy|Truthy)\)?")
-"""Matches a type of which a condition showed that it is true, or false: it is the same."""
 _ITERABLE = re.compile(r"\b(?:Iterable|Sequence)\[")
 _INNERMOST = re.compile(r"\([^()\[\]]*\)|\[[^()\[\]]*\]")
 """Matches the arguments of a function or a type that have no such arguments themselves."""
+_SEQUENCE = re.compile(r"(?:Sequence|list|tuple)\[.*\]")
+_NO_SEQUENCE = re.compile(r"(?:dict|set)\[.*\]|(?:int|float|bool)\*?|Literal\[-?\d+\]")
 _NUMBERS = re.compile(r"Supports(?:Float|Int|Index)(?: \| Supports(?:Float|Int|Index))*")
 _PLAIN = re.compile(r"Literal\[.*\]|(?:str|bytes|int|float|bool|list|tuple|dict)\b.*", re.DOTALL)
 """Matches types of values that are no classes."""
@@ -48,6 +48,9 @@ def is_certain_misfit(expected: str, given: str) -> bool:
     if expected.startswith("type["):
         parts = _alternatives(_TEXT.sub("str", given))
         return all(_PLAIN.fullmatch(part.strip()) for part in parts)
+    is_sequence = _SEQUENCE.fullmatch(expected) and "|" not in _without_arguments(expected)
+    if is_sequence and _NO_SEQUENCE.fullmatch(given):
+        return True  # whatever is in either
     if not is_certain(_ITERABLE.sub("list[", expected).replace("|", ",")):
         return False
     if _CONTAINER.fullmatch(given) and _CLASSES.fullmatch(expected):
@@ -138,7 +141,7 @@ def _alternatives(type_: str) -> list[str]:
 
 def _readable(name: str) -> str:
     """Return the dotted name of a type, or the words that a protocol is: ``some_numbers_``."""
-    plain = _NARROWED.sub(r"\1", name)
+    plain = name.strip("()")
     if MARK not in plain:
         return "list" if plain in {"Iterable", "Sequence"} else plain
     short = short_name(plain)
