@@ -288,6 +288,24 @@ class ArgumentsUnfit(TypeRule):
             {"ticker.py": _NODE.format("0.1, self.tick, oneshot=True")},
             "7:56: create_timer() has no argument 'oneshot': TypeError",
         ),
+        Example(
+            "a task of diagnostics, a function and a class",
+            {
+                "battery.py": "from diagnostic_updater import DiagnosticTask, Updater\n\n\n"
+                "class Battery(DiagnosticTask):\n"
+                "    def run(self, stat):\n"
+                "        stat.summary(b'\\0', 'fine')\n"
+                "        stat.add('voltage: 12.1')\n"
+                "        return stat\n\n\n"
+                "def load(stat):\n    stat.add('load', '0.5', 1)\n    return stat\n\n\n"
+                "def report(node):\n"
+                "    updater = Updater(node)\n"
+                "    updater.add(Battery('battery'))\n"
+                "    updater.add('load', load)\n"
+            },
+            "7:9: add() lacks 'val': TypeError",
+            "12:29: add() takes 2 positional arguments at most, not 3: TypeError",
+        ),
     )
 
     def judge(self, finding: TypeFinding) -> Diagnostic | None:

@@ -23,6 +23,7 @@ _WORDS = (
     b"add_done_callback(",
     b"registerCallback(",
     b"_set_parameters_callback(",
+    b"diagnostic_updater",
 )
 _CALL = re.compile(
     r"\b(create_subscription|create_service|ActionServer|add_done_callback"
@@ -50,12 +51,22 @@ _REBOUND = (
 _Registered = tuple[str, tuple[str, ...]]
 _GOAL_HANDLE = "_Ros2ServerGoalHandle"
 _FUTURE = "_Ros2Future"
+STATUS = "_Ros2DiagnosticStatus"
+"""The name of the class of what tasks of diagnostics fill in."""
+# linear: a line has 20 kB at most
+_TASK = re.compile(
+    r"\.add\([^()\n]*,\s*(?:self\.)?(?P<added>\w+)\)"
+    r"|^class \w+\((?:\w+\.)?DiagnosticTask\):",
+    re.MULTILINE,
+)
+"""Matches a function that is made a task of diagnostics, or a class of tasks, which has ``run``."""
 _ACCEPTED = "_Ros2ClientGoalHandle"
 _PARAMETER_OBJECT = "_Ros2Parameter"
 _IMPORTS = {
     _ACCEPTED: f"\nfrom rclpy.action.client import ClientGoalHandle as {_ACCEPTED}\n",
     _GOAL_HANDLE: f"\nfrom rclpy.action.server import ServerGoalHandle as {_GOAL_HANDLE}\n",
     _FUTURE: f"\nfrom rclpy.task import Future as {_FUTURE}\n",
+    STATUS: f"\nfrom diagnostic_updater import DiagnosticStatusWrapper as {STATUS}\n",
     _PARAMETER_OBJECT: f"\nfrom rclpy.parameter import Parameter as {_PARAMETER_OBJECT}\n",
 }
 """What is imported at the end of a file, by the name that is used."""
@@ -96,6 +107,9 @@ def with_callback_types(data: bytes) -> bytes:
     segments = _SEGMENT.split(text)
     is_of_ros = _OTHER_FUTURES.search(text) is None
     registered = [[*_registered(segment)] for segment in segments]
+    if "diagnostic_updater" in text:
+        for items, segment in zip(registered, segments, strict=True):
+            items += [(task["added"] or "run", (STATUS,)) for task in _TASK.finditer(segment)]
     if any(item is None for items in registered for item in items):
         _add_indirect(text, segments, registered)
     result = "".join(map(partial(_annotated, has_ros_futures=is_of_ros), segments, registered))

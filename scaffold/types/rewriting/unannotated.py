@@ -15,6 +15,7 @@ from collections.abc import Iterator
 
 from scaffold.model.python.scopes import ScopeIndex
 from scaffold.model.python.syntax_tree import MAX_DEPTH
+from scaffold.types.rewriting.callbacks import STATUS
 
 _UNKNOWN = "_"
 """A name that tells a type checker nothing."""
@@ -66,7 +67,8 @@ def _annotations(index: ScopeIndex) -> Iterator[tuple[str, ast.expr]]:
         for argument in _arguments(function.args):
             if argument.annotation is None or argument.arg in kept:
                 continue
-            if argument.arg not in written or not _is_text(argument.annotation):
+            is_text = _is_text(argument.annotation)
+            if not is_text or (argument.arg not in written and not _is_of_base(argument)):
                 yield "parameter", argument.annotation
     for variable in index.all_of(ast.AnnAssign):
         if _is_made_so(variable) or _is_of_record(index, variable):
@@ -158,6 +160,14 @@ def _is_other(value: ast.expr, annotation: ast.expr) -> bool:
         case ast.Constant(value=constant), ast.Name(id=name) if constant is not None:
             return name not in _ACCEPTING.get(type(constant), {type(constant).__name__})
     return False
+
+
+def _is_of_base(argument: ast.arg) -> bool:
+    """Tell whether a method gets an argument from its base class: this tool has written the type.
+
+    No name in the file refers to such a method.
+    """
+    return ast.unparse(argument.annotation or argument).startswith(f"'{STATUS}")
 
 
 def _is_text(annotation: ast.expr) -> bool:
