@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import ast
+import re
 from collections.abc import Container, Iterator, Mapping, Sequence
 from contextlib import suppress
 from functools import cached_property
 from typing import Any
 
 from scaffold.model import reads
+from scaffold.model.facts import fact
 from scaffold.model.package import Package
 from scaffold.model.python.module import PythonModule, is_in_tests
 from scaffold.model.python.scopes import FunctionNode
@@ -67,17 +69,33 @@ def rclpy_file(modules: Modules, path: str) -> RclpyFile:
 
 
 def rclpy_paths(package: Package) -> Sequence[str]:
-    """Return the Python files that import rclpy, except tests, which may misuse it on purpose."""
+    """Return the Python files that use rclpy, except tests, which may misuse it on purpose.
+
+    One that gets a node, or is part of one, need not import it.
+    """
 
     def find() -> Iterator[str]:
         for path in package.python_files:
             with suppress(ViewError):
-                if "rclpy" not in package.imports(path):
+                if "rclpy" not in package.imports(path) and not _uses_a_node(package, path):
                     continue
                 if not is_in_tests(path) or not package.module(path).in_tests:
                     yield path
 
     return package.remember("rclpy_paths", lambda: list(find()))
+
+
+_OF_NODES = re.compile(
+    rb"\.(?:create_(?:publisher|subscription|service|client|timer|rate)|call_async"
+    rb"|(?:declare|get)_parameter|send_goal_async|get_logger\(\)\.\w+)\("
+)
+"""Matches the use of a node or a client of rclpy."""
+
+
+@fact
+def _uses_a_node(package: Package, path: str) -> bool:
+    """Tell whether a file calls methods of nodes."""
+    return _OF_NODES.search(package.data(path)) is not None and "rospy" not in package.imports(path)
 
 
 def rclpy_files(package: Package, *, mentioning: Sequence[str] = ()) -> Iterator[RclpyFile]:
