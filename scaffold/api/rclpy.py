@@ -22,7 +22,7 @@ from scaffold.model.rclpy.attributes import (
     names_of_bases,
     used_by_classes,
 )
-from scaffold.model.rclpy.callbacks import alternatives, numbers_taken
+from scaffold.model.rclpy.callbacks import alternatives, numbers_taken, worker
 from scaffold.model.rclpy.changed_calls import changed_calls
 from scaffold.model.rclpy.changed_names import ChangedUse, changed_uses, is_asked_for, is_tried
 from scaffold.model.rclpy.entities import (
@@ -161,5 +161,6 @@ __all__ = [
     "types_compared",
     "unit_problems",
     "used_by_classes",
+    "worker",
     "wrong_value",
 ]

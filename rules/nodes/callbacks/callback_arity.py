@@ -16,7 +16,6 @@ from scaffold.api.rclpy import (
     Synchronizer,
     Timer,
     alternatives,
-    class_of,
     numbers_taken,
 )
 
@@ -169,12 +168,52 @@ class CallbackArity(RclpyRule):
             "12:36: callback 'view' takes 1 argument, but the synchronizer passes 2 messages: "
             "TypeError",
         ),
+        Example(
+            "a parameter that is given by name behind the message, and one in front of it",
+            {
+                "bumper.py": "from functools import partial\n\nfrom rclpy.node import Node\n"
+                "from std_msgs.msg import Empty, String\n\n\n"
+                "class Bumper(Node):\n"
+                "    def __init__(self):\n"
+                "        super().__init__('bumper')\n"
+                "        hear = partial(self.hear, side='left')\n"
+                "        self.create_subscription(String, 'a', partial(self.hear, side='a'), 10)\n"
+                "        self.create_subscription(String, 'b', partial(self.see, side='b'), 10)\n"
+                "        switches = {'on': lambda: None, 'off': lambda _: hear}\n"
+                "        for topic, switch in switches.items():\n"
+                "            self.create_subscription(Empty, topic, switch, 10)\n\n"
+                "    def hear(self, msg, side):\n        return msg, side\n\n"
+                "    def see(self, side, msg):\n        return msg, side\n"
+            },
+            "12:47: callback 'see' has others after a parameter given by name, but a subscription "
+            "passes the message: RuntimeError",
+            "13:27: this callback takes 0 arguments, but a subscription passes the message: "
+            "RuntimeError",
+        ),
+        Example(
+            "the future of a client that a class gets with a node",
+            {
+                "remote.py": "from std_srvs.srv import Trigger\n\n\n"
+                "class Remote:\n"
+                "    def __init__(self, node):\n"
+                "        self.client = node.create_client(Trigger, 'fire')\n\n"
+                "    def fire(self):\n"
+                "        future = self.client.call_async(Trigger.Request())\n"
+                "        future.add_done_callback(self.fired)\n\n"
+                "    def fired(self):\n        print('fired')\n"
+            },
+            "10:34: callback 'fired' takes 0 arguments, but a future passes itself: TypeError",
+        ),
     )
 
     def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
         for given, callback in _given_callbacks(file):
             takes = numbers_taken(callback)
             if takes is None or any(n in takes for n in given[0]):
+                continue
+            if not takes:
+                message = f"{_shown(callback)} has others after a parameter given by name"
+                yield self.report(callback, f"{message}, but {given[1]}")
                 continue
             least, most = takes.start, takes.stop - 1
             has = str(least) if least == most else f"{least} to {most}"
@@ -197,7 +236,7 @@ def _given_callbacks(file: RclpyFile) -> Iterator[tuple[tuple[tuple[int, ...], s
     for attribute in file.module.index.attributes("add_done_callback"):
         match file.module.parent(attribute):
             case ast.Call(func=func, args=[passed], keywords=[]) if func is attribute:
-                if class_of(file, attribute.value) == "rclpy.task.Future":
+                if not file.module.mentions("def add_done_callback"):
                     yield ((1,), "a future passes itself: TypeError"), file.callback(passed)
 
 

@@ -10,7 +10,7 @@ from scaffold.api import Diagnostic, Example, MessageRule, Package, Report, Seve
 from scaffold.api.distributions import target
 from scaffold.api.messages import MessageTypes
 from scaffold.api.python import FunctionNode, is_generator, may_end, returned, value_set_before
-from scaffold.api.rclpy import ActionServer, Service, is_overridden
+from scaffold.api.rclpy import ActionServer, Service, is_overridden, worker
 
 _ANSWERS = {"goal_callback": "GoalResponse", "cancel_callback": "CancelResponse"}
 _REJECTED = "it counts as a rejection"
@@ -231,6 +231,18 @@ class CallbackResultWrong(MessageRule):
             {"server.py": _NODE_SERVICES.format("        return {'success': True}\n")},
             "12:9: returns a dict, not the response (service of line 8): TypeError",
         ),
+        Example(
+            "a tuple from the function that a lambda calls",
+            {
+                "server.py": "from rclpy.node import Node\nfrom std_srvs.srv import Trigger\n\n\n"
+                "def answer(ok):\n    return ok, 'done'\n\n\n"
+                "class Server(Node):\n"
+                "    def __init__(self):\n"
+                "        super().__init__('server')\n"
+                "        self.create_service(Trigger, 'open', lambda _, response: answer(True))\n"
+            },
+            "6:5: returns a tuple, not the response (service of line 12): TypeError",
+        ),
     )
 
     def check_in(self, package: Package, types: MessageTypes) -> Iterator[Diagnostic]:
@@ -251,7 +263,8 @@ class CallbackResultWrong(MessageRule):
     def _check_services(self, package: Package, types: MessageTypes) -> Iterator[Diagnostic]:
         seen: set[FunctionNode] = set()
         for service in types.file.services:
-            callback = service.callback
+            given = service.callback
+            callback = worker(types.file, given) if given else None
             function = callback.function if callback else None
             if function is None or isinstance(function, ast.Lambda) or function in seen:
                 continue
@@ -264,7 +277,8 @@ class CallbackResultWrong(MessageRule):
             if not is_generator(function):
                 expected = _expected_by_service(types, service, function)
                 yield from self._check(types, function, expected)
-                yield from self._check_lost(types, service, function, expected)
+                if callback is given:
+                    yield from self._check_lost(types, service, function, expected)
 
     def _check(
         self, types: MessageTypes, function: FunctionNode, expected: _Expected
@@ -338,7 +352,7 @@ def _when_sent() -> str:
 def _function(types: MessageTypes, server: ActionServer, name: str) -> FunctionNode | None:
     """Return the definition of a callback that nothing wraps."""
     given = server.argument(name)
-    callback = types.file.callback(given.node) if given else None
+    callback = worker(types.file, types.file.callback(given.node)) if given else None
     function = callback.function if callback else None
     if callback is None or function is None or isinstance(function, ast.Lambda):
         return None

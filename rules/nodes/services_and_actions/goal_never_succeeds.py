@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, RclpyRule
 from scaffold.api.python import FunctionNode
-from scaffold.api.rclpy import ActionServer, RclpyFile
+from scaffold.api.rclpy import ActionServer, Callback, RclpyFile, worker
 
 _ENDS = frozenset({"abort", "canceled"})
 _DEEPEST = 3
@@ -112,6 +112,16 @@ class GoalNeverSucceeds(RclpyRule):
                 "worker.py": "def work(node):\n    node.goal.execute()\n",
             },
         ),
+        Example(
+            "a lambda that calls the function with the goal",
+            {
+                "server.py": _NODE.format("").replace(
+                    "self.work)\n\n", "lambda goal: self.work(goal))\n\n"
+                )
+            },
+            "15:9: result returned without succeed(): goals of the action server of line 9 end as "
+            "aborted",
+        ),
     )
 
     def check_in(self, package: Package, file: RclpyFile) -> Iterator[Diagnostic]:
@@ -189,14 +199,27 @@ def _ends_in(file: RclpyFile, body: list[ast.stmt]) -> bool:
 
 def _work(file: RclpyFile, server: ActionServer) -> FunctionNode | None:
     """Return the execute callback, unless it passes the goal handle on to code of others."""
-    callback = server.callback
+    callback = worker(file, server.callback) if server.callback else None
     function = callback.function if callback else None
     if callback is None or function is None or isinstance(function, ast.Lambda):
+        return None
+    if callback is not server.callback and not _hands_on_the_goal(server.callback):
         return None
     arguments = [*function.args.posonlyargs, *function.args.args][int(callback.is_bound) :]
     if callback.is_partial or callback.is_called or function.decorator_list or not arguments:
         return None
     return function if _is_kept(file, function, arguments[0].arg) else None
+
+
+def _hands_on_the_goal(callback: Callback | None) -> bool:
+    """Tell whether all that a lambda gives to the function it calls is the goal handle."""
+    match callback.function if callback else None:
+        case ast.Lambda(
+            args=ast.arguments(args=[ast.arg(arg=handle)]),
+            body=ast.Call(args=[ast.Name(id=given)], keywords=[]),
+        ):
+            return given == handle
+    return False
 
 
 def _is_kept(file: RclpyFile, function: FunctionNode, name: str, depth: int = 0) -> bool:

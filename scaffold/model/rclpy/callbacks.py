@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Container, Sequence
+from itertools import takewhile
 from typing import TYPE_CHECKING
 
 from scaffold.model.rclpy.entities import Callback
@@ -40,6 +41,15 @@ def resolve(file: RclpyFile, node: ast.expr) -> Callback:
             function = None
         return Callback(node, node.id, function, module, is_called=False, is_bound=False)
     return Callback(node, None, None, module, is_called=False, is_bound=False)
+
+
+def worker(file: RclpyFile, callback: Callback) -> Callback:
+    """Return the function whose result a callback returns: what a lambda does nothing but call."""
+    match callback.function:
+        case ast.Lambda(body=ast.Call(func=func)):
+            called = resolve(file, func)
+            return called if called.function is not None else callback
+    return callback
 
 
 def _method_of(file: RclpyFile, class_: ast.ClassDef, name: str) -> FunctionNode | None:
@@ -141,6 +151,10 @@ def _column(file: RclpyFile, target: ast.AST) -> Sequence[ast.expr]:
     loop = file.module.parent(parent) if at >= 0 and parent is not None else parent
     if not isinstance(loop, ast.For):
         return ()
+    match loop.iter:
+        case ast.Call(func=ast.Attribute(value=table, attr="items" | "values" as part), args=[]):
+            values = file.evaluator.single_value(table) if part == "values" or at == 1 else None
+            return values.values if isinstance(values, ast.Dict) else ()
     rows = [item.node for item in file.evaluator.elements(loop.iter).items]
     if at < 0:
         return rows
@@ -159,21 +173,27 @@ def numbers_taken(callback: Callback) -> range | None:
         default is None for default in arguments.kw_defaults if arguments.kwonlyargs
     ):
         return None
-    names = [*arguments.posonlyargs, *arguments.args]
-    most = len(names) - int(callback.is_bound)
+    names = [item.arg for item in (*arguments.posonlyargs, *arguments.args)]
+    names = names[int(callback.is_bound) :]
+    needed = names[: len(names) - len(arguments.defaults)]
     if callback.is_partial:
         given = _given_before(callback.node)
-        if given is None or given > most - len(arguments.defaults):
+        if given is None or given[0] > len(needed):
             return None
-        most -= given
-    return range(most - len(arguments.defaults), most + 1)
+        number, by_name = given
+        needed = [name for name in needed[number:] if name not in by_name]
+        names = [*takewhile(lambda name: name not in by_name, names[number:])]
+    return range(len(needed), len(names) + 1)
 
 
-def _given_before(node: ast.expr) -> int | None:
-    """Return the number of arguments in ``partial(function, 'left')``; ``None`` if unknown."""
+def _given_before(node: ast.expr) -> tuple[int, set[str | None]] | None:
+    """Return how many arguments ``partial(function, 'left')`` gives, and which ones by name.
+
+    ``None`` if that is not known.
+    """
     match node:
-        case ast.Call(args=[ast.Name() | ast.Attribute(), *given], keywords=[]):
-            return (
-                None if any(isinstance(argument, ast.Starred) for argument in given) else len(given)
-            )
+        case ast.Call(args=[ast.Name() | ast.Attribute(), *given], keywords=keywords):
+            by_name = {word.arg for word in keywords}
+            is_known = not any(isinstance(argument, ast.Starred) for argument in given)
+            return (len(given), by_name) if is_known and None not in by_name else None
     return None
