@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator, Sequence
 
-from scaffold.model.python.call_sites import given_argument
+from scaffold.model.python.given_arguments import given_argument
 from scaffold.model.python.module import PythonModule
 
 _DEEPEST = 20

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from scaffold.model.launch.calls import launch_call
 from scaffold.model.python.evaluator import Evaluator
+from scaffold.model.python.given_arguments import given_once
 from scaffold.model.python.values import UNKNOWN, PathValue, Unknown, join_paths
 
 if TYPE_CHECKING:
@@ -24,6 +25,11 @@ class LaunchEvaluator(Evaluator):
     def __init__(self, module: PythonModule, package_name: str) -> None:
         super().__init__(module)
         self._package_name = package_name
+
+    def argument(self, node: ast.arg) -> object:
+        """Return what the only call of a function of the file gives a parameter."""
+        given = given_once(self.module, node)
+        return UNKNOWN if given is None else self.evaluate(given)
 
     def call(self, node: ast.Call) -> object:
         """Return the value of a call of launch, for a substitution its text."""

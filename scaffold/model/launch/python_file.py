@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from scaffold.model.launch.calls import LaunchCall, launch_call
 from scaffold.model.launch.evaluator import LaunchEvaluator, share_path
+from scaffold.model.python.given_arguments import given_once
 from scaffold.model.python.module import is_in_tests
 from scaffold.model.python.values import UNKNOWN, Unknown
 from scaffold.record import NamedTuple
@@ -132,7 +133,9 @@ class LaunchFile:
         for _ in range(10):
             if isinstance(node, ast.Call):
                 return launch_call(self.module, node)
-            node = self.module.index.only_value(node)
+            bound = self.module.index.only_node(node)
+            value = self.module.index.only_value(node)
+            node = given_once(self.module, bound) if isinstance(bound, ast.arg) else value
         return None
 
     def text(self, call: LaunchCall, name: str) -> str | Unknown | None:

@@ -109,32 +109,3 @@ class CallSites:
 
 def _is_private(function: FunctionNode) -> bool:
     return function.name.startswith("_") and not function.decorator_list
-
-
-def given_argument(
-    function: FunctionNode, call: ast.Call, parameter: ast.arg, *, is_method: bool
-) -> ast.expr | None:
-    """Return the argument for a parameter in a call, or its default.
-
-    ``None`` if that is unknown: ``*args``, ``**kwargs``, a variadic parameter.
-    """
-    signature = function.args
-    positional = [*signature.posonlyargs, *signature.args]
-    if parameter not in positional and parameter not in signature.kwonlyargs:
-        return None
-    if any(word.arg is None for word in call.keywords):
-        return None
-    for word in call.keywords:
-        if word.arg == parameter.arg:
-            return word.value
-    if parameter in positional:
-        position = positional.index(parameter) - is_method
-        if any(isinstance(arg, ast.Starred) for arg in call.args[: position + 1]):
-            return None
-        if 0 <= position < len(call.args):
-            return call.args[position]
-    defaults: dict[ast.arg, ast.expr | None] = dict(
-        zip(reversed(positional), reversed(signature.defaults), strict=False)
-    )
-    defaults.update(zip(signature.kwonlyargs, signature.kw_defaults, strict=True))
-    return defaults.get(parameter)

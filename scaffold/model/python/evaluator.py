@@ -7,7 +7,9 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
+from scaffold.model.python.given_arguments import given_argument
 from scaffold.model.python.list_changes import changes_of, is_straight, list_literal, statement_of
+from scaffold.model.python.returns import only_result
 from scaffold.model.python.values import (
     COMPARISONS,
     FUNCTIONS,
@@ -452,7 +454,22 @@ class Evaluator:
             value = self._method(node, node.func)
             if value is not UNKNOWN:
                 return value
-        return self.call(node)
+        value = self.call(node)
+        return self._result(node) if value is UNKNOWN else value
+
+    def _result(self, node: ast.Call) -> object:
+        """Return the value of a call of a function of the file that returns one expression."""
+        found = only_result(self.module, node.func)
+        if found is None:
+            return UNKNOWN
+        function, returned = found
+        parameters = (*function.args.posonlyargs, *function.args.args, *function.args.kwonlyargs)
+        given = {
+            item.arg: self.evaluate(given_argument(function, node, item, is_method=False))
+            for item in parameters
+        }
+        with self._bound(function, given):
+            return self.evaluate(returned)
 
     def _joined(self, node: ast.Call) -> object:
         parts: list[object] = []

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from scaffold.model.python.scopes import FunctionNode
+    from scaffold.model.python.syntax_tree import SyntaxTree
 
 _ENDING = frozenset({"exit", "_exit", "quit", "fail"})
 """Functions that do not return."""
@@ -17,6 +18,25 @@ _SCOPES = (ast.FunctionDef, ast.AsyncFunctionDef, ast.Lambda, ast.ClassDef)
 def returned(function: FunctionNode) -> Sequence[ast.Return]:
     """Return the ``return`` statements of a function, except those of functions inside."""
     return [node for node in _own_nodes(function) if isinstance(node, ast.Return)]
+
+
+def only_result(module: SyntaxTree, func: ast.expr) -> tuple[ast.FunctionDef, ast.expr] | None:
+    """Return the function of a file that an expression names, and the only value it returns.
+
+    ``None`` for others: what branches, loops, is decorated or gives a parameter another value.
+    """
+    function = module.index.only_node(func)
+    if not isinstance(function, ast.FunctionDef) or function.decorator_list:
+        return None
+    *before, last = function.body
+    if not isinstance(last, ast.Return) or last.value is None:
+        return None
+    arguments = function.args
+    names = {item.arg for item in (*arguments.posonlyargs, *arguments.args, *arguments.kwonlyargs)}
+    is_plain = all(isinstance(item, ast.Assign | ast.AnnAssign | ast.Expr) for item in before)
+    if not is_plain or any(_sets(node, name) for node in ast.walk(function) for name in names):
+        return None
+    return function, last.value
 
 
 def value_set_before(function: FunctionNode, statement: ast.Return) -> ast.expr | None:

@@ -7,7 +7,8 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from scaffold.model.python.attributes import AttributeEvaluator
-from scaffold.model.python.call_sites import CallSites, given_argument
+from scaffold.model.python.call_sites import CallSites
+from scaffold.model.python.given_arguments import given_argument
 from scaffold.model.python.values import UNKNOWN, is_known, same
 
 if TYPE_CHECKING:
