@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from scaffold.api import Diagnostic, Example, Package, RclpyRule, Report, Severity
 from scaffold.api.programs import phases_of
@@ -16,6 +16,7 @@ from scaffold.api.rclpy import (
     Subscription,
     Synchronizer,
     Timer,
+    defined_by,
     given_from_outside,
     has,
     is_read_in_full,
@@ -196,6 +197,32 @@ class AttributeUsedBeforeSet(RclpyRule):
                 + "\n    def robot_name(self):\n        return self.robot\n"
             },
         ),
+        Example(
+            "a method that the constructor of a base class of the package calls",
+            {
+                "package.xml": "<package><name>rover</name></package>\n",
+                "rover/__init__.py": "",
+                "rover/base.py": "from rclpy.node import Node\n\n\n"
+                "class Controller(Node):\n"
+                "    def __init__(self, name):\n"
+                "        super().__init__(name)\n"
+                "        self.limit = 1.0\n"
+                "        self.setup()\n\n"
+                "    def setup(self):\n        pass\n",
+                "rover/steering.py": "from rover.base import Controller\n\n\n"
+                "class Steering(Controller):\n"
+                "    def __init__(self):\n"
+                "        self.offset = 0.1\n"
+                "        super().__init__('steering')\n"
+                "        self.gains = [1.0]\n\n"
+                "    def setup(self):\n"
+                "        self.gain = self.limit * self.offset * self.gains[0]\n"
+                "        self.get_logger().info(f'gain {self.gain}')\n",
+            },
+            "rover/steering.py:11:48: the constructor of Controller calls setup() while it is "
+            "made, before self.gains is set in line 8: AttributeError; set it before "
+            "super().__init__()",
+        ),
     )
 
     def check_in(self, package: Package, file: RclpyFile) -> Iterator[Diagnostic]:
@@ -204,7 +231,10 @@ class AttributeUsedBeforeSet(RclpyRule):
                 yield self.report(file.module.location(call), message)
             if node.base is None and node.name not in names_of_bases(package):
                 yield from self._check_timers(package, file, node)
-            if node.constructor is None or node.base is not None or len(node.node.bases) != 1:
+            if node.constructor is None or len(node.node.bases) != 1:
+                continue
+            if node.base is not None:
+                yield from self._check_overrides(file, node)
                 continue
             for used, line in _used_early(file, node):
                 message = (
@@ -245,9 +275,12 @@ class AttributeUsedBeforeSet(RclpyRule):
                     yield self.report(location, message, severity=Severity.WARNING)
 
     def _check_overrides(self, file: RclpyFile, node: NodeClass) -> Iterator[Diagnostic]:
-        """Check what the constructor of rclpy's Node calls, if the class has methods of its own."""
+        """Check what the constructor of the base calls, if the class has methods of its own."""
         call = node.super_init
-        for name in _CALLED_BY_NODE if call is not None else ():
+        caller = f"the constructor of {node.base.name}" if node.base else "rclpy's Node"
+        given = defined_by(node.base) if node.base else set[str]()
+        hint = "set it before super().__init__()" if node.base else "rename the method"
+        for name in _called_by_base(node) if call is not None else ():
             method = node.methods.get(name)
             if method is not None and "attr(" in file.module.text(method):
                 continue  # it asks: `hasattr(self, 'robot')`
@@ -256,17 +289,34 @@ class AttributeUsedBeforeSet(RclpyRule):
                     continue
                 if has(NODE, used.attr) or used.attr in file.module.index.bindings(node.node):
                     continue
+                if used.attr in given or (node.base and not _is_always_used(file, used)):
+                    continue
                 if file.evaluator.self_class(used.value) is not node.node:
                     continue
                 line = _first_line(file, node, used.attr)
                 is_handled_there = is_handled(file.module, used, "AttributeError")
                 if line > (call.end_lineno or call.lineno) and not is_handled_there:
                     message = (
-                        f"rclpy's Node calls {name}() while it is made, before self.{used.attr} "
-                        f"is set in line {line}: AttributeError; rename the method"
+                        f"{caller} calls {name}() while it is made, before self.{used.attr} "
+                        f"is set in line {line}: AttributeError; {hint}"
                     )
                     yield self.report(file.module.location(used), message)
                     break
+
+
+def _called_by_base(node: NodeClass) -> Iterable[str]:
+    """Return the methods that the constructor of the base always calls on the object."""
+    base = node.base
+    if base is None:
+        return _CALLED_BY_NODE
+    statements = base.constructor.body if base.constructor is not None else ()
+    values = (item.value for item in statements if isinstance(item, ast.Expr | ast.Assign))
+    functions = (value.func for value in values if isinstance(value, ast.Call))
+    return [
+        func.attr
+        for func in functions
+        if isinstance(func, ast.Attribute) and base.file.module.text(func.value) == "self"
+    ]
 
 
 def _registered_first(
