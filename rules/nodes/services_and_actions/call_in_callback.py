@@ -5,7 +5,8 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, RclpyRule
+from scaffold.api import Diagnostic, Example, Package, RclpyRule, fact
+from scaffold.api.install import file_of
 from scaffold.api.programs import (
     Executed,
     client_at,
@@ -19,6 +20,7 @@ from scaffold.api.programs import (
     spins_elsewhere,
     spins_in_one_thread,
 )
+from scaffold.api.python import PythonModule
 from scaffold.api.rclpy import Entity, RclpyFile, class_of
 
 _NODE = (
@@ -192,13 +194,36 @@ class CallInCallback(RclpyRule):
             "13:9: busy-waits for a future in callback 'ask': deadlock, no response is processed "
             "meanwhile",
         ),
+        Example(
+            "in a function of another module",
+            {
+                "package.xml": "<package><name>rover</name></package>\n",
+                "rover/__init__.py": "",
+                "rover/calls.py": "import time\n\n\n"
+                "def call(client, request):\n"
+                "    future = client.call_async(request)\n"
+                "    while not future.done():\n        time.sleep(0.1)\n"
+                "    return future.result()\n",
+                "rover/caller.py": _NODE.format(
+                    "        call(self.client, Trigger.Request())\n"
+                ).replace(
+                    "import Trigger\n", "import Trigger\n\nfrom rover.calls import call\n", 1
+                ),
+            },
+            "rover/caller.py:14:9: waits for a response in call() in callback 'ask': deadlock, no "
+            "response is processed meanwhile",
+        ),
     )
 
-    def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
+    def check_in(self, package: Package, file: RclpyFile) -> Iterator[Diagnostic]:
         seen: set[ast.AST] = set()
         executions = (*in_callbacks(file), *in_constructors(file), *in_tasks(file))
         for executed in executions:
-            for node, what, client in _waits(file, executed.function):
+            waits = (
+                *_waits(file, executed.function),
+                *_waits_elsewhere(package, file, executed.function),
+            )
+            for node, what, client in waits:
                 if node in seen:
                     continue
                 reason = _deadlock(file, executed, client)
@@ -235,16 +260,53 @@ def _waits(file: RclpyFile, function: ast.AST) -> Iterator[tuple[ast.AST, str, E
                 class_, what = _BLOCKING[method]
                 if class_of(file, asked) == class_ and not _has_timeout(node):
                     yield node, f"waits for {what}", client_at(file, asked)
-            case ast.While(test=test) if not _ends_at_once(file, node):
+            case ast.While(test=test) if not _ends_at_once(file.module, node):
                 future = _awaited(file, test)
                 if future is not None and "spin" not in ast.unparse(node):
                     yield node, "busy-waits for a future", client_of(file, future)
 
 
-def _ends_at_once(file: RclpyFile, loop: ast.While) -> bool:
+def _waits_elsewhere(
+    package: Package, file: RclpyFile, function: ast.AST
+) -> Iterator[tuple[ast.AST, str, Entity | None]]:
+    """Yield calls of functions of other modules that wait for a client of this file."""
+    for call in file.module.below(function, ast.Call):
+        module, _, name = (file.module.qualified_name(call.func) or "").rpartition(".")
+        if module and file.is_own_module(module):
+            clients = [client_at(file, given) for given in call.args]
+            path = file_of(package, module)
+            if any(clients) and path and name in _waiting(package, path):
+                yield call, f"waits for a response in {name}()", next(filter(None, clients))
+
+
+@fact
+def _waiting(package: Package, path: str) -> frozenset[str]:
+    """Return the functions of a file that wait for the response to a client that they are given."""
+    module = package.module(path)
+    return frozenset(
+        function.name
+        for function in module.function_nodes
+        for loop in module.below(function, ast.While)
+        for asked in [_asked(loop.test)]
+        if asked and not _ends_at_once(module, loop) and "spin" not in ast.unparse(loop)
+        for assigned in module.below(function, ast.Assign)
+        if ast.unparse(assigned.targets[0]) == asked
+        for given in [arg.arg for arg in function.args.args]
+        if ast.unparse(assigned.value).startswith(f"{given}.call_async(")
+    )
+
+
+def _asked(test: ast.expr) -> str:
+    match test:
+        case ast.UnaryOp(op=ast.Not(), operand=ast.Call(func=ast.Attribute(attr="done") as done)):
+            return ast.unparse(done.value)
+    return ""
+
+
+def _ends_at_once(module: PythonModule, loop: ast.While) -> bool:
     """Tell whether a loop is left in its first pass at the latest."""
     leaves = any(isinstance(item, ast.Break | ast.Return | ast.Raise) for item in loop.body)
-    return leaves and not any(file.module.below(loop, ast.Continue))
+    return leaves and not any(module.below(loop, ast.Continue))
 
 
 def _has_timeout(call: ast.Call) -> bool:
