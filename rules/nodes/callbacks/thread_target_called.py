@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import ast
+import re
 from collections.abc import Iterator, Sequence
 
-from scaffold.api import Diagnostic, Example, Package, RclpyRule
+from scaffold.api import Diagnostic, Example, Package, RclpyRule, Report, Severity
 from scaffold.api.python import is_guarded_by
 from scaffold.api.rclpy import RclpyFile, Timer, is_used_elsewhere
 
@@ -38,6 +39,7 @@ class ThreadTargetCalled(RclpyRule):
 
     code = "ND064"
     name = "thread-target-called"
+    other_severities = {Severity.WARNING: "a thread that never ends"}
     examples = (
         Example("passed, awaited", {"talker.py": _NODE.format("", "0.1", "await ")}),
         Example(
@@ -120,6 +122,31 @@ class ThreadTargetCalled(RclpyRule):
             },
             "10:33: spins here, not in the thread; write target=rclpy.spin, args=(node,)",
         ),
+        Example(
+            "a thread that nothing ends, one that ends with the program, and a number for a tuple",
+            {
+                "reader.py": "from threading import Thread\nimport time\n\n"
+                "from rclpy.node import Node\n\n\n"
+                "class Reader(Node):\n"
+                "    def __init__(self):\n"
+                "        super().__init__('reader')\n"
+                "        period = 0.1\n"
+                "        Thread(target=self.read).start()\n"
+                "        Thread(target=self.wait, args=(period)).start()\n\n"
+                "    def wait(self, period):\n"
+                "        time.sleep(period)\n\n"
+                "    def read(self):\n"
+                "        while True:\n"
+                "            self.value = time.monotonic()\n"
+                "            time.sleep(0.1)\n"
+            },
+            Report(
+                "11:9",
+                "this thread never ends, so the program outlives Ctrl-C; write daemon=True",
+                severity=Severity.WARNING,
+            ),
+            "12:40: (period) is not a tuple: TypeError in the thread; write (period,)",
+        ),
     )
 
     def check_in(self, package: Package, file: RclpyFile) -> Iterator[Diagnostic]:
@@ -129,6 +156,11 @@ class ThreadTargetCalled(RclpyRule):
                 yield self.report(file.module.location(call), message)
             for node, problem in _problems(file, call):
                 yield self.report(file.module.location(node), problem)
+            if _is_endless(file, call):
+                message = (
+                    "this thread never ends, so the program outlives Ctrl-C; write daemon=True"
+                )
+                yield self.report(file.module.location(call), message, severity=Severity.WARNING)
         for node, problem in _unawaited(package, file):
             yield self.report(file.module.location(node), problem)
         for timer in file.timers:
@@ -156,6 +188,8 @@ def _is_single(file: RclpyFile, node: ast.expr) -> bool:
     """Return whether the arguments of a thread are certainly a single object, not a tuple."""
     if isinstance(node, ast.Constant):
         return not isinstance(node.value, str) or len(node.value) != 1
+    if type(file.evaluator.evaluate(node)) in {int, float, bool}:
+        return True
     return isinstance(node, ast.Name | ast.Attribute) and file.owner_of(node) is not None
 
 
@@ -186,6 +220,29 @@ def _are_idle(
 
 _IDLE = frozenset({"daemon", "name", "join", "is_alive"})
 """What does not start a thread."""
+
+
+_ENDING = re.compile(
+    r"\b(?:publish|rclpy|call|call_async|get_clock|get_parameter|sendTransform|rate|exit|_exit"
+    r"|raise|break|return|yield|spin\w*|is_set|recv|accept|get)\b"
+)
+"""Matches what leaves a loop, or fails in it once rclpy is shut down or the other side closes."""
+
+
+def _is_endless(file: RclpyFile, thread: ast.Call) -> bool:
+    """Tell whether a thread that is no daemon runs a loop that nothing ends."""
+    words = {word.arg: word.value for word in thread.keywords}
+    if (
+        "target" not in words
+        or "daemon" in words
+        or file.module.mentions("daemon", "_exit", "kill")
+    ):
+        return False
+    function = file.callback(words["target"]).function
+    last = function.body[-1] if isinstance(function, ast.FunctionDef) else None
+    is_loop = isinstance(last, ast.While) and isinstance(last.test, ast.Constant)
+    reached = file.reached(function) if function is not None and is_loop else ()
+    return is_loop and not any(_ENDING.search(file.module.text(item)) for item in reached)
 
 
 def _problems(file: RclpyFile, thread: ast.Call) -> Iterator[tuple[ast.AST, str]]:
