@@ -21,11 +21,11 @@ _NODE = (
 
 
 class ComparisonWithoutEffect(PythonRule):
-    """The result of a comparison is not used: ``==`` where ``=`` was intended.
+    """The result of a comparison is not used: ``==`` for ``=``, or ``a == 1 or 2``.
 
-    **Why.** Nothing is assigned, and Python does not complain: the value stays as it was.
+    **Why.** Nothing is assigned, or the condition is always true, and Python does not complain.
 
-    **Fix.** ``self.limit = msg.data``.
+    **Fix.** ``self.limit = msg.data``; ``if word in ('stop', 'halt'):``.
 
     **Source.** Python language reference, "Expression statements".
     """
@@ -39,6 +39,15 @@ class ComparisonWithoutEffect(PythonRule):
             "compared",
             {"limiter.py": _NODE.format("self.limit == msg.data")},
             "12:9: self.limit is compared, and the result is dropped; write self.limit = ...",
+        ),
+        Example(
+            "one of two words",
+            {"limiter.py": _NODE.format("return 1 if msg.data == 'a' or msg.data == 'b' else 2")},
+        ),
+        Example(
+            "a word, or the truth of another one",
+            {"limiter.py": _NODE.format("return 1 if msg.data == 'a' or 'b' else 2")},
+            "12:40: or 'b' makes this condition true always; write msg.data in (...)",
         ),
         Example(
             "compared in a test, which TS043 reports",
@@ -55,3 +64,19 @@ class ComparisonWithoutEffect(PythonRule):
                     text = module.text(left)
                     message = f"{text} is compared, and the result is dropped; write {text} = ..."
                     yield self.report(module.location(statement), message)
+        for choice in module.walk(ast.BoolOp):
+            match choice:
+                case ast.BoolOp(
+                    op=ast.Or(),
+                    values=[ast.Compare(left=asked, ops=[ast.Eq()]), *_, ast.Constant() as last],
+                ) if last.value and _is_condition(module, choice):
+                    message = f"or {module.text(last)} makes this condition true always"
+                    hint = f"write {module.text(asked)} in (...)"
+                    yield self.report(module.location(last), f"{message}; {hint}")
+
+
+def _is_condition(module: PythonModule, node: ast.expr) -> bool:
+    parent = module.parent(node)
+    while isinstance(parent, ast.UnaryOp | ast.BoolOp):
+        node, parent = parent, module.parent(parent)
+    return isinstance(parent, ast.If | ast.While | ast.IfExp) and parent.test is node
