@@ -28,6 +28,7 @@ _COMPARED = (
     "        self.declare_parameter('rate', 1.0)\n"
     "        self.on = self.get_parameter('on').value {}\n"
 )
+_NO = frozenset({"false", "no", "off", "0"})
 _SCALARS: Mapping[str, tuple[type, ...]] = {
     **dict.fromkeys(("bool", "double", "integer"), (bool, int, float)),
     "string": (str,),
@@ -162,6 +163,23 @@ class ParameterValueUnfit(RclpyRule):
             ),
             fixed={"talker.py": _VARIABLES.format("double_value")},
         ),
+        Example(
+            "a text as a condition",
+            {
+                "saver.py": "from rclpy.node import Node\n\n\n"
+                "class Saver(Node):\n    def __init__(self):\n"
+                "        super().__init__('saver')\n"
+                "        self.declare_parameter('save', 'false')\n"
+                "        self.declare_parameter('folder', '')\n"
+                "        self.save = self.get_parameter('save').value\n"
+                "        self.folder = self.get_parameter('folder').value\n"
+                "        if self.save and self.folder:\n"
+                "            self.get_logger().info('saves')\n"
+                "        if self.save == 'true':\n"
+                "            self.get_logger().info('saves')\n"
+            },
+            "11:12: 'save' is the text 'false', which is true; declare False",
+        ),
     )
 
     def check_in(self, package: Package, file: RclpyFile) -> Iterator[Diagnostic]:
@@ -175,6 +193,8 @@ class ParameterValueUnfit(RclpyRule):
             problem = _never_equal(package, file, comparison)
             if problem:
                 yield self.report(file.module.location(comparison), problem)
+        for node, problem in _truths(package, file):
+            yield self.report(file.module.location(node), problem)
 
     def _check_fields(self, package: Package, file: RclpyFile) -> Iterator[Diagnostic]:
         for name in FIELDS:
@@ -235,6 +255,23 @@ def _operand(
     if kind in _NUMBERS and isinstance(value, str) and isinstance(operator, ast.Add):
         return f"{name!r} is declared as {kind}, but {value!r} is a str: TypeError"
     return ""
+
+
+def _truths(package: Package, file: RclpyFile) -> Iterator[tuple[ast.expr, str]]:
+    """Yield conditions that are a parameter which a text switches on and off."""
+    branches: list[ast.If | ast.IfExp] = [*file.module.walk(ast.If), *file.module.walk(ast.IfExp)]
+    for branch in branches:
+        test = branch.test.operand if isinstance(branch.test, ast.UnaryOp) else branch.test
+        for node in test.values if isinstance(test, ast.BoolOp) else [test]:
+            name, kind = _declared(package, file, node) if _is_value(node) else ("", "")
+            defaults = {item.default for item in file.parameters if item.name == name}
+            words = [item for item in defaults if isinstance(item, str)]
+            if kind == "string" and len(words) == len(defaults) == 1 and words[0].lower() in _NO:
+                yield node, f"{name!r} is the text {words[0]!r}, which is true; declare False"
+
+
+def _is_value(node: ast.expr) -> bool:
+    return isinstance(node, ast.Name | ast.Attribute)
 
 
 def _never_equal(package: Package, file: RclpyFile, comparison: ast.Compare) -> str:
