@@ -220,6 +220,23 @@ class UnitDiffers(MessageRule):
                 "    return LaserScan(angle_min=start_deg, angle_max=math.radians(end_deg))\n"
             },
         ),
+        Example(
+            "an attribute that starts with zero, and gets degrees in a callback",
+            {
+                "wind.py": "import math\n\nfrom geometry_msgs.msg import Vector3\n"
+                "from rclpy.node import Node\n\n\n"
+                "class Wind(Node):\n"
+                "    def __init__(self):\n"
+                "        super().__init__('wind')\n"
+                "        self.course = 0.0\n\n"
+                "    def on_course(self, msg):\n"
+                "        self.course = math.degrees(msg.data)\n\n"
+                "    def wind(self):\n"
+                "        return Vector3(x=math.cos(self.course))\n"
+            },
+            "16:35: the argument of math.cos() is in radians, this is in degrees; use "
+            "math.radians()",
+        ),
     )
 
     def check_file(self, types: MessageTypes) -> Iterator[Diagnostic]:
@@ -318,7 +335,7 @@ def _unit_of_name(
     types: MessageTypes, node: ast.Name | ast.Attribute, depth: int
 ) -> tuple[str, bool]:
     """Return the unit of a name: that of the only value it gets, or the one in it."""
-    values = _values(types, node)
+    values = [value for value in _values(types, node) if not _is_zero(value)]
     units = {_unit(types, value, depth + 1) for value in values}
     stated = {unit for unit, is_by_name in units if unit and not is_by_name}
     if stated:
@@ -329,6 +346,11 @@ def _unit_of_name(
     if named:
         return ("" if is_computed and len(values) > 1 else named), True
     return units.pop() if len(units) == 1 else ("", False)
+
+
+def _is_zero(value: ast.expr) -> bool:
+    """Tell whether a value is the same in every unit, as what an attribute starts with."""
+    return isinstance(value, ast.Constant) and not value.value
 
 
 def _values(types: MessageTypes, node: ast.Name | ast.Attribute) -> list[ast.expr]:
