@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from difflib import SequenceMatcher
 
@@ -32,6 +33,8 @@ _SIMILAR = 0.75
 """What the names of an action have in common: few packages serve two of a type."""
 _ALIKE = 4
 """Length that a name needs before a different letter counts as a typo."""
+
+_WORD = re.compile(r"[^\W_]+")
 
 
 class TopicNameDiffers(Rule):
@@ -66,6 +69,14 @@ class TopicNameDiffers(Rule):
                 "b.py": _NODE.format("subscription(String, 'chater', print, 10)"),
             },
             "b.py:8:42: no publisher for 'chater'; did you mean 'chatter' (a.py:8)?",
+        ),
+        Example(
+            "the words of a topic in another order",
+            {
+                "a.py": _NODE.format("publisher(String, 'scan_filtered', 10)"),
+                "b.py": _NODE.format("subscription(String, 'filtered/scan', print, 10)"),
+            },
+            "b.py:8:42: no publisher for 'filtered/scan'; did you mean 'scan_filtered' (a.py:8)?",
         ),
         Example(
             "private to the node that publishes it",
@@ -185,7 +196,7 @@ class TopicNameDiffers(Rule):
 
 
 def _is_slip(subscription: NamedEndpoint, publisher: NamedEndpoint) -> bool:
-    """Return whether two names of the same type differ by one letter or in case."""
+    """Return whether two names of the same type differ by one letter, in case or in word order."""
     name, other = subscription.name.strip("/"), publisher.name.strip("/")
     if (
         subscription.interface is None
@@ -193,7 +204,7 @@ def _is_slip(subscription: NamedEndpoint, publisher: NamedEndpoint) -> bool:
         or name == other
     ):
         return False
-    if name.lower() == other.lower():
+    if sorted(_WORD.findall(name.lower())) == sorted(_WORD.findall(other.lower())):
         return True
     short, long = sorted((name, other), key=len)
     if len(short) < _SHORTEST or len(long) - len(short) > 1 or any(map(str.isdigit, name + other)):
