@@ -19,6 +19,8 @@ _TAKING_OTHERS: Mapping[str, str] = {
 """Functions that do not take an ``array.array``, and what to do instead."""
 _CLOUD = "sensor_msgs_py.point_cloud2.read_points"
 _COLUMNS = 2
+_IN_COLOR = frozenset({"bgr8", "rgb8", "bgra8", "rgba8", "bgr16", "rgb16", "8UC3"})
+_IN_GRAY = frozenset({"mono8", "mono16", "32FC1", "16UC1", "8UC1"})
 
 
 def problems(types: MessageTypes) -> Iterator[tuple[ast.expr, str]]:
@@ -28,6 +30,7 @@ def problems(types: MessageTypes) -> Iterator[tuple[ast.expr, str]]:
     yield from _arrays_given(types)
     yield from _columns_of_clouds(types)
     yield from _elements_indexed(types)
+    yield from _shapes_unpacked(types)
 
 
 def _arrays_as_numbers(types: MessageTypes) -> Iterator[tuple[ast.expr, str]]:
@@ -143,3 +146,35 @@ def kind(type_: FieldType | None) -> str:
     if type_.name in TEXTS:
         return "str"
     return "int" if type_.name in INTEGER_RANGES else "bool"
+
+
+def _shapes_unpacked(types: MessageTypes) -> Iterator[tuple[ast.expr, str]]:
+    """Yield shapes of images of cv_bridge that are unpacked into too many or too few names."""
+    for assigned in types.module.walk(ast.Assign):
+        match assigned:
+            case ast.Assign(
+                targets=[ast.Tuple(elts=names)],
+                value=ast.Attribute(attr="shape", value=image) as shape,
+            ) if not any(isinstance(name, ast.Starred) for name in names):
+                encoding = _encoding(types, image)
+                text = types.module.text(shape)
+                if encoding in _IN_COLOR and len(names) != len(("rows", "columns", "channels")):
+                    problem = f"{text} has three values for {encoding}: ValueError"
+                    yield shape, f"{problem}; write {text}[:2] for rows and columns"
+                elif encoding in _IN_GRAY and len(names) != _COLUMNS:
+                    yield shape, f"{text} has two values for {encoding}: ValueError"
+
+
+def _encoding(types: MessageTypes, image: ast.expr) -> object:
+    """Return the encoding of an image that cv_bridge has just made, also in a method of its own."""
+    made: ast.expr | None = types.file.evaluator.single_value(image)
+    if isinstance(made, ast.Call):
+        function = types.file.callback(made.func).function
+        if isinstance(function, ast.FunctionDef):
+            last = function.body[-1]
+            made = last.value if isinstance(last, ast.Return) else None
+    match made:
+        case ast.Call(func=ast.Attribute(attr="imgmsg_to_cv2"), args=args, keywords=words):
+            given = [*args[1:], *(word.value for word in words if word.arg == "desired_encoding")]
+            return types.file.evaluator.evaluate(given[0]) if len(given) == 1 else None
+    return None

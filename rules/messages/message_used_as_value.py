@@ -241,6 +241,27 @@ class MessageUsedAsValue(MessageRule):
             "21:19: read_points() returns an array with one dimension, whose fields have names: "
             "IndexError; write ['x'], or use read_points_numpy()",
         ),
+        Example(
+            "the shape of a color image",
+            {
+                "middle.py": "from cv_bridge import CvBridge\nfrom rclpy.node import Node\n"
+                "from sensor_msgs.msg import Image\n\n\n"
+                "class Middle(Node):\n"
+                "    def __init__(self):\n"
+                "        super().__init__('middle')\n"
+                "        self.bridge = CvBridge()\n"
+                "        self.create_subscription(Image, 'image', self.on_image, 10)\n\n"
+                "    def decode(self, msg):\n"
+                "        return self.bridge.imgmsg_to_cv2(msg, 'bgr8')\n\n"
+                "    def on_image(self, msg):\n"
+                "        image = self.decode(msg)\n"
+                "        rows, columns = image.shape\n"
+                "        rows, columns = image.shape[:2]\n"
+                "        rows, columns, _ = image.shape\n"
+            },
+            "17:25: image.shape has three values for bgr8: ValueError; write image.shape[:2] for "
+            "rows and columns",
+        ),
     )
 
     def check_file(self, types: MessageTypes) -> Iterator[Diagnostic]:

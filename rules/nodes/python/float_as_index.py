@@ -74,6 +74,20 @@ class FloatAsIndex(PythonRule):
                 "    return np.arange(count / 2), files[folder / 'a.yaml']\n"
             },
         ),
+        Example(
+            "pixels of OpenCV, and the size of an array",
+            {
+                "mark.py": "import cv2\nimport numpy as np\n\n\n"
+                "def mark(image):\n"
+                "    height, width = image.shape[:2]\n"
+                "    middle = (width / 2, height // 2)\n"
+                "    cv2.circle(image, middle, 5, (0, 0, 255), -1)\n"
+                "    cv2.line(image, (0, 0), (width // 2, int(height / 2)), (0, 0, 255))\n"
+                "    return np.zeros((height, width / 2))\n"
+            },
+            "7:15: cv2.circle() takes no float here: it fails; divide with //",
+            "10:30: numpy.zeros() takes no float here: it fails; divide with //",
+        ),
     )
 
     def check_in(self, package: Package, module: PythonModule) -> Iterator[Diagnostic]:
@@ -91,6 +105,21 @@ class FloatAsIndex(PythonRule):
                     message = "range() takes no float: TypeError; divide with //"
                     yield self.report(module.location(given), message)
 
+        for name, places in _OF_INTEGERS.items():
+            for call in module.calls_of(name):
+                for at in places:
+                    for given in call.args[at : at + 1]:
+                        yield from self._check_pair(file, name, given)
+
+    def _check_pair(self, file: RclpyFile, name: str, given: ast.expr) -> Iterator[Diagnostic]:
+        """Check a position or size that is a pair of integers."""
+        pair = file.evaluator.single_value(given)
+        for part in pair.elts if isinstance(pair, ast.Tuple) else ():
+            if _is_quotient(file, part) and not is_handled(file.module, given, "TypeError"):
+                message = f"{name}() takes no float here: it fails; divide with //"
+                yield self.report(file.module.location(part), message)
+                break
+
     def _check_slices(self, file: RclpyFile) -> Iterator[Diagnostic]:
         module = file.module
         for node in module.walk(ast.Slice):
@@ -101,6 +130,15 @@ class FloatAsIndex(PythonRule):
                     message = "a float cannot bound a slice: TypeError; divide with //"
                     if not is_handled(module, node, "TypeError"):
                         yield self.report(module.location(bound), message)
+
+
+_OF_INTEGERS = {
+    **dict.fromkeys(("cv2.circle", "cv2.drawMarker", "cv2.resize", "cv2.ellipse"), (1,)),
+    **dict.fromkeys(("cv2.line", "cv2.rectangle", "cv2.arrowedLine"), (1, 2)),
+    "cv2.putText": (2,),
+    **dict.fromkeys(("numpy.zeros", "numpy.ones", "numpy.empty", "numpy.full"), (0,)),
+}
+"""Functions of OpenCV and NumPy that take positions or sizes, and where."""
 
 
 def _is_of_labels(module: PythonModule, node: ast.Slice) -> bool:
