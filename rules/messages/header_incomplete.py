@@ -141,6 +141,28 @@ class HeaderIncomplete(MessageRule):
         Example(
             "possibly set elsewhere", {"talker.py": _NODE.format("        self.stamp(reading)\n")}
         ),
+        Example(
+            "a transform that a function makes",
+            {
+                "odom.py": "from geometry_msgs.msg import TransformStamped\n"
+                "from nav_msgs.msg import Odometry\nfrom rclpy.node import Node\n"
+                "from tf2_ros import TransformBroadcaster\n\n\n"
+                "def transform_of(odom):\n"
+                "    transform = TransformStamped()\n"
+                "    transform.header = odom.header\n"
+                "    transform.transform.rotation = odom.pose.pose.orientation\n"
+                "    return transform\n\n\n"
+                "class Odom(Node):\n"
+                "    def __init__(self):\n"
+                "        super().__init__('odom')\n"
+                "        self.broadcaster = TransformBroadcaster(self)\n"
+                "        self.create_subscription(Odometry, 'odom', self.on_odom, 10)\n\n"
+                "    def on_odom(self, odom):\n"
+                "        self.broadcaster.sendTransform(transform_of(odom))\n"
+            },
+            "8:17: geometry_msgs/msg/TransformStamped is sent in line 21 without a child frame; "
+            "set child_frame_id",
+        ),
     )
 
     def check_in(self, package: Package, types: MessageTypes) -> Iterator[Diagnostic]:

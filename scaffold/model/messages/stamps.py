@@ -66,17 +66,8 @@ def unstamped(types: MessageTypes) -> Iterator[Unstamped]:
     use it.
     """
     seen: set[ast.Call] = set()
-    index = types.module.index
-    for method in [*index.attributes("publish"), *index.attributes("sendTransform")]:
-        sent = types.module.parent(method)
-        if not isinstance(sent, ast.Call) or sent.func is not method or len(sent.args) != 1:
-            continue
-        source = _returned_by(types, sent.args[0]) or sent.args[0]
-        made = types.file.evaluator.single_value(source)
-        if not isinstance(made, ast.Call) or made in seen or not _is_sender(types, method):
-            continue
-        message = _message(types, made)
-        if message is None or not _has_header(message):
+    for method, made, message, sent, source in _sent(types):
+        if made in seen or not _has_header(message):
             continue
         try:
             given = _follow(types, made, source, message)
@@ -91,11 +82,11 @@ def unstamped(types: MessageTypes) -> Iterator[Unstamped]:
 def childless(types: MessageTypes) -> Iterator[Unstamped]:
     """Yield the odometry and the transforms of a file that are sent without a child frame."""
     seen: set[ast.Call] = set()
-    for method, made, message, sent in _sent(types):
+    for method, made, message, sent, source in _sent(types):
         if made not in seen and message.name in _WITH_CHILD:
             with suppress(_Doubt):
                 topic = _topic(types, method)
-                if not _names_child(types, made, sent.args[0], needs_twist="odom" not in topic):
+                if not _names_child(types, made, source, needs_twist="odom" not in topic):
                     seen.add(made)
                     yield Unstamped(made, message, sent, "child_frame_id")
 
@@ -106,12 +97,12 @@ def lacking(types: MessageTypes) -> Iterator[Unstamped]:
     Each once, for the first such field.
     """
     seen: set[ast.Call] = set()
-    for _, made, message, sent in _sent(types):
+    for _, made, message, sent, source in _sent(types):
         if made in seen or message.name not in _NEEDED or made.args:
             continue
         data, needed = _NEEDED[message.name]
         with suppress(_Doubt):
-            given = _fields(types, made, sent.args[0])
+            given = _fields(types, made, source)
             missing = [field for field in needed if field not in given]
             if data in given and missing:
                 seen.add(made)
@@ -120,18 +111,23 @@ def lacking(types: MessageTypes) -> Iterator[Unstamped]:
 
 def _sent(
     types: MessageTypes,
-) -> Iterator[tuple[ast.Attribute, ast.Call, MessageClass, ast.Call]]:
-    """Yield the sent messages: the method, the constructor call, its class, the call that sends."""
+) -> Iterator[tuple[ast.Attribute, ast.Call, MessageClass, ast.Call, ast.expr]]:
+    """Yield the sent messages.
+
+    Each with the method, the constructor call, its class, the call that sends, and what is sent or
+    returned for it.
+    """
     index = types.module.index
     for method in [*index.attributes("publish"), *index.attributes("sendTransform")]:
         sent = types.module.parent(method)
         if not isinstance(sent, ast.Call) or sent.func is not method or len(sent.args) != 1:
             continue
-        made = types.file.evaluator.single_value(sent.args[0])
+        source = _returned_by(types, sent.args[0]) or sent.args[0]
+        made = types.file.evaluator.single_value(source)
         if isinstance(made, ast.Call) and _is_sender(types, method):
-            message = types.class_of(made.func)
+            message = _message(types, made)
             if message is not None:
-                yield method, made, message, sent
+                yield method, made, message, sent, source
 
 
 def _fields(types: MessageTypes, made: ast.Call, sent: ast.expr) -> set[str]:
@@ -145,6 +141,8 @@ def _fields(types: MessageTypes, made: ast.Call, sent: ast.expr) -> set[str]:
             case ast.Attribute(attr=field):
                 result.add(field)
             case ast.Call(func=ast.Attribute(attr=name)) if name in _SENDS:
+                pass
+            case ast.Return():
                 pass
             case _:
                 raise _Doubt
@@ -167,6 +165,8 @@ def _names_child(types: MessageTypes, made: ast.Call, sent: ast.expr, *, needs_t
             case ast.Attribute(attr=field):
                 has_twist = has_twist or field in {"twist", "transform"}
             case ast.Call(func=ast.Attribute(attr=name)) if name in _SENDS:
+                pass
+            case ast.Return():
                 pass
             case _:
                 raise _Doubt
