@@ -108,9 +108,27 @@ class AssertMethodMisused(TestRule):
             {"test/test_text.py": _TEST.format("assertTrue").replace("'A'", "['A']")},
             "6:9: assertTrue checks one value, the second is a message; use assertEqual",
         ),
+        Example(
+            "what raises, called too early and passed",
+            {
+                "test/test_text.py": "import pytest\n\n\ndef test_number():\n"
+                "    pytest.raises(ValueError, int('a'))\n"
+                "    pytest.raises(ValueError, int, 'a')\n"
+            },
+            "5:31: int() is called before raises() can watch: the test fails; pass int itself",
+        ),
     )
 
     def check_file(self, module: PythonModule) -> Iterator[Diagnostic]:
+        for call in module.walk(ast.Call):
+            match call:
+                case ast.Call(
+                    func=ast.Attribute(attr="raises" | "assertRaises" as name),
+                    args=[_, ast.Call(func=ast.Name() | ast.Attribute() as func) as made, *_],
+                ) if not _makes_function(module, func):
+                    called = module.text(func)
+                    message = f"{called}() is called before {name}() can watch: the test fails"
+                    yield self.report(module.location(made), f"{message}; pass {called} itself")
         for class_ in module.classes.values():
             if is_test_case(module, class_.node):
                 yield from self._check_calls(module, class_.node)
@@ -144,6 +162,17 @@ class AssertMethodMisused(TestRule):
             edit = Edit(module.source.path, end - len(name), end, use)
             fix = Fix(f"write {use}", (edit,))
         return self.report(module.location(method), f"{message}; use {use}", fix, severity=severity)
+
+
+def _makes_function(module: PythonModule, func: ast.expr) -> bool:
+    """Tell whether a call may return a function: ``partial(drive, -1.0)``."""
+    name = module.text(func).rpartition(".")[2]
+    return name in {"partial", "methodcaller", "itemgetter", "attrgetter"} or any(
+        isinstance(node, ast.Lambda | ast.FunctionDef) and node is not function
+        for function in module.function_nodes
+        if function.name == name
+        for node in ast.walk(function)
+    )
 
 
 def _compares(given: list[ast.expr]) -> bool:

@@ -106,6 +106,17 @@ class FixtureMisused(Rule):
             {"test/test_text.py": _TEST_MADE.format("function", "    yield 'b'\n")},
             "9:2: the fixture text yields twice: pytest takes one value",
         ),
+        Example(
+            "a fixture with a name of its own",
+            {
+                "test/conftest.py": "import pytest\n\n\n@pytest.fixture(name='motor')\n"
+                "def make_motor():\n    return 'motor'\n",
+                "test/test_motor.py": "def test_name(motor):\n    assert motor == 'motor'\n\n\n"
+                "def test_length(make_motor):\n    assert len(make_motor) == 5\n",
+            },
+            "test/test_motor.py:5:5: there is no fixture 'make_motor': make_motor() is the "
+            "fixture 'motor'",
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
@@ -169,6 +180,9 @@ def _missing(
         return f"{test.node.name} is not a method: pytest finds no fixture 'self'"
     if name in _BUILT_IN:
         return ""
+    renamed = [it.name for it in available.values() if it.node.name == name]
+    if renamed:
+        return f"there is no fixture {name!r}: {name}() is the fixture {renamed[0]!r}"
     if name in module.functions:
         return f"{name}() is not a fixture: pytest finds none with this name; add @pytest.fixture"
     closest = get_close_matches(name, available, 1, 0.75)

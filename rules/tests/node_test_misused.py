@@ -12,6 +12,7 @@ from scaffold.api.tests import (
     arguments,
     constructed_class,
     node_tests,
+    own_fixtures,
     test_functions,
 )
 
@@ -83,10 +84,23 @@ class NodeTestMisused(Rule):
             "12:5: nothing spins the node while the test sleeps: no callback runs, and line 13 "
             "fails; call rclpy.spin_once() in a loop instead",
         ),
+        Example(
+            "a fixture for two tests that does not shut rclpy down",
+            {
+                "test/test_two.py": "import pytest\nimport rclpy\n\n\n@pytest.fixture\n"
+                "def node():\n    rclpy.init()\n    node = rclpy.create_node('two')\n"
+                "    yield node\n    node.destroy_node()\n\n\n"
+                "def test_name(node):\n    assert node.get_name() == 'two'\n\n\n"
+                "def test_space(node):\n    assert node.get_namespace() == '/'\n"
+            },
+            "7:5: each test calls init() again, but nothing calls shutdown(): the second one "
+            "fails; call rclpy.shutdown() after the yield",
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         yield from self._check_init(package)
+        yield from self._check_fixtures(package)
         yield from self._check_spin(package)
 
     def _check_init(self, package: Package) -> Iterator[Diagnostic]:
@@ -98,6 +112,20 @@ class NodeTestMisused(Rule):
                         problem = _problem(module, test, node, texts, seen)
                         if problem:
                             yield self.report(module.location(node), problem)
+
+    def _check_fixtures(self, package: Package) -> Iterator[Diagnostic]:
+        for module, texts in node_tests(package):
+            if "shutdown" in texts:
+                continue
+            asked = [name for test in test_functions(module) for name in arguments(test.node)]
+            for fixture in own_fixtures(module):
+                inits = [it for it in _calls(fixture.node) if _is_init(module, it)]
+                if inits and fixture.scope == "function" and asked.count(fixture.name) > 1:
+                    message = (
+                        "each test calls init() again, but nothing calls shutdown(): the second "
+                        "one fails; call rclpy.shutdown() after the yield"
+                    )
+                    yield self.report(module.location(inits[0]), message)
 
     def _check_spin(self, package: Package) -> Iterator[Diagnostic]:
         for module, texts in node_tests(package):
@@ -138,6 +166,10 @@ def _problem(
         if is_node and "spin" not in texts and _is_awaited(test, call):
             return "nothing spins in this test, so the callback is never called"
     return ""
+
+
+def _is_init(module: PythonModule, call: ast.Call) -> bool:
+    return module.qualified_name(call.func) == "rclpy.init" and not call.keywords
 
 
 def _is_awaited(test: TestFunction, call: ast.Call) -> bool:
