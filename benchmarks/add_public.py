@@ -3,9 +3,9 @@
     python benchmarks/add_public.py [--every N] [--build] [--diffs FILE] [--extra EXTRA] DIR...
 
 With ``--extra launch`` it runs ``add launch`` instead; packages for which an extra has nothing to
-write are passed over.
+write are skipped.
 
-Printed per package: the lines that existing files gained and lost, what the checker says only
+Printed per package: the lines added to and removed from existing files, new findings
 afterwards, what is left to do by hand, whether a second run changes anything, and, with
 ``--build``, whether colcon builds it and installs the new program. Only packages that build
 without the new node are built with it. Then the sums.
@@ -37,7 +37,7 @@ from scaffold.smoke import environment
 
 NODE = "extra_talker"
 PASSED_OVER = ("has nothing to write", "already exists and differs; overwrite")
-"""What ``add`` says where an extra makes no sense, or is there."""
+"""Messages of ``add`` for extras that do not apply, or exist already."""
 SKIPPED = shutil.ignore_patterns(".git", "build", "install", "log")
 BUILDERS = ("ament_cmake", "ament_python")
 
@@ -49,13 +49,13 @@ class Outcome(NamedTuple):
     build_type: str
     code: int
     added: int
-    """Lines in files that were there."""
+    """Lines added to existing files."""
     removed: int
     by_hand: int
     notes: list[str]
     """The new findings."""
     is_stable: bool
-    """The second run changes nothing."""
+    """Whether the second run changes nothing."""
     built: str
     """``builds``, ``broken``, or why it was not built."""
     error: str
@@ -64,7 +64,7 @@ class Outcome(NamedTuple):
 
     @property
     def is_good(self) -> bool:
-        """Tell whether nothing is to be complained about."""
+        """Tell whether there is no problem."""
         failed = self.code not in {exit_codes.CLEAN, exit_codes.FINDINGS}
         return not failed and self.is_stable and not self.notes and self.built != "broken"
 
@@ -110,7 +110,7 @@ def judge(
 
 
 def counts(diff: str) -> tuple[int, int]:
-    """Return the lines that a diff adds to and removes from files that were there."""
+    """Return the numbers of lines that a diff adds to and removes from existing files."""
     added = removed = 0
     is_new = False
     for line in diff.splitlines():

@@ -43,7 +43,7 @@ Oracle = Callable[[Path], set[oracles.Finding]]
 CRASH: Finding = ("", 0, "crash")
 
 NESTED = "LY001"
-"""Covers what lies in a package inside of the package: the linters go in, colcon does not."""
+"""Covers nested packages, which the linters check but colcon ignores."""
 WHOLE_FILE = ("convention/filename", "package/consistency")
 
 
@@ -71,7 +71,7 @@ def rejected_files(package: Package, _diagnostics: list[Diagnostic]) -> set[Find
 
 
 def cmake_findings(package: Package, _diagnostics: list[Diagnostic]) -> set[Finding]:
-    """Return what the scanner finds, as the linter counts lines."""
+    """Return the findings of our scanner, with line numbers as in the linter."""
     return {
         (finding.source.path, 0 if name in WHOLE_FILE else finding.location.line, name)
         for name in lint_cmake.FILTERS

@@ -1,4 +1,4 @@
-"""How fast `check` is, as ratios within one run (machines are noisy, ratios less so).
+"""Measures the speed of `check`, as ratios within one run (ratios are less noisy than times).
 
 Usage: ``python benchmarks/check_speed.py DIRECTORY [--repeat N] [--ament BIN_DIRECTORY]...``
 
@@ -48,10 +48,10 @@ PARTS = ("small", "large", "linters", "growth")
 
 
 class Cost(NamedTuple):
-    """What a command takes."""
+    """The cost of a command."""
 
     seconds: float
-    """CPU time, user and system, of the process and of all that it waited for."""
+    """CPU time, user and system, of the process and its children."""
     megabytes: float
     """Peak memory of the largest process."""
 
@@ -89,7 +89,7 @@ def main() -> None:
 def cost(
     *commands: Sequence[str], repeat: int = 1, before: Callable[[], None] | None = None
 ) -> Cost:
-    """Return what commands take together: the run that other programs disturbed least."""
+    """Return the cost of commands together, the lowest of several runs."""
     costs: list[Cost] = []
     for _ in range(repeat):
         if before is not None:

@@ -1,4 +1,4 @@
-"""What `smoke --cluster` gains: the same packages with one worker, and with several.
+"""Measures the gain of `smoke --cluster`: the same packages with one worker, and with several.
 
 Usage: ``python -m benchmarks.cluster_speed [--packages N] [--workers N] [--duration S]``
 

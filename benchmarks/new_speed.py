@@ -1,4 +1,4 @@
-"""How fast `new` is beside `ros2 pkg create`, both started as a user would, in turn.
+"""Compares the speed of `new` and `ros2 pkg create`, started alternately as users do.
 
 Usage: ``python benchmarks/new_speed.py [--ros2 PROGRAM] [--repeat N]``
 
@@ -25,7 +25,7 @@ from typing import NamedTuple
 
 
 class Cost(NamedTuple):
-    """What a command takes, in seconds."""
+    """The cost of a command in seconds."""
 
     wall: float
     cpu: float
@@ -58,7 +58,7 @@ def _least(measured: Sequence[Cost]) -> Cost:
 
 
 def _commands(ros2: str | None) -> dict[str, list[str]]:
-    """Return the commands by name; each wants the name of a package behind it."""
+    """Return the commands by name, to be completed with a package name."""
     user = ["--maintainer-name", "Ada", "--maintainer-email", "ada@example.com"]
     new = [sys.executable, "-m", "scaffold", "new", *user]
     kinds = ("publisher", "subscriber", "service_server", "service_client", "timer")

@@ -76,7 +76,7 @@ def installed() -> Definitions:
 
 
 def names(definitions: Definitions) -> list[str]:
-    """Return the messages that this Python can import."""
+    """Return the importable messages."""
     return [
         name
         for name in definitions.all_names()

@@ -1,8 +1,8 @@
-"""Measures how the time of what reads text with regular expressions grows with the text.
+"""Measures how the time of regular expressions grows with the size of the text.
 
     .venv/bin/python benchmarks/regex_growth.py
 
-Each text is the worst that its reader was known for; it is doubled until the reader takes a tenth
+Each text is the known worst case of its reader; it is doubled until the reader takes a tenth
 of a second or the text has half a megabyte. A growth of 2 is linear, one of 4 quadratic.
 """
 

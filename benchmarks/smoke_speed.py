@@ -1,4 +1,4 @@
-"""What `smoke` costs beyond the build and the observation, and how right its rates are.
+"""Measures the overhead of `smoke` over the build and the observation, and the error of its rates.
 
 Usage: ``python -m benchmarks.smoke_speed [--repeat N] [--duration S]``
 

@@ -50,7 +50,7 @@ Finding = tuple[str, int, str]
 FLAKE8_LINE = re.compile(r"^(.+?):(\d+):(-?\d+): ([A-Z]+\d+) ", re.MULTILINE)
 INSERTED = (*" \t\n()[]{}:;,.#\\'\"", "    ", "# noqa", '"""', "not ", "import os\n", "pass\n")
 LINES_OF_EDITS = 0.5
-"""The share of edits that are of whole lines; the others are of words."""
+"""The share of edits of whole lines; the others are of words."""
 PEP257_CASE = re.compile(r"^(.+) \((.+):(\d+|-)\)$")
 
 
@@ -129,8 +129,8 @@ def union(flake8: Iterable[Finding], pep257: Iterable[Finding]) -> set[Finding]:
 def without_lines(mine: set[Finding], theirs: set[Finding]) -> set[Finding]:
     """Drop the line of a file that cannot be parsed where the linters have none.
 
-    That is so for links to nothing, and when a ``# noqa`` on that line silences flake8, so that
-    ament_pep257 says it alone.
+    That is so for dangling symlinks, and if a ``# noqa`` on that line suppresses flake8, so that
+    only ament_pep257 reports it.
     """
     lineless = {path for path, line, _ in theirs if not line}
     return {
@@ -140,7 +140,7 @@ def without_lines(mine: set[Finding], theirs: set[Finding]) -> set[Finding]:
 
 
 class WholeTree(DiskTree):
-    """All Python files below a directory, those of nested packages too."""
+    """All Python files below a directory, including those of nested packages."""
 
     @property
     def files(self) -> Sequence[str]:
@@ -184,7 +184,7 @@ def own(args: argparse.Namespace, directories: Iterable[Path]) -> int:
 
 
 def own_findings(args: argparse.Namespace, package: Package, linter: str) -> set[Finding]:
-    """Return what the runs of a linter by the tests of a package report."""
+    """Return the findings of the runs of a linter by the tests of a package."""
     run = {"flake8": ament_flake8, "pep257": ament_pep257}[linter]
     findings: set[Finding] = set()
     for call in linter_calls(package, linter):
@@ -253,14 +253,14 @@ def package_of(path: str, packages: list[str]) -> str:
 
 
 class Tally:
-    """How often both sides agree, by code."""
+    """The agreement of both sides by code."""
 
     def __init__(self) -> None:
         self.agree: Counter[str] = Counter()
         self.missing: Counter[str] = Counter()
         self.extra: Counter[str] = Counter()
         self.passes: Counter[str] = Counter()
-        """Files and packages that only one side calls clean, in the words of the summary."""
+        """Files and packages that are clean for only one side, by line of the summary."""
 
     def add(self, directory: Path, theirs: set[Finding], mine: set[Finding]) -> None:
         """Count what was found in a directory."""

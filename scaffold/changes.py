@@ -35,40 +35,40 @@ class Change(NamedTuple):
     since: Distribution
     advice: str
     source: str
-    """Where it was decided: a repository and the number of a pull request, or a release."""
+    """The origin: a repository and the number of a pull request, or a release."""
     having: str = ""
-    """The keyword with which a call is meant."""
+    """The keyword that affected calls have."""
     position: int | None = None
-    """Its place among the arguments without names; ``None`` where it always has its name."""
+    """Its position; ``None`` if it is keyword-only."""
     value: str = ""
-    """What that keyword is given, as it is written; empty if that does not matter."""
+    """The source of its value in affected calls; empty for any."""
     without: str = ""
-    """The keyword without which a call is meant."""
+    """The keyword that affected calls lack."""
     raises: str = ""
-    """The exception by which a call fails now; code that catches it is ready for the change."""
+    """The exception of affected calls; code that catches it is prepared for the change."""
     is_of_node: bool = False
-    """Whether only calls are meant that are given a method of a node, or a node."""
+    """Whether only calls with a node, or a method of one, are affected."""
     unless: str = ""
-    """A word of files that are ready for the change."""
+    """A word in files that are prepared for the change."""
 
     @property
     def is_of_call(self) -> bool:
-        """Whether it is about calls that have an argument, or lack one; the name itself stays."""
+        """Whether it is about calls with or without an argument; the name itself is unchanged."""
         return bool(self.having or self.without)
 
     @property
     def is_removed(self) -> bool:
-        """Whether the target does not have it any more."""
+        """Whether it is removed on the target."""
         return _is_past(self.removed)
 
     @property
     def is_deprecated(self) -> bool:
-        """Whether the target still has it, but deprecates it."""
+        """Whether it is deprecated on the target."""
         return not self.is_removed and _is_past(self.deprecated)
 
     @property
     def is_changed(self) -> bool:
-        """Whether it means something else on the target than where the code comes from."""
+        """Whether its meaning on the target differs from that on the source distribution."""
         origin = distributions.origin()
         if origin is None or self.changed is None or origin.place < self.since.place:
             return False
@@ -76,14 +76,14 @@ class Change(NamedTuple):
 
     @property
     def has_replacement(self) -> bool:
-        """Whether what takes its place is on the target, and on what is to be kept."""
+        """Whether the replacement exists on the target and the kept distributions."""
         kept = distributions.kept()
         lowest = min(distribution.place for distribution in (distributions.target(), *kept))
         return bool(self.use) and self.since.place <= lowest
 
     @property
     def state(self) -> str:
-        """What happened to it, for a message."""
+        """The description of the change, for a message."""
         if self.is_removed and self.removed is not None:
             return f"was removed in {self.removed.title}"
         if self.deprecated is None:
@@ -92,10 +92,10 @@ class Change(NamedTuple):
         return f"is deprecated since {self.deprecated.title}{last}"
 
     def instead(self, replacement: str) -> str:
-        """Return what to do, for a message.
+        """Return the advice, for a message.
 
         Args:
-            replacement: The name that takes its place; empty if there is none.
+            replacement: The replacement; empty if there is none.
         """
         if not replacement:
             return self.advice
@@ -124,7 +124,7 @@ def of_kind(kind: str) -> tuple[Change, ...]:
 
 
 def removed_name(name: str) -> Change | None:
-    """Return why the target does not have a name.
+    """Return why a name does not exist on the target.
 
     Args:
         name: The full name, without ``*``.
@@ -140,23 +140,23 @@ def removed_name(name: str) -> Change | None:
 
 
 def removed_package(name: str) -> Change | None:
-    """Return why the target does not have a package that an older distribution has."""
+    """Return why a package of an older distribution does not exist on the target."""
     return next(
         (item for item in of_kind("package") if name in item.names and item.is_removed), None
     )
 
 
 def of_program(name: str) -> Change:
-    """Return what changed for those who start a program.
+    """Return the change for users who start a program.
 
     Args:
-        name: What an entry of the kind ``launch`` has as its name.
+        name: The name of an entry of the kind ``launch``.
     """
     return next(item for item in of_kind("launch") if item.names[0] == name)
 
 
 def removed_interface(name: str) -> Change | None:
-    """Return why the target does not have an interface, or a field of one.
+    """Return why an interface, or a field of one, does not exist on the target.
 
     Args:
         name: ``package/msg/Name``, or that with ``.field``.

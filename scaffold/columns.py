@@ -8,18 +8,18 @@ from collections.abc import Iterator
 from typing import TextIO
 
 _CONTROL = re.compile(r"\x1b\[[0-9;]*m")  # linear: no repetition follows another
-"""What sets a color."""
+"""Matches escape sequences of colors."""
 _HANGING = 4
-"""Columns by which the rest of a line is set in."""
+"""The indentation of continuation lines."""
 _LEAST = 20
-"""Columns of a terminal that are worth an attempt."""
+"""The minimum number of columns for wrapping."""
 MORE = "..."
 USUAL = 80
-"""Columns of a terminal that does not say how many it has."""
+"""The number of columns of a terminal of unknown size."""
 
 
 def of_terminal(out: TextIO) -> int | None:
-    """Return the columns of the terminal that shows a stream; ``None`` if there is none."""
+    """Return the width of the terminal of a stream; ``None`` if it is no terminal."""
     try:
         width = os.get_terminal_size(out.fileno()).columns if out.isatty() else 0
     except (OSError, ValueError):
@@ -28,7 +28,7 @@ def of_terminal(out: TextIO) -> int | None:
 
 
 def columns(text: str) -> int:
-    """Return the columns that a text takes; colors take none."""
+    """Return the width of a text in columns, ignoring colors."""
     plain = _CONTROL.sub("", text)
     if plain.isascii():
         return len(plain)
@@ -38,7 +38,7 @@ def columns(text: str) -> int:
 
 
 def cut(text: str, width: int) -> str:
-    """Return the beginning of a text without colors that fits, with dots where there is more."""
+    """Truncate a text without colors to a width, with dots at the end."""
     if columns(text) <= width:
         return text
     while columns(text) > width - len(MORE):
@@ -47,9 +47,9 @@ def cut(text: str, width: int) -> str:
 
 
 def wrapped(line: str, width: int) -> Iterator[str]:
-    """Yield a line in parts that fit.
+    """Yield a line wrapped to a width.
 
-    It is broken between the columns of a table, else at spaces; a word that is wider stays whole.
+    It is broken between the columns of a table, else at spaces; longer words are not split.
     """
     if columns(line) <= width:
         yield line
@@ -67,7 +67,7 @@ def wrapped(line: str, width: int) -> Iterator[str]:
 
 
 def _pieces(words: str, width: int) -> list[str]:
-    """Return what stays together and the spaces between, in turn."""
+    """Return unbreakable parts and the spaces between, in turn."""
     cells = re.split(r"( {2,})", words)  # linear: one kind of character
     if all(columns(cell) <= width for cell in cells):
         return cells

@@ -13,7 +13,7 @@ class Severity(Enum):
     """The severity of a diagnostic."""
 
     ERROR = "error"
-    """It breaks at build, run, test or release."""
+    """Something breaks at build, run, test or release."""
     WARNING = "warning"
     """The style guide says otherwise."""
     INFO = "info"
@@ -24,17 +24,17 @@ class Effect(IntEnum):
     """The effect of a flaw; the screen sorts findings of one severity by it."""
 
     STOPS_BUILD = 0
-    """A file is not read, or the package is not built."""
+    """A file cannot be read, or the package is not built."""
     STOPS_PROGRAM = 1
     """A program stops, or does the wrong thing."""
     IGNORED = 2
-    """What is written has no effect; the program goes on."""
+    """Code has no effect; the program continues."""
     SPOILS_INSTALL = 3
-    """What is built or installed is incomplete; the program that needs it stops later."""
+    """The build or installation is incomplete; a program that needs it stops later."""
     MISSING_ELSEWHERE = 4
     """A program stops on a machine that lacks a package."""
     DECLARED_WRONG = 5
-    """The manifest, a name or a test says something wrong; nothing stops here."""
+    """The manifest, a name or a test is wrong; nothing stops here."""
     UNPUBLISHABLE = 6
     """Nothing stops, but a license or a notice is missing that others need."""
 
@@ -49,12 +49,12 @@ class Diagnostic(NamedTuple):
     message: str
     fix: Fix | None = None
     cause: str = ""
-    """The same for findings of one package, of any code, that one edit would end."""
+    """Shared by findings of one package, of any code, that one edit would resolve."""
     distributions: tuple[str, ...] = ()
-    """Those that it holds for, of several that were checked for; empty for the only one."""
+    """The affected distributions, if several were checked for; empty for a single one."""
 
     def __hash__(self) -> int:
-        """Leave the fix out: it may be long, and the place and the message differ first."""
+        """Ignore the fix, which may be long, while place and message differ first."""
         return hash((self.location, self.message))
 
     @property
@@ -71,11 +71,11 @@ class Diagnostic(NamedTuple):
 
 
 MAX_FINDINGS = 5000
-"""Of one code in one package; a flood of them must not hold the check up."""
+"""The maximum number per code and package, so that a flood does not stall the check."""
 
 
 def crash_message(subject: str, error: Exception) -> str:
-    """Return the message about a defect: what failed, how, and where in our code."""
+    """Return the message about a defect: what failed, the error, and the place in our code."""
     trace = error.__traceback__
     while trace is not None and trace.tb_next is not None:
         trace = trace.tb_next

@@ -20,16 +20,16 @@ ORDER = tuple(
     for name in sorted(os.listdir(DATA))
     if os.path.exists(os.path.join(DATA, name, "profile.toml"))
 )
-"""Those with data of their own, oldest first: their names follow the alphabet."""
+"""Those with their own data, oldest first, in alphabetical order."""
 ALIASES: Mapping[str, str] = {"rolling": ORDER[-1]}
-"""Those that are the same as another for Python packages, until they move on."""
+"""Aliases of distributions that are equal for Python packages at present."""
 NAMES = (*ORDER, *ALIASES)
 OF_ROS1 = frozenset({"groovy", "hydro", "indigo", "jade", "kinetic", "lunar", "melodic", "noetic"})
 ENDED_ROS2 = frozenset(
     {"ardent", "bouncy", "crystal", "dashing", "eloquent", "foxy", "galactic", "iron"}
 )
 ENDED = OF_ROS1 | ENDED_ROS2
-"""Those that are supported no more, the ones of ROS 1 included; they are still met."""
+"""Those no longer supported, including ROS 1, which may still be named."""
 DEFAULT = "jazzy"
 VARIABLE = "ROS_DISTRO"
 """The variable of an environment that names its distribution."""
@@ -53,7 +53,7 @@ class Distribution:
         return ORDER.index(ALIASES.get(self.name, self.name))
 
     def path(self, file: str) -> str:
-        """Return where a file of its data is."""
+        """Return the path of a file of its data."""
         return os.path.join(self._directory, file)
 
     @cached_property
@@ -99,12 +99,12 @@ def named(name: str, origin: str = "", advice: str = "name one") -> Distribution
     """Return a distribution.
 
     Args:
-        name: What somebody wrote.
-        origin: Where, for the message.
-        advice: What to do if that names several.
+        name: The given name.
+        origin: The origin, for the message.
+        advice: The advice if it names several.
 
     Raises:
-        InputError: there is none of this name.
+        InputError: there is no such distribution.
     """
     if name not in NAMES:
         message = refusal(name, advice)
@@ -115,18 +115,18 @@ def named(name: str, origin: str = "", advice: str = "name one") -> Distribution
 
 
 def nearest(name: str) -> Distribution:
-    """Return the distribution whose data say most of one that may have none: the next later one."""
+    """Return the distribution with the closest data: the next later one."""
     if name in NAMES:
         return named(name)
     return named(next((later for later in ORDER if later > name), ORDER[-1]))
 
 
 def refusal(name: object, advice: str = "name one") -> str:
-    """Return what to say of a name that no known distribution has.
+    """Return the message about an unknown distribution.
 
     Args:
-        name: What somebody wrote.
-        advice: What to do if that names several.
+        name: The given name.
+        advice: The advice if it names several.
     """
     from difflib import get_close_matches
 
@@ -141,21 +141,21 @@ def refusal(name: object, advice: str = "name one") -> str:
 
 
 def ending(name: str) -> str:
-    """Return why nothing is known of a distribution."""
+    """Return the message about an ended distribution."""
     if name in OF_ROS1:
         return "is of ROS 1"
     return "has reached its end of life" if name in ENDED else "is no known distribution"
 
 
 def several(text: str, origin: str = "") -> list[Distribution]:
-    """Return distributions named with commas between them, each once, oldest first.
+    """Parse a comma-separated list of distributions, each once, oldest first.
 
     Args:
-        text: What somebody wrote.
-        origin: Where, for the message.
+        text: The given name.
+        origin: The origin, for the message.
 
     Raises:
-        InputError: there is none of such a name, or no name at all.
+        InputError: a distribution is unknown, or there is no name.
     """
     words = [word.strip() for word in text.split(",") if word.strip()]
     if not words:
@@ -181,12 +181,12 @@ _kept: tuple[Distribution, ...] = ()
 
 
 def origin() -> Distribution | None:
-    """Return the distribution that packages come from, where they are moved to the target."""
+    """Return the distribution from which packages are migrated to the target."""
     return _origin
 
 
 def kept() -> tuple[Distribution, ...]:
-    """Return the distributions that packages are to run on besides the target."""
+    """Return the distributions on which packages must still run besides the target."""
     return _kept
 
 
@@ -201,7 +201,7 @@ def targeting(
     origin: Distribution | None = None,
     kept: Sequence[Distribution] = (),
 ) -> Iterator[None]:
-    """Check for a distribution inside of the block, with packages that are read inside of it.
+    """Set the target within the block; packages must be read inside of it.
 
     Args:
         distribution: The target.

@@ -11,9 +11,9 @@ class Safety(Enum):
     """Whether a fix may change what the package does."""
 
     SAFE = "safe"
-    """The package does the same afterwards, or what its author plainly meant."""
+    """The package behaves as before, or as its author plainly intended."""
     UNSAFE = "unsafe"
-    """The author should look at it; applied with ``--unsafe-fixes`` only."""
+    """To be reviewed by the author; only applied with ``--unsafe-fixes``."""
 
 
 class Edit(NamedTuple):
@@ -55,5 +55,5 @@ class Fix(NamedTuple):
     safety: Safety = Safety.SAFE
 
     def __hash__(self) -> int:
-        """Look at the start only: thousands of diagnostics may share one fix of a whole file."""
+        """Hash only the start: thousands of diagnostics may share one fix of a whole file."""
         return hash((self.title, self.changes[:1]))

@@ -8,7 +8,7 @@ class ScaffoldError(Exception):
 
 
 class ConfigError(ScaffoldError):
-    """A configuration file or a flag has a value that cannot be used."""
+    """A configuration file or a flag has an invalid value."""
 
 
 class ContentError(ScaffoldError):
@@ -36,7 +36,7 @@ class OutOfTimeError(Exception):
 
 
 EXHAUSTED: tuple[type[Exception], ...] = (RecursionError, MemoryError, OutOfTimeError)
-"""What code of this tool raises when a file asks for more than there is; the file is at fault."""
+"""Exceptions raised if a file exhausts memory, recursion or time."""
 
 
 EXHAUSTION = (

@@ -13,14 +13,14 @@ if TYPE_CHECKING:
 
 
 def printable(text: str) -> str:
-    """Return one line that a terminal only shows; what it might obey is spelled out."""
+    """Return one line with control characters escaped for terminals."""
     if text.isprintable():
         return text
     return "".join(item if item.isprintable() else _spelled(item) for item in text)
 
 
 def printable_lines(text: str) -> str:
-    """Return lines that a terminal only shows; their ends and tabs stay."""
+    """Return lines with control characters escaped, except newlines and tabs."""
     if text.isprintable():
         return text
     return "".join(
@@ -36,7 +36,7 @@ def json_text(data: object) -> str:
 
 
 def write_lines(text: str, out: TextIO) -> None:
-    """Write lines such as those of a patch: as they are to a file, spelled out on a terminal.
+    """Write lines such as those of a patch: exact to a file, escaped on a terminal.
 
     Lone surrogates are written as the bytes that they are made of; see `patch.of`.
     """

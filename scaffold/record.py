@@ -62,7 +62,7 @@ class _Definition(type):
 
 
 _constructors: dict[int, FunctionType] = {}
-"""By the number of fields."""
+"""The constructors by number of fields."""
 
 
 def _constructor(fields: tuple[str, ...], defaults: tuple[Any, ...]) -> Callable[..., Any]:

@@ -12,7 +12,7 @@ class Location(NamedTuple):
     """A range in a file: lines and columns count from 1, the end is exclusive."""
 
     path: str
-    """Relative to the package's root, with ``/`` between the parts."""
+    """The path relative to the package's root, with ``/`` as separator."""
     line: int
     column: int
     end_line: int
@@ -20,12 +20,12 @@ class Location(NamedTuple):
 
     @property
     def location(self) -> Location:
-        """Itself: a location can be reported like everything that has one."""
+        """The location itself, so that it can be reported like other objects with one."""
         return self
 
     @classmethod
     def start_of(cls, path: str, line: int = 1) -> Location:
-        """Return the empty stretch at the start of a line."""
+        """Return the empty range at the start of a line."""
         return cls(path, line, 1, line, 1)
 
 
@@ -46,7 +46,7 @@ class Source:
         """Decode a file.
 
         Raises:
-            ParseError: the bytes are not text of this encoding.
+            ParseError: the bytes are invalid in this encoding.
         """
         try:
             return cls(path, data.decode(encoding), encoding)
@@ -87,7 +87,7 @@ class Source:
         return "\r\n" if first > 0 and self.text[first - 1] == "\r" else "\n"
 
     def offset(self, line: int, column: int = 1) -> int:
-        """Return the offset of a line and column, both from 1, held inside the text."""
+        """Return the offset of a line and column, both from 1, limited to the text."""
         starts = self.line_starts
         if line > len(starts):
             return len(self.text)
@@ -130,7 +130,7 @@ class EncodingError(ParseError):
 
 
 class UnreadEndError(ParseError):
-    """The error is outside of the element that the readers of the file use."""
+    """The error is outside of the element that readers of the file use."""
 
 
 class TooLargeError(ParseError):

@@ -10,15 +10,15 @@ if TYPE_CHECKING:
     from scaffold.model.package import Package
 
 MOST_COMPARED = 50_000
-"""Pairs of words in one package; a comparison takes some microseconds."""
+"""The maximum number of compared pairs per package; one takes some microseconds."""
 LONGEST = 200
 """Limit on the length of a word to compare; the time grows with its square."""
 MOST_LISTED = 5
-"""Names that a message lists: as many as people read."""
+"""The maximum number of names listed in a message."""
 MOST_ORDERED = 100
-"""Names of which the nearest ones are listed: each of thousands of findings may do so."""
+"""The maximum number of names from which the closest are listed."""
 CANDIDATES = 3
-"""Nearest names, of which the one is taken that a word is nearest to in lower case."""
+"""The number of closest names that are compared in lower case."""
 
 
 class _Budget:
@@ -27,13 +27,13 @@ class _Budget:
 
 
 def closest_name(package: Package, word: str, names: Collection[str], cutoff: float) -> str:
-    """Return the name that looks most like a word.
+    """Return the name closest to a word.
 
     Args:
-        package: What the word is found in.
+        package: The package with the word.
         word: The word.
         names: The names.
-        cutoff: How similar they must be, from 0 to 1.
+        cutoff: The required similarity, from 0 to 1.
 
     Returns:
         The name; empty if none is similar enough, or if the comparisons for this package are
@@ -54,15 +54,15 @@ def closest_name(package: Package, word: str, names: Collection[str], cutoff: fl
 
 
 def listed_names(names: Iterable[str], word: str, none: str = "none") -> str:
-    """Return the end of a message that lists known names: the nearest ones, if there are many.
+    """Return the end of a message that lists known names, only the closest if there are many.
 
     Args:
         names: The names.
-        word: What was written instead of one of them.
-        none: What to return without any names.
+        word: The unknown name.
+        none: The result without any names.
 
     Returns:
-        The names in order, such as ``a, b, c``; the nearest ones and ``and 7 more`` if there are
+        The names in order, such as ``a, b, c``; the closest ones and ``and 7 more`` if there are
         more than fit.
     """
     ordered = sorted(set(names))
@@ -75,5 +75,5 @@ def listed_names(names: Iterable[str], word: str, none: str = "none") -> str:
 
 
 def _pairs(word: str) -> set[tuple[str, str]]:
-    """Return the letters of a word with the next ones: what similar words share."""
+    """Return the pairs of adjacent letters of a word, which similar words share."""
     return {*pairwise(word[:LONGEST])}

@@ -18,10 +18,10 @@ packages takes less than one."""
 
 @contextmanager
 def limited(seconds: float = SECONDS) -> Iterator[None]:
-    """Raise OutOfTimeError in the block each time it has used up so much CPU.
+    """Raise OutOfTimeError in the block each time it has used up the CPU time limit.
 
-    Time on the CPU does not depend on what else the machine does. Outside of the main thread there
-    is no limit: Python delivers signals to that one alone.
+    CPU time does not depend on the load of the machine. Outside of the main thread there
+    is no limit, as Python only delivers signals to that one.
     """
     if threading.current_thread() is not threading.main_thread():
         yield
@@ -36,7 +36,7 @@ def limited(seconds: float = SECONDS) -> Iterator[None]:
 
 @lru_cache(maxsize=1)
 def _handle() -> None:
-    """Have the signal handled from now on: for 300 rules each, this took a tenth of their time."""
+    """Install the signal handler: doing so for each of 300 rules took a tenth of their time."""
     signal.signal(signal.SIGVTALRM, _expire)
 
 

@@ -1,16 +1,16 @@
-"""Write scaffold/data/dependencies.txt: what each released package brings along.
+"""Write scaffold/data/dependencies.txt: the dependencies of each released package.
 
 Usage:
 
     python -m scripts.bundle_dependencies RECIPES ROSDEP
 
 ``RECIPES`` is a checkout of github.com/ros/meta-ros, whose recipes are generated from the
-package.xml of every released package: they list its dependencies by kind. They name what is not a
-package of ROS as OpenEmbedded does; the rules of ``ROSDEP``, a checkout of
+package.xml of every released package: they list its dependencies by kind. They name non-ROS
+packages as in OpenEmbedded; the rules of ``ROSDEP``, a checkout of
 github.com/ros/rosdistro, translate that back. Only Python keys are kept of those.
 
-One line for each package: its name, a colon, and what it depends on at run time or exports.
-Distributions in which that differs have lines of their own, with their names before the colon.
+One line for each package: its name, a colon, and its run-time and exported dependencies.
+Distributions with differences have separate lines, with their names before the colon.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ def python_keys(rosdep: Path) -> dict[str, str]:
 
 
 def released(recipes: Path, keys: Mapping[str, str]) -> dict[str, str]:
-    """Return what the packages of one distribution bring along."""
+    """Return the dependencies of the packages of one distribution."""
     texts = [path.read_text(encoding="utf-8") for path in recipes.rglob("*.bb")]
     named = {match[1]: text for text in texts if (match := _NAME.search(text))}
     keys = {**keys, **{name.replace("_", "-"): name for name in named}}

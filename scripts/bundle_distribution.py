@@ -4,8 +4,8 @@ Usage:
 
     python -m scripts.bundle_distribution NAME SOURCES
 
-``SOURCES/jazzy`` and ``SOURCES/NAME`` hold released packages, one directory each: what
-``git archive release/NAME/PACKAGE`` gives in the release repositories (``ros2-gbp/*-release``).
+``SOURCES/jazzy`` and ``SOURCES/NAME`` have released packages, one directory each: the output of
+``git archive release/NAME/PACKAGE`` in the release repositories (``ros2-gbp/*-release``).
 The data of Jazzy is made from installed packages and was completed by hand (bundle_names.py,
 make_stubs.py), so others are written as Jazzy's with what differs between the two sources. Stubs
 that are the same are not stored again; those that a distribution does not have any more are in
@@ -49,7 +49,7 @@ NAMED = ("rclpy", "ament_index_python")
 _OWN_ENTER = re.compile(
     r"(?m)^(    def __enter__\(self\)) -> (?!None\b|Any\b|Self\b)[\w\[\], ]+: \.\.\.$"
 )
-"""How a class that has no better type names what ``with`` gives."""
+"""The return type of ``__enter__`` in classes without a better one."""
 Function = ast.FunctionDef | ast.AsyncFunctionDef
 Definition = Function | ast.ClassDef | ast.Assign | ast.AnnAssign
 Group = list[Definition]
@@ -79,7 +79,7 @@ def module_name(path: str) -> str:
 
 
 def names(files: Mapping[str, str]) -> dict[str, set[str]]:
-    """Return what modules and classes have, by their full names; methods end in ``()``."""
+    """Return the names in modules and classes by full name; methods end in ``()``."""
     trees = {module_name(path): ast.parse(text) for path, text in files.items()}
     places: dict[str, tuple[str, ast.ClassDef]] = {}
     result: dict[str, set[str]] = {}
@@ -95,7 +95,7 @@ def names(files: Mapping[str, str]) -> dict[str, set[str]]:
 
 
 def _flat(body: Sequence[ast.stmt]) -> Iterator[ast.stmt]:
-    """Yield the statements of a module, those below conditions included."""
+    """Yield the statements of a module, including those below conditions."""
     for node in body:
         if isinstance(node, ast.If | ast.Try):
             yield from _flat(node.body)
@@ -180,9 +180,9 @@ def compared_stub(known: str, old: str, new: str, still: Mapping[str, set[str]])
 
     Args:
         known: The stub for the old source.
-        old: What the old source has, as a stub without anything added by hand.
+        old: The stub of the old source, without manual additions.
         new: Likewise of the new source.
-        still: What the classes of the module have, by name; inherited names included.
+        still: The names in the classes of the module, including inherited ones.
     """
     body = ast.parse(known).body
     imports = [node for node in body if isinstance(node, ast.Import | ast.ImportFrom)]
@@ -339,7 +339,7 @@ def _bases(node: ast.ClassDef) -> list[str]:
 
 
 def _shape(node: Function) -> object:
-    """Return what a call can notice of a function: arguments, their order, which are optional."""
+    """Return the call interface of a function: arguments, their order, which are optional."""
     arguments = node.args
     return (
         type(node),
@@ -374,7 +374,7 @@ def _all_arguments(node: Function) -> list[ast.arg]:
 
 
 def stubs(sources: Path, name: str) -> tuple[dict[str, str], list[str]]:
-    """Return the stubs that differ from those of the base, and those that are gone, by path."""
+    """Return the stubs that differ from those of the base, and the removed ones, by path."""
     changed: dict[str, str] = {}
     gone: list[str] = []
     everything = {
@@ -401,7 +401,7 @@ def stubs(sources: Path, name: str) -> tuple[dict[str, str], list[str]]:
 
 
 def of_subclasses(text: str) -> str:
-    """Let ``with`` give an object of the class at hand, not one of the base class."""
+    """Let ``__enter__`` of subclasses return an object of the subclass."""
     text, count = _OWN_ENTER.subn(r"\1 -> Self: ...", text)
     if not count or re.search(r"import .*\bSelf\b", text):
         return text
@@ -422,7 +422,7 @@ def _of(table: Mapping[str, set[str]], path: str) -> dict[str, set[str]]:
 
 
 def interfaces(sources: Path, name: str) -> str:
-    """Return the common interfaces; packages that are released elsewhere are those of the base."""
+    """Return the common interfaces; packages released elsewhere are those of the base."""
     known = _bundled_packages()
     with tempfile.TemporaryDirectory() as prefix:
         os.symlink(sources.resolve() / name, os.path.join(prefix, "share"))
@@ -471,7 +471,7 @@ def main() -> int:
 
 
 def with_facts(name: str) -> Iterator[str]:
-    """Copy what is written by hand from the distribution before, and yield the files."""
+    """Copy hand-written files from the previous distribution, and yield them."""
     before = DATA / max((other for other in ORDER if other < name), default=BASE)
     for file in ("profile.toml", "standard_library.txt"):
         if (before / file).is_file() and not (DATA / name / file).exists():

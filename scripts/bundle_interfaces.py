@@ -1,4 +1,4 @@
-"""Writes scaffold/data/jazzy/interfaces.txt: the common interfaces of ROS 2 Jazzy, in short.
+"""Writes scaffold/data/jazzy/interfaces.txt: the common interfaces of ROS 2 Jazzy in compact form.
 
 Usage:
 

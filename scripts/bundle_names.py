@@ -1,7 +1,7 @@
-"""Write scaffold/data/jazzy/names.txt: the names that rclpy has on ROS 2 Jazzy.
+"""Write scaffold/data/jazzy/names.txt: the names in rclpy on ROS 2 Jazzy.
 
 Run it where the Python packages of Jazzy can be imported. One line for each module, and one for
-each class: its full name, a colon, and the names that it has, separated by blanks; methods are
+each class: its full name, a colon, and its names, separated by spaces; methods are
 followed by ``()``.
 """
 
@@ -30,7 +30,7 @@ def modules(package: str) -> Iterator[ModuleType]:
 
 
 def names_of_module(module: ModuleType) -> set[str]:
-    """Return what can be imported from a module, its own modules included."""
+    """Return the names that can be imported from a module, including submodules."""
     below = {info.name for info in pkgutil.iter_modules(getattr(module, "__path__", ()))}
     return {name for name in {*vars(module), *below} if not name.startswith("__")}
 

@@ -66,7 +66,7 @@ def _signature(value: object) -> str:
 
 
 def _example(module: str, name: str) -> tuple[str, str] | None:
-    """Return the shortest rule that imports a name from a room, and the line that uses it."""
+    """Return the shortest rule that imports a name from a module, and the line that uses it."""
     statement = rf"from {re.escape(module)} import (\([^)]*\b{name}\b|[^\n(]*\b{name}\b)"
     files = sorted((ROOT / "rules").glob("*/**/*.py"), key=lambda path: path.stat().st_size)
     cut = None  # a use that goes on in the next line

@@ -1,7 +1,7 @@
 """Write the table of docs/configuration.md and the JSON schema from the keys of the configuration.
 
 ``python scripts/document_configuration.py [DIRECTORY]``; ``make docs`` calls it. The directory has
-the page already: only what is between its two marks is written.
+the page already: only the text between its two markers is written.
 """
 
 from __future__ import annotations

@@ -18,10 +18,10 @@ from scaffold.model.rclpy.api import names_of
 
 DOCS = Path(__file__).parent.parent / "docs" / "distributions"
 FIXED = frozenset({"ament_target_dependencies", "static_transform_publisher", "ros2 bag record"})
-"""What rules of their own fix."""
+"""Codes fixed by separate rules."""
 KINDS = ("name", "call", "command", "launch", "option", "executable", "interface", "package")
 _LISTED = 30
-"""How many names of a change have a line each."""
+"""The maximum number of names of a change with separate lines."""
 _INTRODUCTION = """\
 # Distributions
 
@@ -95,7 +95,7 @@ def _build(one: Distribution) -> Iterator[str]:
 
 
 def _templates(one: Distribution) -> Iterator[str]:
-    """Yield what `new` writes that it does not write for all."""
+    """Yield the code of `new` that differs between distributions."""
     if one.fact("templates.has_init_block"):
         yield "`new` writes `with rclpy.init():`: the end of the block disconnects."
     else:
@@ -157,7 +157,7 @@ def _table(title: str, found: list[Change]) -> Iterator[str]:
 
 
 def _rules(one: Distribution) -> Iterator[str]:
-    """Yield the rules that have examples for it; those of the default are all others."""
+    """Yield the rules with examples for a distribution; those of the default are all others."""
     found = [
         rule
         for rule in registry.load(content.roots("rules"))
@@ -173,7 +173,7 @@ def _rules(one: Distribution) -> Iterator[str]:
 
 
 def _interfaces(one: Distribution) -> Iterator[str]:
-    """Yield which interfaces differ from those of the distribution that is the default."""
+    """Yield the interfaces that differ from those of the default distribution."""
     base, own = _definitions(named(DEFAULT)), _definitions(one)
     gone, added = sorted(base.keys() - own.keys()), sorted(own.keys() - base.keys())
     other = sorted(name for name in base.keys() & own.keys() if base[name] != own[name])
@@ -202,7 +202,7 @@ def _is_of(name: str, package: str) -> bool:
 
 
 def _fields(base: str, own: str) -> str:
-    """Return what an interface has more and less than that of the same name."""
+    """Return the added and removed fields of an interface."""
     before, after = base.splitlines(), own.splitlines()
     more = [line for line in after if line not in before]
     less = [line for line in before if line not in after]
@@ -211,7 +211,7 @@ def _fields(base: str, own: str) -> str:
 
 
 def _members(one: Distribution) -> Iterator[str]:
-    """Yield how the public members of rclpy differ from those of the distribution before."""
+    """Yield the differences of the public members of rclpy from the previous distribution."""
     before = named(ORDER[max(ORDER.index(one.name) - 1, 0)])
     old, new = _public(before), _public(one)
     lines: list[str] = []

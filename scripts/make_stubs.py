@@ -42,11 +42,11 @@ _KEPT_DECORATORS = {
     "staticmethod",
 }
 _NATIVE = {"_rclpy", "rclpy_implementation", "import_c_library"}
-"""How the sources call the extension module, whose types nothing declares."""
+"""The name of the extension module in the sources, whose types are undeclared."""
 _TYPE_MAKERS = ("TypeVar(", "TypedDict(", "NamedTuple(", "namedtuple(")
 _LITERALS = {bool: "bool", int: "int", float: "float", str: "str", bytes: "bytes"}
 _SPECIAL = {"__eq__": "bool", "__ne__": "bool", "__repr__": "str", "__str__": "str"}
-"""What special methods return."""
+"""The return types of special methods."""
 _GENERIC = {
     "Callable": "..., Any",
     "Dict": "Any, Any",
@@ -54,7 +54,7 @@ _GENERIC = {
     "dict": "Any, Any",
     "set": "Any",
 }
-"""Arguments of types that the sources leave without."""
+"""Type arguments missing in the sources."""
 Statement = ast.stmt
 Function = ast.FunctionDef | ast.AsyncFunctionDef
 
@@ -100,7 +100,7 @@ def stub(source: str, overlay: str) -> str:
 
     Args:
         source: The module.
-        overlay: What replaces and completes it, as a stub.
+        overlay: The overlay that replaces and completes it, as a stub.
     """
     body = list(_Module().statements(ast.parse(source).body))
     body = merged(body, ast.parse(overlay).body)
@@ -211,7 +211,7 @@ def _annotated(name: str, annotation: ast.expr) -> Statement:
 
 
 def _annotation(node: ast.expr) -> ast.expr:
-    """Return an annotation without quotes; any type where it names what nothing declares."""
+    """Return an annotation without quotes; ``Any`` if it uses undeclared names."""
     if isinstance(node, ast.Constant) and isinstance(node.value, str):
         node = ast.parse(node.value, mode="eval").body
     return _Completion().visit(node)  # type: ignore[no-any-return]  # an expression as well
@@ -234,7 +234,7 @@ class _Completion(ast.NodeTransformer):
 
 
 def _method(node: Function) -> list[Statement]:
-    """Return a method; one that is private is an attribute of any type, to be overridden freely."""
+    """Return a method; a private one becomes an attribute of type ``Any``."""
     is_special = node.name.startswith("__") and node.name.endswith("__")
     if node.name.startswith("_") and not is_special:
         return [_annotated(node.name, ast.Name("Any"))]
@@ -268,7 +268,7 @@ def _signature(node: Function) -> Function:
 
 
 def _annotate(node: Function) -> None:
-    """Give parameters without an annotation any type: strict type checkers ask for one."""
+    """Annotate parameters without an annotation with ``Any``, for strict type checkers."""
     arguments = node.args
     extra = [item for item in (arguments.vararg, arguments.kwarg) if item is not None]
     for argument in [*arguments.posonlyargs, *arguments.args, *arguments.kwonlyargs, *extra]:

@@ -1,7 +1,7 @@
-"""Write into rule files what their examples report now; review the result with ``git diff``.
+"""Write the current reports of examples to rule files; review the result with ``git diff``.
 
 ``python scripts/pin_examples.py [CODE ...]``: the rules with these codes or prefixes, else all.
-An example whose report is right already is left alone, its layout included.
+An example with the right reports is not changed.
 """
 
 from __future__ import annotations
@@ -74,7 +74,7 @@ def _example_calls(module: ast.Module) -> Iterator[ast.Call]:
 def _edit(
     call: ast.Call, offsets: Sequence[int], text: str, current: Iterable[tuple[str, Report]]
 ) -> tuple[int, int, str]:
-    """Return what replaces the reports: the positional arguments after title and files."""
+    """Return the edit of the reports: the positional arguments after title and files."""
     files, *old = call.args[1:]
     last = old[-1] if old else files
     start = _offset(offsets, text, files.end_lineno, files.end_col_offset)
@@ -83,7 +83,7 @@ def _edit(
 
 
 def _places(example: Example, current: Sequence[Report]) -> list[str]:
-    """Return where the reports are, without the path where there is but one file."""
+    """Return the locations of the reports, without the path if there is only one file."""
     if len(example.files) > 1:
         return [report.at for report in current]
     return [report.at.partition(f"{path}:")[2] for report in current for path in example.files]
@@ -103,7 +103,7 @@ def _source(at: str, report: Report) -> str:
 
 
 def _string(text: str, keyword: str = "    unsafe_fix=") -> str:
-    """Return a literal, in several parts where one would be too long for a line."""
+    """Return a string literal, split if it would be too long for a line."""
     room = WIDTH - len(INDENT) - len(f'{keyword}"",')
     parts = [""]
     for word in text.split(" "):
