@@ -29,37 +29,37 @@ from scaffold.source import ViewError
 
 _OF_LINTERS = ("E9", "F")
 _OF_PROGRAMS = ("IM", "LF", "MS", "ND", "TY")
-"""Areas of rules about what happens when code runs."""
+"""Areas of rules about run-time behavior."""
 _OF_DATA = ("PF", "UR")
-"""Areas of rules about files that launch files give to programs."""
+"""Areas of rules about data files of programs."""
 _ENDINGS_OF_DATA = (".yaml", ".yml", ".urdf", ".xacro", ".sdf")
 _RAISED_ANYWAY = "F901"
 """``raise NotImplemented()`` raises another exception."""
 _OF_TESTS = frozenset({"LY020", "LY021", "PX050"})
-"""Errors only where a test of the package looks at the file, whatever it is for."""
+"""Codes that are errors only if a test of the package checks the file."""
 _QUOTED = re.compile(r"'([^']+)'")
 _UNDEFINED = "F821"
 _UNDECLARED = "PX020"
-"""Reported where a module imports it."""
+"""Codes of undeclared dependencies, reported at an import."""
 _PLATFORMS = ("os.name", "sys.platform", "platform.system")
-"""What conditions ask that tell platforms apart."""
+"""Words of conditions on the platform."""
 
 
 class Adjustments(NamedTuple):
     """Applied to all findings, before anything is reported or fixed."""
 
     severities: Mapping[str, Severity] = {}
-    """By prefix of a code; the longest matching one decides."""
+    """The severities by code prefix; the longest matching one decides."""
     has_own_style_only: bool = False
-    """Whether style counts only where a test of the package itself would report it."""
+    """Whether style is only reported where a test of the package would do so."""
     exclusion: Exclusion = Exclusion()
     refused_at_release: Collection[str] = ()
-    """Codes that are errors, because no release is made of what has them."""
+    """Codes that are errors because they block a release."""
     foreign: Foreign | None = None
-    """Decides which files are not the user's; without it, all are."""
+    """Decides which files are foreign; by default none."""
 
     def apply(self, package: Package, diagnostics: Iterable[Diagnostic]) -> Iterator[Diagnostic]:
-        """Yield what is to be reported of a package, with its severity."""
+        """Yield the findings to report, with their severities."""
         excluded: dict[str, bool] = {}
         for diagnostic in diagnostics:
             path = diagnostic.location.path
@@ -84,7 +84,7 @@ class Adjustments(NamedTuple):
         return path in self.foreign_files(package) or self._is_excluded(package, path)
 
     def foreign_files(self, package: Package) -> Mapping[str, str]:
-        """Return the files of a package that are not the user's, each with what makes it so."""
+        """Return the foreign files of a package, each with its kind."""
         foreign = self.foreign
         if foreign is None or not package.directory:
             return {}
@@ -121,7 +121,7 @@ class Adjustments(NamedTuple):
 
 
 def _is_of_unused_code(package: Package, diagnostic: Diagnostic) -> bool:
-    """Tell whether an error is in code that nothing runs and no test of the package checks."""
+    """Tell whether an error is in unused code that no test of the package checks."""
     path, code = diagnostic.location.path, diagnostic.code
     if code == _UNDECLARED:
         return _is_needed_by_unused_code(package, diagnostic)
@@ -136,7 +136,7 @@ def _is_of_unused_code(package: Package, diagnostic: Diagnostic) -> bool:
 
 
 def _is_unreached(package: Package, diagnostic: Diagnostic) -> bool:
-    """Tell whether nothing runs the Python code that an error is in."""
+    """Tell whether an error is in Python code that is never run."""
     path, code = diagnostic.location.path, diagnostic.code
     is_of_example = code not in _OF_TESTS and path.startswith(("doc/", "docs/"))
     if is_of_example or code == _RAISED_ANYWAY:
@@ -149,9 +149,9 @@ def _is_unreached(package: Package, diagnostic: Diagnostic) -> bool:
 
 
 def _is_tested(package: Package, diagnostic: Diagnostic) -> bool:
-    """Tell whether a test of the package fails, even if nothing runs the code.
+    """Tell whether a test of the package fails, even if the code is never run.
 
-    An undefined name in code that is not run is a matter of style, as an unused one is.
+    An undefined name in unused code is a style finding, like an unused one.
     """
     code = diagnostic.code
     is_of_linters = code.startswith(_OF_LINTERS) and code != _UNDEFINED
@@ -159,7 +159,7 @@ def _is_tested(package: Package, diagnostic: Diagnostic) -> bool:
 
 
 def _is_needed_by_unused_code(package: Package, undeclared: Diagnostic) -> bool:
-    """Tell whether only code that nothing runs imports a package that is not declared.
+    """Tell whether only unused code imports an undeclared package.
 
     It is reported at the first of the files that import it.
     """
@@ -170,7 +170,7 @@ def _is_needed_by_unused_code(package: Package, undeclared: Diagnostic) -> bool:
 
 
 def _is_uncalled(package: Package, diagnostic: Diagnostic) -> bool:
-    """Tell whether code is in a function that nothing calls."""
+    """Tell whether code is in an uncalled function."""
     at = diagnostic.location
     try:
         if not may_be_in_uncalled_function(package, at.path, at.line):
@@ -181,7 +181,7 @@ def _is_uncalled(package: Package, diagnostic: Diagnostic) -> bool:
 
 
 def _is_hardly_reached(package: Package, undefined: Diagnostic) -> bool:
-    """Tell whether an undefined name is evaluated after the spin, elsewhere, or never."""
+    """Tell whether an undefined name is only evaluated after spin, elsewhere, or never."""
     if undefined.code != _UNDEFINED:
         return False
     return _is_uncalled(package, undefined) or any(
@@ -200,9 +200,9 @@ def _is_of_platform(module: PythonModule, name: ast.expr) -> bool:
 
 
 def _is_harmless(package: Package, undefined: Diagnostic) -> bool:
-    """Tell whether Python does not evaluate an undefined name, or has it after all.
+    """Tell whether an undefined name is not evaluated, or exists at run time.
 
-    That are annotations, and the modules that ``from .talk import *`` adds to their package.
+    Such as annotations, and modules that ``from .talk import *`` adds to their package.
     """
     return any(
         is_unevaluated(module, name) or _is_own_module(module, name)
@@ -218,7 +218,7 @@ def _is_own_module(module: PythonModule, name: ast.expr) -> bool:
 
 
 def _names_at(package: Package, diagnostic: Diagnostic) -> Iterator[tuple[PythonModule, ast.expr]]:
-    """Yield the names and texts at the place of a finding, with their module."""
+    """Yield the names and strings at the location of a finding, with their module."""
     at = diagnostic.location
     try:
         module = package.module(at.path)

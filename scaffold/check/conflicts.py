@@ -14,7 +14,7 @@ UNREADABLE = frozenset({"SC001", "E999", "PX050", "PF001"})
 
 
 def named(package: Package, diagnostics: Iterable[Diagnostic]) -> Iterator[Diagnostic]:
-    """Yield diagnostics; what a conflict has made unreadable is reported as one, once a file."""
+    """Yield diagnostics, with one about the conflict for files that it makes unreadable."""
     seen: set[str] = set()
     for item in diagnostics:
         path = item.location.path

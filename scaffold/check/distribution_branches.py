@@ -27,8 +27,8 @@ Stretch = tuple[int, int, int, int]
 def run_on_target(package: Package, diagnostics: Iterable[Diagnostic]) -> Iterator[Diagnostic]:
     """Yield the findings in code that runs on the target.
 
-    A package for several distributions asks for the variable ROS_DISTRO; what is in a branch for
-    another one is right where it runs. The linters of ament read all branches.
+    A package for several distributions tests the variable ROS_DISTRO; code in a branch for
+    another one is right where it runs. The linters of ament check all branches.
     """
     by_path: dict[str, Sequence[Stretch]] = {}
     for diagnostic in diagnostics:
@@ -70,7 +70,7 @@ def _in_python(package: Package, path: str) -> Sequence[Stretch]:
 
 
 def _in_launch(package: Package, path: str) -> Sequence[Stretch]:
-    """Return the places of actions whose conditions are false on the target."""
+    """Return the ranges of actions whose conditions are false on the target."""
     with suppress(ViewError):
         if VARIABLE in package.source(path).text and of_launch.has_conditions(package, path):
             return tuple(of_launch.stretches_not_run(package, path))

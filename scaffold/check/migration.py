@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 
 _AREAS = ("PX", "CM", "SP", "LY", "TS", "NM", "IM", "ND", "MS", "LF", "PF", "TY", "UR", "BR")
 _OF_PYTHON = ("E9", "F7", "F82")
-"""Of style, what a version of Python decides: its syntax, and whether annotations are evaluated."""
+"""Style codes that depend on the Python version."""
 
 _OF_ENGINE = (UnparsableFile.code, RuleCrashed.code, FileTooLarge.code, PackageOfRos1.code)
 
@@ -48,10 +48,10 @@ target breaks nothing, and the distributions that are kept may need it.
 """
 
 UNEXAMINED = conflicts.UNREADABLE | {"E902", *_OF_ENGINE}
-"""The codes of what was not looked at, so that nothing is known of it."""
+"""The codes of unchecked files."""
 
 ORDER = ("I100", "I101", "I201")
-"""The codes of imports that are not in order, as modules with other names may leave them."""
+"""The codes of unsorted imports, which renamed modules may cause."""
 
 
 class Consequences(NamedTuple):
@@ -60,24 +60,24 @@ class Consequences(NamedTuple):
     result: Result
     breaks: Sequence[Diagnostic]
     changes: Sequence[Diagnostic]
-    """What runs and does something else."""
+    """Code that runs but behaves differently."""
     deprecated: Sequence[Diagnostic]
     unexamined: Sequence[Diagnostic]
-    """What could be read neither before nor now."""
+    """Files that cannot be read."""
 
     @classmethod
     def of(
         cls, result: Result, rules: Iterable[type[Rule]], known: Known, origin: Distribution
     ) -> Consequences:
-        """Sort what is found in a package; advice that is about no deprecation is left out.
+        """Classify the findings in a package, without advice other than deprecations.
 
-        What a branch for the target does was never done otherwise, so that it is no change.
+        Code in a branch for the target has never run elsewhere, so it is no change.
 
         Args:
-            result: What is found.
-            rules: Those that looked; see `Rule.is_removal` and `Rule.is_deprecation`.
-            known: What is found in it where it comes from.
-            origin: Where that is.
+            result: The findings for the target.
+            rules: The rules; see `Rule.is_removal` and `Rule.is_deprecation`.
+            known: The findings for the source distribution.
+            origin: The source distribution.
         """
         directory = result.package.directory
         before = {
@@ -107,17 +107,17 @@ class Consequences(NamedTuple):
 
     @property
     def diagnostics(self) -> Sequence[Diagnostic]:
-        """All that the move does."""
+        """All consequences."""
         return [*self.breaks, *self.changes, *self.deprecated]
 
     @property
     def is_done(self) -> bool:
-        """Whether the package runs there as it did before, as far as is known."""
+        """Whether the package runs on the target as before, as far as known."""
         return not (self.breaks or self.changes or self.unexamined)
 
 
 def _ran_on(origin: Distribution, package: Package, item: Diagnostic) -> bool:
-    """Tell whether no condition keeps the place of a finding from running where it comes from."""
+    """Tell whether the place of a finding may run on the source distribution."""
     if item.location.path in package.python_files:
         with suppress(ViewError), distributions.targeting(origin):
             return is_run(package.module(item.location.path), item.location)
@@ -137,15 +137,15 @@ class MigratingSession(Session):
     """A session that reports what the source distribution does not report."""
 
     known: Known = ()
-    """What is found there, as `identities` returns it."""
+    """The findings for the source, as returned by `identities`."""
     improved: Collection[str] = ()
-    """The codes of findings that are worse there, unless they are errors: see `deprecations`."""
+    """The codes of findings that are worse for the source, except errors: see `deprecations`."""
     at_target: Known | None = None
     """Of a distribution that is kept: what is found for the target. What breaks without being found
     there is reported, although it was found before: it is right for one of the two alone."""
 
     def _report(self, target: Target, diagnostics: list[Diagnostic]) -> list[Diagnostic]:
-        """Return what is new, and what is not known; lines may have moved, so they do not count."""
+        """Return new findings and unchecked files; lines are ignored, as they may have moved."""
         reported = super()._report(target, diagnostics)
         directory = target.package.directory
         return [
@@ -169,7 +169,7 @@ class OrderSession(Session):
     """A session that reports unsorted imports only in files that were mostly sorted."""
 
     unordered: Mapping[tuple[str, str], int] = MappingProxyType({})
-    """How many were so, by directory and path of the file."""
+    """The number of unsorted imports, by directory and path of the file."""
 
     def _report(self, target: Target, diagnostics: list[Diagnostic]) -> list[Diagnostic]:
         reported = super()._report(target, diagnostics)
@@ -183,12 +183,12 @@ class OrderSession(Session):
 
 
 def deprecations(rules: Iterable[type[Rule]]) -> frozenset[str]:
-    """Return the codes of what works, and will go; it went, or was closer to it, later on."""
+    """Return the codes of deprecations, which are removed in later distributions."""
     return frozenset(rule.code for rule in rules if rule.is_deprecation)
 
 
 def unordered(results: Sequence[Result]) -> Mapping[tuple[str, str], int]:
-    """Return how many imports are not in order, by directory and path of the file."""
+    """Return the number of unsorted imports, by directory and path of the file."""
     return Counter(
         (result.package.directory, item.location.path)
         for result in results
@@ -198,7 +198,7 @@ def unordered(results: Sequence[Result]) -> Mapping[tuple[str, str], int]:
 
 
 def identities(results: Sequence[Result]) -> set[tuple[str, str, str, str]]:
-    """Return what makes findings the same for two distributions."""
+    """Return the identities of findings, the same for two distributions."""
     return {
         _identity(result.package.directory, item)
         for result in results
@@ -207,7 +207,7 @@ def identities(results: Sequence[Result]) -> set[tuple[str, str, str, str]]:
 
 
 def _identity(directory: str, item: Diagnostic) -> tuple[str, str, str, str]:
-    """Return what stays the same in a finding; what raised another exception was broken before."""
+    """Return the identity of a finding; one with another exception was broken before."""
     message = _EXCEPTION.sub("", without_distribution(item.message))
     return directory, item.location.path, item.code, message
 

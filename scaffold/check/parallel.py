@@ -24,25 +24,25 @@ if TYPE_CHECKING:
     from scaffold.model.discovery.targets import Target
 
 WORTH_WORKERS = 150_000
-"""Bytes of Python from which on worker processes cost less than they save."""
+"""The size of Python code from which worker processes pay."""
 TASK = 250_000
-"""Bytes of Python per task: large enough to share the start of ruff, small enough to share out."""
+"""The size of Python code per task, large enough to share the start of ruff."""
 MOST_OF_RULES = 2_000_000
 """Bytes of Python whose rules are one task, unless they are one package: what is parsed for them
 stays in memory until its end."""
 MOST_PACKAGES = 16
-"""Of a task, for progress."""
+"""The maximum number of packages per task, for progress."""
 MAX_GARBAGE = 300_000
 """Blocks of memory, some 20 MB, from which on it pays to look for garbage: what the rules and the
 style of 500 kB of Python leave."""
 MAX_FACTS = 10_000
-"""Facts about packages that a worker keeps from task to task; 2,000 take 1 MB."""
+"""The maximum number of facts that a worker keeps between tasks; 2,000 take 1 MB."""
 
 Style = dict[str, list[Diagnostic]]
 
 
 class Checker(Protocol):
-    """What checks packages: a ``Session``, of which all processes have the same."""
+    """A checker of packages: a ``Session``, the same in all processes."""
 
     def run_batch(
         self,
@@ -66,7 +66,7 @@ class Checker(Protocol):
     def result(
         self, target: Target, rules: Ruled, style: Mapping[str, Sequence[Diagnostic]]
     ) -> Result:
-        """Combine what was found in a package."""
+        """Combine the findings in a package."""
 
 
 class _Task(NamedTuple):
@@ -106,9 +106,9 @@ def run(
     """Check packages; yield their results in the order given.
 
     Args:
-        session: What checks them.
+        session: The checker.
         targets: The packages.
-        earlier: What an earlier run found in some, by directory.
+        earlier: Earlier results of some packages, by directory.
     """
     global _work  # noqa: PLW0603  see its docstring
     sizes = [_sizes(target.package, earlier) for target in targets]
@@ -138,7 +138,7 @@ def run(
 
 
 def _sizes(package: Package, earlier: Mapping[str, Earlier]) -> dict[str, int]:
-    """Return the sizes of the Python files that are to be read; changes in memory do not count."""
+    """Return the sizes of the Python files to read, ignoring changes in memory."""
     previous = earlier.get(package.directory)
     place = package.place
     if place is None:
@@ -153,9 +153,9 @@ def _sizes(package: Package, earlier: Mapping[str, Earlier]) -> dict[str, int]:
 def _tasks(sizes: Sequence[Mapping[str, int]], processors: int) -> Iterator[_Task]:
     """Yield the tasks; the rules of a package come before the rest of its style.
 
-    A large package is a task for its rules and others for its style. Next to one, the rules of
-    others join in, as they ask about it, and each process would read it again: half of the
-    processors, one at least, share the rules.
+    A large package is one task for its rules and others for its style. Next to one, the rules of
+    other packages join its task, as they ask about it, and each process would read it again: half
+    of the processors, one at least, share the rules.
     """
     totals = [sum(files.values()) for files in sizes]
     share = TASK
@@ -192,10 +192,10 @@ def _cut(files: Mapping[str, int]) -> Iterator[frozenset[str]]:
 
 @contextmanager
 def _start_pool(workers: int) -> Iterator[Pool]:
-    """Run worker processes that Ctrl-C does not reach: the first process ends them.
+    """Run worker processes that ignore Ctrl-C: the first process ends them.
 
-    A worker that died of it could hold the lock of the queue, which the first process waits for.
-    Processes and threads inherit what is blocked when they are started.
+    A killed worker could hold the lock of the queue, for which the first process waits.
+    Processes and threads inherit blocked signals when they are started.
     """
     import multiprocessing  # slow to import, and not needed for little work
 
@@ -240,8 +240,8 @@ def _run(number: int) -> _Done:
 class _Garbage:
     """Controls garbage collection in a worker.
 
-    What was parsed holds itself: Python would find it after most of a task, or very late. Looking
-    for it after each takes a tenth of the time of a check.
+    Parsed files are in reference cycles: Python would collect them after most of a task, or very
+    late. Collecting after each package takes a tenth of the time of a check.
     """
 
     def __init__(self) -> None:
@@ -253,7 +253,7 @@ class _Garbage:
         self._blocks = sys.getallocatedblocks()
 
     def collect(self) -> None:
-        """Free the garbage if much was made since the last time."""
+        """Collect garbage if there are many new objects."""
         if sys.getallocatedblocks() - self._blocks > MAX_GARBAGE:
             gc.collect()
             self._blocks = sys.getallocatedblocks()
@@ -263,7 +263,7 @@ _garbage = _Garbage()
 
 
 def _tidy(packages: Sequence[Package]) -> None:
-    """Drop what earlier tasks of this process have left."""
+    """Drop the data of earlier tasks of this process."""
     if gc.isenabled():  # the first task
         _garbage.start()
     elif sum(len(package.facts) for package in packages) > MAX_FACTS:

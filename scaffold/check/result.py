@@ -27,38 +27,38 @@ class Part(NamedTuple):
 class Verdict(NamedTuple):
     """The findings in a package, in parts with their dependencies.
 
-    That is on condition that nothing but files that are followed (`scaffold.model.reads`) was
-    edited: after any other change nothing in it holds.
+    Valid only if nothing but tracked files (`scaffold.model.reads`) was
+    edited: after any other change it is invalid.
     """
 
     parts: Mapping[str, Part]
     """By the code of a rule that looks at the package; by path for all rules that look at that
     file alone; by code and path for others that look at files one by one."""
     style: Mapping[str, Sequence[Diagnostic]]
-    """What the linters of Python style find, by path."""
+    """Style findings by path."""
     unparsable: Sequence[Diagnostic]
-    """The files that could not be read, each with the reason."""
+    """The unreadable files, each with the reason."""
     facts: Mapping[FactId, StoredFact]
     """The facts that the parts depend on, also through others."""
     types: Mapping[str, Part] = {}
-    """What types show in files, by path, before anything is suppressed."""
+    """Type findings by path, before suppression."""
     configuring: frozenset[str] = frozenset()
-    """The files that say by what style is judged, by ``Package.full_path``."""
+    """The files that configure style, by ``Package.full_path``."""
 
 
 class Earlier(NamedTuple):
     """The findings of an earlier check of a package, and the edits since."""
 
     verdict: Verdict
-    """Its style is that of the files as they are now."""
+    """The earlier verdict, with current style findings."""
     edited: Collection[str]
-    """Files of this and other packages, by ``Package.full_path``."""
+    """Edited files of this and other packages, by ``Package.full_path``."""
     settled: Settled
-    """What this run has found out about the facts of the verdict."""
+    """The checked facts of the verdict in this run."""
 
     @classmethod
     def of(cls, package: Package, verdict: Verdict, edited: Collection[str]) -> Earlier:
-        """Return what is left after some files were edited."""
+        """Return the results that are still valid after some files were edited."""
         style = {
             path: item
             for path, item in verdict.style.items()
@@ -74,12 +74,12 @@ class Result(NamedTuple):
     files: int
     diagnostics: list[Diagnostic]
     verdict: Verdict | None = None
-    """The same in parts, where a later check can make use of it."""
+    """The findings in parts, if a later check can reuse them."""
     foreign: tuple[str, ...] = ()
-    """Of each file that is not the user's, and was skipped, what makes it so."""
+    """The kinds of skipped foreign files."""
 
     def without_fixes(self) -> Result:
-        """Return the same findings with no fix for any."""
+        """Return the findings without fixes."""
         return self._replace(diagnostics=[item._replace(fix=None) for item in self.diagnostics])
 
 
@@ -89,13 +89,13 @@ class Ruled(NamedTuple):
     files: int
     diagnostics: list[Diagnostic]
     verdict: Verdict | None
-    """The same in parts."""
+    """The findings in parts."""
     style: Mapping[str, Sequence[Diagnostic]] = {}
-    """The style of the files that are not to be checked again, by path."""
+    """The style findings of files that need not be checked again, by path."""
     foreign: tuple[str, ...] = ()
-    """Of the files that are not the user's, what makes them so."""
+    """The kinds of foreign files."""
     suppressed: tuple[Diagnostic, ...] = ()
-    """What was found, and is not among the diagnostics."""
+    """The suppressed findings."""
 
 
 class Summary(NamedTuple):

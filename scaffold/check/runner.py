@@ -30,18 +30,18 @@ if TYPE_CHECKING:
     from scaffold.check.cache.facts import Settled
 
 MOST_REFUSED = 100
-"""Files of one package that exhaust a rule one after the other."""
+"""The maximum number of files of a package that exhaust a rule."""
 _OF_ANY_ENCODING = (
     *("CMakeLists.txt", ".cmake", ".in", ".txt", ".md", ".rst"),
     *(".c", ".cc", ".cpp", ".cxx", ".h", ".hh", ".hpp", ".hxx", ".cu"),
 )
-"""How the names of files end whose readers, such as CMake and compilers, take any bytes."""
+"""Extensions of files whose readers, such as CMake and compilers, accept any bytes."""
 
 
 def check(package: Package, rules: Iterable[Rule]) -> list[Diagnostic]:
     """Return the diagnostics of the rules, in reading order.
 
-    A file that cannot be parsed gives one SC001, a rule that fails one SC002.
+    An unparsable file gives one SC001, a crashing rule one SC002.
     """
     return Check(package).run(rules)
 
@@ -51,7 +51,7 @@ class Check:
 
     Args:
         package: The package.
-        earlier: What was found in it earlier: its parts are taken over where they hold.
+        earlier: Earlier results, whose valid parts are reused.
     """
 
     def __init__(self, package: Package, earlier: Earlier | None = None) -> None:
@@ -99,20 +99,20 @@ class Check:
         return sorted(diagnostics, key=lambda diagnostic: diagnostic.sort_key)
 
     def end(self) -> None:
-        """Drop the facts of the package, so that it finds them out by itself again."""
+        """Drop the facts of the package, so that it computes them again."""
         if self._earlier_facts is not None:
             self._earlier_facts.end()
 
     @property
     def parts(self) -> Mapping[str, Part]:
-        """What is taken over."""
+        """The reused parts."""
         return self._kept
 
     def verdict(self, style: Mapping[str, Sequence[Diagnostic]]) -> Verdict | None:
-        """Return what was found in parts, ``None`` if it cannot be taken apart.
+        """Return the findings in parts, ``None`` if they cannot be split.
 
         Args:
-            style: What is known of the style of files.
+            style: The known style findings of files.
         """
         exhausted_here = any(item.message in EXHAUSTION for item in self._unparsable)
         if exhausted_here or not self._is_whole:
@@ -130,7 +130,7 @@ class Check:
         return Verdict(parts, style, self._unparsable, stored)
 
     def _run(self, rule: Rule) -> Mapping[str, list[Diagnostic]]:
-        """Return the diagnostics of a rule; a file that exhausts it counts as unparsable then."""
+        """Return the diagnostics of a rule; a file that exhausts it is marked unparsable."""
         package = self._package
         for _ in range(MOST_REFUSED):
             result: dict[str, list[Diagnostic]] = {}
@@ -165,13 +165,13 @@ class Check:
             self._is_whole &= most > 0  # else other files decide what is omitted
 
     def _reads_of(self, key: str) -> Reads:
-        """Return the record of what a part looks at."""
+        """Return the recorded accesses of a part."""
         if key not in self._reads:
             self._reads[key] = Reads()
         return self._reads[key]
 
     def _steps(self, rule: Rule) -> Iterator[tuple[str, Callable[[], Iterable[Diagnostic]]]]:
-        """Yield what is to be run of a rule, each step with the part that it belongs to."""
+        """Yield the steps of a rule, each with its part."""
         package = self._package
         if not isinstance(rule, FileRule):
             yield rule.code, lambda: rule.check(package)
@@ -190,7 +190,7 @@ def _crash(rule: Rule, package: Package, error: Exception) -> Diagnostic:
 
 
 def _file_at_fault(package: Package, error: Exception) -> str | None:
-    """Return the file that the failing code was looking at, if its variables tell."""
+    """Return the file that the failing code was reading, judging by its variables."""
     path: str | None = None
     trace = error.__traceback__
     while trace is not None:

@@ -16,18 +16,18 @@ if TYPE_CHECKING:
     from scaffold.check.rules.rule import Rule
 
 ALL = "ALL"
-"""What means every code."""
+"""The word for all codes."""
 _TAKEN_FOR_DIGITS = str.maketrans("OIL", "011")
 
 UNCHECKED = ("SC001", "SC002", "SC004", "SC005", "SC007")
-"""Codes that report unchecked input: shown even if other codes are selected."""
+"""Codes that report unchecked input, shown even if other codes are selected."""
 
 
 class Selection(NamedTuple):
-    """Code prefixes to report, and where not."""
+    """Code prefixes to report and to ignore."""
 
     select: tuple[str, ...] = ()
-    """Empty for everything."""
+    """The selected prefixes; empty for all."""
     ignore: tuple[str, ...] = ()
     per_path: Mapping[str, tuple[str, ...]] = {}
     """Prefixes to ignore, by a pattern of paths relative to a package or to ``origin``."""
@@ -55,10 +55,10 @@ class Selection(NamedTuple):
 
 
 def area_prefixes(rules: Iterable[type[Rule]]) -> dict[str, str]:
-    """Return the letters that the codes of an area begin with, by the name of its directory.
+    """Return the code prefixes of areas by the name of the directory.
 
     Args:
-        rules: Those of content directories; rules of the engine itself are in no area.
+        rules: The rules of content directories; those of the engine are in no area.
     """
     return {
         rule.__module__.split(".")[1]: rule.code[:2]
@@ -70,16 +70,16 @@ def area_prefixes(rules: Iterable[type[Rule]]) -> dict[str, str]:
 def resolve(
     words: Iterable[str], names: Mapping[str, str], areas: Mapping[str, str], origin: str
 ) -> tuple[str, ...]:
-    """Return the prefixes of codes that words mean.
+    """Return the code prefixes that match words.
 
     Args:
-        words: Codes, beginnings of codes, names of rules, areas, or ``ALL``, in any case.
+        words: Codes, prefixes of codes, names of rules, areas, or ``ALL``, in any case.
         names: The names of all rules by their codes.
         areas: The prefix of the codes of each area by its name.
-        origin: Where the words come from.
+        origin: The origin of the words.
 
     Raises:
-        ConfigError: a word means no rule.
+        ConfigError: a word matches no rule.
     """
     result: dict[str, None] = {}
     for word in words:

@@ -38,10 +38,10 @@ if TYPE_CHECKING:
 
 
 WORTH_PARTS = 2
-"""Python files from which on it pays to keep findings in parts; others are checked anew."""
+"""The number of Python files from which findings are kept in parts."""
 
 _ABOUT_PYTHON = frozenset({"IM", "LF", "MS", "ND"})
-"""The areas whose rules look at what types are about."""
+"""The areas whose rules overlap with types."""
 
 
 class Session:
@@ -49,12 +49,12 @@ class Session:
 
     Args:
         rules: The rules.
-        selection: Which of them, and of their findings, count.
-        adjustments: What the configuration changes about findings.
+        selection: The selected codes.
+        adjustments: The adjustments of findings by the configuration.
         has_types: Whether the type checker runs.
         is_reference: Whether style is checked with the configuration that ament ships with.
-        line_length: The characters of a line where the tests of a package do not run flake8.
-        is_remembered: Whether a later run may ask what was found, part by part.
+        line_length: The line length for packages whose tests do not run flake8.
+        is_remembered: Whether the results are stored in parts for later runs.
     """
 
     def __init__(
@@ -85,7 +85,7 @@ class Session:
         self._has_types = has_types
         self._types: TypeFindings | None = None
         self.types_failure = ""
-        """Why types were not checked; empty if they were, or were not to be."""
+        """Why types were not checked; empty if they were, or are disabled."""
         self.unchecked: dict[str, list[str]] = {}
         """Packages that could not be checked, by the reason."""
 
@@ -96,7 +96,7 @@ class Session:
 
         Args:
             targets: The packages.
-            earlier: What an earlier run found in some, by directory.
+            earlier: Earlier results of some packages, by directory.
         """
         from scaffold.check.parallel import run
 
@@ -116,8 +116,8 @@ class Session:
 
         Args:
             targets: The packages.
-            style: The style backend, where it has been started for them.
-            earlier: What an earlier run found in some, by directory.
+            style: The style backend, if already started for them.
+            earlier: Earlier results of some packages, by directory.
         """
         previous = earlier or {}
         is_first = self._types is None
@@ -173,7 +173,7 @@ class Session:
     def check_styles(
         self, packages: Sequence[Package]
     ) -> Iterator[Mapping[str, Sequence[Diagnostic]]]:
-        """Check the style of packages; yield what is found in each, by path."""
+        """Check the style of packages; yield the findings of each by path."""
         from scaffold.check.parallel import MOST_PACKAGES
 
         for start in range(0, len(packages), MOST_PACKAGES):
@@ -187,14 +187,14 @@ class Session:
     def check_style(
         self, package: Package, paths: Collection[str]
     ) -> Mapping[str, Sequence[Diagnostic]]:
-        """Check the style of some files only; return what is found, by path."""
+        """Check the style of some files only; return the findings by path."""
         style = self.start_style([package], None, paths)
         result = style.by_file(package) if style else {}
         package.forget()
         return result
 
     def selected(self, target: Target, diagnostics: Iterable[Diagnostic]) -> list[Diagnostic]:
-        """Return what is asked for, in reading order."""
+        """Return the selected findings in reading order."""
         return self._report(target, list(diagnostics))
 
     def start_style(
@@ -206,9 +206,9 @@ class Session:
         """Start the style backend, unless no style code is selected.
 
         Args:
-            packages: What is to be checked.
-            earlier: What is known of some, by directory; files whose style is known are left out.
-            paths: Check these files alone.
+            packages: The packages to check.
+            earlier: Earlier results of some, by directory; files with known style are skipped.
+            paths: Check only these files.
         """
         chosen = self.selection.select
         if chosen and all(prefix[:2] in self._areas for prefix in chosen):
@@ -282,7 +282,7 @@ class Session:
         return Ruled(count, reported, verdict, style, foreign, suppressed)
 
     def _paths(self, package: Package, path: str) -> tuple[str, ...]:
-        """Return the paths of a file that the patterns of the configuration are compared with."""
+        """Return the paths of a file to match with patterns of the configuration."""
         origin = self.selection.origin
         if not origin or not package.directory:
             return (path,)
@@ -293,7 +293,7 @@ class Session:
         return (path,) if place is None else (path, f"{place}/{path}" if place else path)
 
     def _report(self, target: Target, diagnostics: list[Diagnostic]) -> list[Diagnostic]:
-        """Return what is asked for, in reading order, each thing once."""
+        """Return the selected findings in reading order, without duplicates."""
         # flake8 has its own code for a Python file that does not parse.
         reported = {d.location.path for d in diagnostics if d.code.startswith("E9")}
         unreadable = (UnparsableFile.code, FileTooLarge.code)
@@ -315,7 +315,7 @@ class Session:
 
 
 def _of_ros1(package: Package) -> Sequence[Diagnostic]:
-    """Return what is reported of a package of ROS 1 instead of all else; nothing for others."""
+    """Return the only finding of a ROS 1 package; empty for others."""
     try:
         catkin = package.manifest.catkin
         if catkin is None or (package.has(CMAKE_LISTS) and uses_ament(package)):
@@ -354,10 +354,10 @@ def all_rules(rules: Sequence[type[Rule]]) -> list[type[Rule]]:
 
 
 def _besides(of_rules: Sequence[Diagnostic], of_types: Sequence[Diagnostic]) -> list[Diagnostic]:
-    """Return the findings about types that no rule has found in its own words.
+    """Return the type findings that no rule has reported.
 
-    A rule knows more of a mistake than its types: that is so at the same place, and for errors in
-    Python code on the same line. Who suppresses what the rule found means the types as well.
+    A rule explains an error better than its types, at the same place or for errors in
+    Python code on the same line. A suppression of the rule covers the types as well.
     """
     places = {item.location[:3] for item in of_rules}
     lines = {

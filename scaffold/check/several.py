@@ -21,20 +21,20 @@ if TYPE_CHECKING:
 
 _TITLES = "|".join(name.capitalize() for name in distributions.NAMES)
 _NAMED = re.compile(rf"\b(?:{_TITLES}|Python 3\.\d+|\d+\.\d+\.\d+ of ROS 2)\b")
-"""What a message may say of the distribution that it is about."""
+"""Matches a distribution in a message."""
 # linear: a message is a few lines long
 _JOINED = re.compile(
     rf"\b(?:(?:{_TITLES})(?:/(?:{_TITLES}))*|Python 3\.\d+(?:/3\.\d+)*"
     r"|\d+\.\d+\.\d+(?:/\d+\.\d+\.\d+)* of ROS 2)\b"
 )
-"""What it may say of several, as `_for_all` writes it."""
+"""Matches several distributions, as written by `_for_all`."""
 
 
 class AgreedSession(Session):
     """A session whose fixes must be correct for all distributions of a package."""
 
     agreed: Agreed | None = None
-    """What `agreed` returns; ``None`` to offer all fixes."""
+    """The result of `agreed`; ``None`` to offer all fixes."""
 
     def _report(self, target: Target, diagnostics: list[Diagnostic]) -> list[Diagnostic]:
         reported = super()._report(target, diagnostics)
@@ -51,7 +51,7 @@ class AgreedSession(Session):
 
 
 def agreed(by_distribution: Mapping[Distribution, Sequence[Result]]) -> Agreed:
-    """Return the codes, with directory and file, that are found for all distributions."""
+    """Return the codes, with directory and file, found for all distributions."""
     agreed_diagnostics = [
         {
             (result.package.directory, item.location.path, item.code)
@@ -69,8 +69,8 @@ def merged(
     """Return one result for each package, with the findings for all distributions.
 
     Args:
-        by_distribution: The results for each distribution, in the packages that are for it.
-        fixed_for_all: The codes whose fixes are right although only some have the finding.
+        by_distribution: The results for each distribution, of the packages for it.
+        fixed_for_all: The codes whose fixes are valid for all, even if only some have the finding.
     """
     by_package: dict[str, dict[Distribution, Result]] = {}
     for distribution, results in by_distribution.items():
@@ -93,9 +93,9 @@ def without_distribution(message: str) -> str:
 
 
 def _for_all(messages: Sequence[str]) -> str:
-    """Return what messages say that differ in what they say of their distributions alone.
+    """Return the merged message of messages that only differ in their distributions.
 
-    Where one names Jazzy and the other Lyrical, it is ``Jazzy/Lyrical``.
+    ``Jazzy`` in one and ``Lyrical`` in the other become ``Jazzy/Lyrical``.
     """
     words = [_NAMED.findall(message) for message in messages]
     if len({*map(len, words)}) > 1:
@@ -105,7 +105,7 @@ def _for_all(messages: Sequence[str]) -> str:
 
 
 def _alternatives(names: Sequence[str]) -> str:
-    """Return names with signs between them, and what they all begin or end with once."""
+    """Join names with a separator, with a common prefix or suffix only once."""
     start = "Python " if names[0].startswith("Python ") else ""
     end = " of ROS 2" if names[0].endswith(" of ROS 2") else ""
     return start + "/".join(name.removeprefix(start).removesuffix(end) for name in names) + end

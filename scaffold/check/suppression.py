@@ -21,7 +21,7 @@ from scaffold.record import NamedTuple
 from scaffold.source import Source, ViewError
 
 COMMENT = r"(?:#|<!--)\s*noqa(?![a-z])(?::\s*(?P<codes>[A-Z]+[0-9]+(?:[\s,]+[A-Z]+[0-9]+)*))?"
-"""Matches a comment; its group ``codes`` is missing where it covers the whole line."""
+"""Matches a comment; its group ``codes`` is missing if it covers the whole line."""
 _CODE = r"\b[A-Z]+[0-9]+"
 _MAY_HOLD = (".py", ".xml", ".urdf", ".xacro", ".txt", ".cmake", ".cfg", ".yaml", ".yml")
 
@@ -29,14 +29,14 @@ _MAY_HOLD = (".py", ".xml", ".urdf", ".xacro", ".txt", ".cmake", ".cfg", ".yaml"
 def apply(
     package: Package, diagnostics: Iterable[Diagnostic], ran: Collection[str]
 ) -> list[Diagnostic]:
-    """Drop what is suppressed, and report suppressions that suppress nothing.
+    """Drop suppressed findings, and report unused suppressions.
 
-    What is in branches for other distributions is dropped as well.
+    Findings in branches for other distributions are dropped as well.
 
     Args:
-        package: Where the diagnostics were found.
-        diagnostics: What the rules said.
-        ran: The codes of the rules that ran; only for these an unused suppression is known.
+        package: The package of the diagnostics.
+        diagnostics: The diagnostics of the rules.
+        ran: The codes of the rules that ran, for which unused suppressions are known.
     """
     kept: list[Diagnostic] = []
     used: set[tuple[str, int, str]] = set()
@@ -84,11 +84,11 @@ class _Comment(NamedTuple):
 
     line: int
     codes: tuple[tuple[str, int], ...]
-    """Each with the offset where it begins; none where the comment covers the whole line."""
+    """The codes with their offsets; empty if the comment covers the whole line."""
 
 
 def _comments(package: Package, path: str) -> tuple[_Comment, ...]:
-    """Return the comments of a file, none of one that cannot be read."""
+    """Return the comments of a file; empty if it cannot be read."""
     with suppress(ViewError):
         if path.endswith(".py"):
             return _comments_in_python(package, path)

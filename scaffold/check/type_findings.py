@@ -26,7 +26,7 @@ class Typed(NamedTuple):
 
     diagnostics: Sequence[Diagnostic] = ()
     parts: Mapping[str, Part] = {}
-    """By path, before anything is suppressed; files whose findings are not kept are left out."""
+    """The findings by path, before suppression, without files whose findings are not stored."""
     facts: Mapping[FactId, StoredFact] = {}
     """The facts that the parts depend on."""
 
@@ -35,10 +35,10 @@ class TypeFindings:
     """Checks the types of packages; the type checker starts immediately.
 
     Args:
-        rules: The rules that judge what it reports.
+        rules: The rules that evaluate its reports.
         packages: The packages.
         is_wanted: Tells by package and path whether a file is to be checked.
-        earlier: What an earlier run found in some, by directory.
+        earlier: Earlier results of some packages, by directory.
     """
 
     def __init__(
@@ -51,7 +51,7 @@ class TypeFindings:
         self._rules = rules
         self._earlier = {place: _of_types(item) for place, item in earlier.items()}
         self._kept: Mapping[str, Part] = {}
-        """What is taken over in the package that is looked at."""
+        """The reused findings in the current package."""
         self._check = TypeCheck(
             packages,
             lambda package, path: path not in self._kept and is_wanted(package, path),
@@ -61,7 +61,7 @@ class TypeFindings:
 
     @contextmanager
     def _recalling(self, package: Package) -> Iterator[None]:
-        """Let a package know what an earlier run found out about it."""
+        """Provide a package with the facts of an earlier run."""
         check = runner.Check(package, self._earlier.get(package.directory))
         self._kept = check.parts
         try:
@@ -79,7 +79,7 @@ class TypeFindings:
         self._check.close()
 
     def of(self, package: Package) -> Typed:
-        """Return what types show in a package."""
+        """Return the type findings in a package."""
         reported = self._check.by_file(package)
         if self.failure:
             return Typed()
@@ -109,6 +109,6 @@ _NOTHING = Part(frozenset(), frozenset(), ())
 
 
 def _of_types(earlier: Earlier) -> Earlier:
-    """Return what is known of types alone."""
+    """Return the reusable type findings."""
     verdict = earlier.verdict
     return earlier._replace(verdict=verdict._replace(parts=verdict.types, unparsable=()))

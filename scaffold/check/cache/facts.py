@@ -22,10 +22,10 @@ class EarlierFacts:
     """The facts that a cached result depends on.
 
     Args:
-        package: The package of the verdict.
+        package: The package of the result.
         stored: The facts, also of packages around it.
         edited: The files that were edited since, by ``Package.full_path``.
-        settled: What this run has found out about them; more is added.
+        settled: The facts checked in this run, which is extended.
     """
 
     def __init__(
@@ -46,9 +46,9 @@ class EarlierFacts:
             self._homes[directory].assume_facts(_Recall(self, directory))
 
     def hold(self, wanted: Iterable[FactId]) -> bool:
-        """Tell whether facts have the values they had.
+        """Tell whether facts still have their values.
 
-        Those whose files were edited are made again.
+        Those of edited files are computed again.
         """
         settled = self._settled
         for item in wanted:
@@ -61,13 +61,13 @@ class EarlierFacts:
     def end(self) -> None:
         """Stop recalling facts; packages compute them again, unless they did in this run.
 
-        What is recalled for this package need not hold for others, which depend on other packages.
+        Facts recalled for this package need not be valid for others, which see other packages.
         """
         for directory in {directory for directory, _ in self._stored} & self._homes.keys():
             self._homes[directory].end_assumptions()
 
     def recall(self, wanted: FactId) -> Fact | None:
-        """Return a fact if it is known to have the value that it had."""
+        """Return a fact if its value is known to be unchanged."""
         stored = self._settled.get(wanted) or self._untouched(wanted)
         if isinstance(stored, StoredFact):
             self._settled[wanted] = stored
@@ -78,7 +78,7 @@ class EarlierFacts:
         return stored
 
     def _untouched(self, wanted: FactId) -> StoredFact | None:
-        """Return a fact if nothing that it was made of has changed."""
+        """Return a fact if none of its dependencies has changed."""
         stored = self._stored.get(wanted)
         if stored is None or not stored.files.isdisjoint(self._edited) or stored.has_failed:
             return None
@@ -109,19 +109,19 @@ class _Recall:
         self._directory = directory
 
     def __call__(self, key: Key) -> Fact | None:
-        """Return a fact if it is known to have the value that it had."""
+        """Return a fact if its value is known to be unchanged."""
         return self._facts.recall((self._directory, key))
 
 
 def to_store(
     facts: Iterable[Fact], taken_over: Iterable[FactId], settled: Settled
 ) -> Mapping[FactId, StoredFact]:
-    """Return facts for a later run, with all that they were made of.
+    """Return facts for a later run, with all their dependencies.
 
     Args:
-        facts: Those that this run made or recalled.
-        taken_over: Those that what is taken over depends on.
-        settled: What is known of facts of the earlier run.
+        facts: The facts that this run computed or recalled.
+        taken_over: The facts that reused results depend on.
+        settled: The checked facts of the earlier run.
     """
     stored: Settled = {fact.id: fact for fact in facts}
     pending = [*stored, *taken_over]

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
 
 _NOTHING = Part(frozenset(), frozenset(), ())
-"""The part of a rule that read no Python file and found nothing, as most rules do."""
+"""The part of a rule that read no Python file and found nothing, the usual case."""
 
 
 class _Record(NamedTuple):
@@ -41,7 +41,7 @@ class _Record(NamedTuple):
     identity: tuple[str, bool, str, bool]
     """See `Identity`."""
     needs: tuple[int, ...] | None
-    """Places of the packages that the verdict depends on; ``None`` for all."""
+    """Indices of the packages that the result depends on; ``None`` for all."""
     files: int
     findings: bytes
     """The diagnostics, and the same in parts, as marshal wrote them; see ``_encode_verdict``.
@@ -49,7 +49,7 @@ class _Record(NamedTuple):
     As a whole they would take ten times the memory, and of most packages nobody needs them.
     """
     foreign: tuple[str, ...]
-    """Of the files that are not the user's, what makes them so."""
+    """The kinds of foreign files."""
 
 
 class ResultCache:
@@ -61,15 +61,15 @@ class ResultCache:
         self._targets = targets
         self._is_saved = is_saved
         self._results: dict[int, bytes] = {}
-        """By place, the findings of this run; see ``_Record``."""
+        """The findings of this run by index; see ``_Record``."""
         self._records: dict[int, _Record] = {}
-        """By place, the packages whose findings are the same."""
+        """The packages with unchanged findings, by index."""
         self._earlier: dict[str, Earlier] = {}
-        """By directory, those of which some findings are the same."""
+        """The packages with some unchanged findings, by directory."""
         self._coders: dict[str, _Coder] = {}
-        """By directory, what decoded the earlier findings."""
+        """The decoders of earlier findings, by directory."""
         self._needed: dict[int, tuple[int, ...] | None] = {}
-        """Which packages the rest of those needed."""
+        """The packages that the remaining findings depend on."""
         self._trees: dict[int, Seen] = {}
         self._outside: Seen = {}
         if run is not None and run.is_same_outside():
@@ -131,7 +131,7 @@ class ResultCache:
         self._outside = run.outside
 
     def run(self, session: Session) -> Iterator[Result]:
-        """Yield the results of all packages in their order; check those that are not known."""
+        """Yield the results of all packages in order; check those without a valid result."""
         fresh = [item for at, item in enumerate(self._targets) if at not in self._records]
         checked = session.run(fresh, self._earlier)
         for at, target in enumerate(self._targets):
@@ -148,12 +148,12 @@ class ResultCache:
                 yield Result(target.package, record.files, diagnostics, None, record.foreign)
 
     def save(self, entry: RunEntry, disk: Disk, results: Sequence[Result]) -> bool:
-        """Remember a complete run; tell whether it is: not if files changed meanwhile.
+        """Store a complete run; return whether it was stored: not if files changed meanwhile.
 
         Args:
-            entry: Where.
-            disk: What was accessed outside of the packages.
-            results: Of all packages, in their order.
+            entry: The cache entry.
+            disk: The accesses outside of the packages.
+            results: The results of all packages, in order.
         """
         from scaffold.ament import ruff
 
@@ -177,7 +177,7 @@ class ResultCache:
         return True
 
     def _is_same(self, last: CachedRun, disk: Disk) -> bool:
-        """Tell whether the last run has it all, what was accessed to report it included."""
+        """Tell whether the stored run is complete, including accesses for the report."""
         if len(self._records) < len(self._targets) or disk.seen != last.outside:
             return False
         return all(
@@ -204,7 +204,7 @@ def _is_unaffected(
 ) -> bool:
     """Tell whether no finding in a package depends on the edited files.
 
-    Which of its findings count may depend on the manifests of other packages.
+    Filters of its findings may depend on the manifests of other packages.
     """
     start = package.full_path("")
     if verdict is None or any(path.startswith(start) or path[-3:] != ".py" for path in edited):
@@ -216,7 +216,7 @@ def _is_unaffected(
 
 
 def _configures(package: Package, verdict: tuple[Any, ...], edited: frozenset[str]) -> bool:
-    """Tell whether an edited file configures, or configured, the style of others."""
+    """Tell whether an edited file is or was a style configuration."""
     paths, *_, configuring = verdict
     if any(paths[at] in edited for at in configuring):
         return True
@@ -234,7 +234,7 @@ def _asked(target: Target) -> tuple[str, tuple[str, ...] | None]:
 
 
 def _seen(package: Package, before: Seen, result: Result) -> Seen | None:
-    """Return what was accessed in a package; ``None`` if its verdict is not to be kept."""
+    """Return the accesses in a package; ``None`` if its result must not be stored."""
     disk = disk_of(package)
     disk.note(before)
     crashed = any(diagnostic.code == RuleCrashed.code for diagnostic in result.diagnostics)
@@ -253,11 +253,11 @@ class Needs:
         self._defining = {at for at, item in enumerate(identities) if item.may_define_interfaces}
 
     def of(self, package: Package, before: Iterable[int] | None = ()) -> tuple[int, ...] | None:
-        """Return the places of the packages, ``None`` for all.
+        """Return the indices of the packages, ``None`` for all.
 
         Args:
-            package: What the verdict is about.
-            before: The places that what is left of an earlier verdict depends on.
+            package: The package of the result.
+            before: The indices of the packages that reused parts depend on.
         """
         if before is None:
             return None
@@ -280,7 +280,7 @@ class _Coder:
         self._stored: dict[int, tuple[Any, ...]] = {}
         self._kept: list[Diagnostic] = []
         self._texts: dict[str, str] = {}
-        """Each text once: marshal writes what is the same object once."""
+        """Interned strings, as marshal writes an object only once."""
 
     def encode(self, diagnostic: Diagnostic) -> tuple[Any, ...]:
         """Return a diagnostic as a tuple."""
@@ -288,7 +288,7 @@ class _Coder:
         return stored or self._note(diagnostic, _encode(diagnostic, self._texts.setdefault))
 
     def decode(self, stored: tuple[Any, ...]) -> Diagnostic:
-        """Return the diagnostic that a tuple was made of."""
+        """Decode a diagnostic from a tuple."""
         diagnostic = _decode(stored)
         self._note(diagnostic, stored)
         return diagnostic
@@ -304,7 +304,7 @@ _Decode = Callable[["tuple[Any, ...]"], Diagnostic]
 
 
 def _encode_verdict(verdict: Verdict, encode: _Encode) -> tuple[Any, ...]:
-    """Return a verdict as a tuple; its paths are places in the first item."""
+    """Encode a verdict as a tuple; its paths are indices into the first item."""
     paths: dict[str, int] = {}
 
     def places(files: Iterable[str]) -> tuple[int, ...]:
@@ -397,7 +397,7 @@ def _decode_fix(title: str, changes: Sequence[tuple[Any, ...]], safety: str) -> 
 
 
 _new_tuple: Any = tuple.__new__
-"""Makes a record of all its fields in half the time: thousands are decoded at each edit."""
+"""A fast constructor of records, as thousands are decoded at each edit."""
 _SEVERITIES = {item.value: item for item in Severity}
 _SAFETIES = {item.value: item for item in Safety}
 _CHANGES: Mapping[str, type[Change]] = {

@@ -25,9 +25,9 @@ def codes(
     """Return the code of rule files.
 
     Args:
-        root: The directory that they are in.
+        root: Their directory.
         paths: The files.
-        compile_one: Returns the code of a file, from wherever Python finds it.
+        compile_one: Returns the code of a file.
     """
     kept = cache.directory("rules")
     if kept is None:

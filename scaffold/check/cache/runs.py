@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 MAX_RUNS = 400
 MAX_BYTES = 50_000_000
-"""Of one run; 800 packages with 30,000 findings take 18 MB."""
+"""The size limit of a run; 800 packages with 30,000 findings take 18 MB."""
 ENVIRONMENT = (
     "AMENT_PREFIX_PATH",
     "HOME",
@@ -39,7 +39,7 @@ ENVIRONMENT = (
 )
 """The variables that findings depend on."""
 SCREEN = ("COLORTERM", "COLUMNS", "FORCE_COLOR", "LINES", "NO_COLOR", "TERM")
-"""The variables that only decide how they are shown."""
+"""The variables that only affect how they are shown."""
 
 _MAGIC = b"scaffold-run-8\n"
 
@@ -48,10 +48,10 @@ class CachedRun:
     """The findings of a run, in types that marshal can write.
 
     Args:
-        number: Tells it from other runs.
-        outside: What was accessed outside of the packages.
-        trees: What was accessed in each package; ``None`` for one that is never remembered.
-        results: What ``scaffold.check.cache.results`` stores of each package.
+        number: Identifies the run.
+        outside: The accesses outside of the packages.
+        trees: The accesses in each package; ``None`` for one that is never stored.
+        results: The data of ``scaffold.check.cache.results`` for each package.
     """
 
     def __init__(
@@ -72,15 +72,15 @@ class CachedRun:
         return self.is_same_outside() and all(map(self.is_same, range(len(self.trees))))
 
     def is_same_outside(self) -> bool:
-        """Tell whether nothing has changed outside of the packages; the disk is asked once."""
+        """Tell whether nothing has changed outside of the packages; the disk is read once."""
         return self._asked(-1, self.outside) == []
 
     def is_same(self, at: int) -> bool:
-        """Tell whether nothing has changed in the package of a place; the disk is asked once."""
+        """Tell whether nothing has changed in the package with an index; the disk is read once."""
         return self.changed(at) == []
 
     def changed(self, at: int) -> list[Question] | None:
-        """Return what has changed in the package of a place, ``None`` if that is not known."""
+        """Return the changes in the package with an index, ``None`` if unknown."""
         return self._asked(at, self.trees[at])
 
     def _asked(self, at: int, seen: Seen | None) -> list[Question] | None:
@@ -93,10 +93,10 @@ class CachedReport:
     """The report of a run.
 
     Args:
-        shown: The runs whose findings it shows: the names of their files, and their numbers.
+        shown: The runs of its findings: the names of their files, and their ids.
         code: The exit code.
-        output: What standard output got.
-        warnings: What was written to standard error: what of the configuration is ignored.
+        output: The standard output.
+        warnings: The standard error about ignored configuration.
     """
 
     def __init__(
@@ -117,7 +117,7 @@ class RunEntry:
 
     Attributes:
         name: The name of the file.
-        last: The last run, if this very tool remembered it and nothing damaged it.
+        last: The last run, if it was stored by the same tool and is not damaged.
     """
 
     def __init__(self, kept: str, name: str, head: bytes) -> None:
@@ -130,7 +130,7 @@ class RunEntry:
     def save(
         self, outside: Seen, trees: Sequence[Seen | None], results: Sequence[tuple[Any, ...]]
     ) -> None:
-        """Store a run; see `CachedRun` for what belongs to it."""
+        """Store a run; see `CachedRun`."""
         number = os.urandom(8)
         self.last = CachedRun(number, outside, trees, results)
         _write(self._path, self._head, (number, outside, trees, results))
@@ -139,7 +139,7 @@ class RunEntry:
 class ReportEntry:
     """The cache entry for a report: one per command line, directory and environment.
 
-    Made before the run, because a rule that is edited meanwhile must not count as the one used.
+    It is created before the run, as a rule edited meanwhile must invalidate it.
     """
 
     def __init__(self, kept: str, words: Sequence[str]) -> None:
@@ -151,7 +151,7 @@ class ReportEntry:
 
     @classmethod
     def of(cls, words: Sequence[str]) -> ReportEntry | None:
-        """Return the place for a command line, ``None`` if nothing is to be remembered."""
+        """Return the entry for a command line, ``None`` if nothing is to be cached."""
         kept = cache.directory("runs")
         try:
             return cls(kept, words) if kept is not None else None
@@ -159,7 +159,7 @@ class ReportEntry:
             return None
 
     def current(self) -> CachedReport | None:
-        """Return the last report, if nothing that it depends on has changed since."""
+        """Return the last report, if none of its dependencies has changed since."""
         data = cache.read_sealed(self._path, self._head)
         if data is None:
             return None
@@ -171,17 +171,17 @@ class ReportEntry:
         return report
 
     def run(self, words: Sequence[str]) -> RunEntry:
-        """Return the place for the findings of a run.
+        """Return the entry for the findings of a run.
 
         Args:
-            words: What they depend on, besides files, directory and environment.
+            words: Their key, besides files, directory and environment.
         """
         return self._run(_name(["findings", *words]))
 
     def save(
         self, shown: Sequence[RunEntry], code: int, output: str, warnings: Sequence[str]
     ) -> None:
-        """Store a report of the findings of some runs that have been saved."""
+        """Store a report on saved runs."""
         numbers = [(entry.name, entry.last.number) for entry in shown if entry.last is not None]
         _write(self._path, self._head, (numbers, code, output, (*warnings,)))
 
@@ -203,7 +203,7 @@ def _write(path: str, head: bytes, everything: Any) -> None:  # noqa: ANN401  fo
 
 
 def _screen() -> tuple[int, int] | None:
-    """Return columns and lines of the terminal that is written to, ``None`` if it is none."""
+    """Return columns and lines of the output terminal, ``None`` if it is none."""
     try:
         columns, lines = os.get_terminal_size(sys.stdout.fileno())
     except (OSError, ValueError):

@@ -21,7 +21,7 @@ class _Seen(NamedTuple):
 
     @classmethod
     def taken_from(cls, disk: Disk) -> _Seen:
-        """Return what was seen since the last call."""
+        """Return the accesses since the last call."""
         result = cls(disk.seen, disk.is_settled)
         disk.seen = {}
         return result
@@ -41,12 +41,12 @@ class WorkerReads(NamedTuple):
 
     @property
     def tells_anything(self) -> bool:
-        """Tell whether the other process has to know."""
+        """Tell whether there is anything to transfer."""
         looked = self.inside.seen or self.outside.seen or self.used
         return bool(looked or self.uses_all or self.uses_interfaces or not self.is_repeatable)
 
     def add_to(self, packages: Sequence[Package]) -> None:
-        """Add what the worker read to the package of this process."""
+        """Add the accesses of the worker to the package of this process."""
         package = packages[self.at]
         disk_of(package).note(self.inside.seen, is_settled=self.inside.is_settled)
         package.outside.note(self.outside.seen, is_settled=self.outside.is_settled)
@@ -60,7 +60,7 @@ class WorkerReads(NamedTuple):
 
 
 def take(packages: Sequence[Package]) -> Iterator[WorkerReads]:
-    """Yield what is new since the last call; what is taken is forgotten here."""
+    """Yield and forget the accesses since the last call."""
     places = {id(package): at for at, package in enumerate(packages)}
     for at, package in enumerate(packages):
         used, uses_all, uses_interfaces = uses(package, places)
@@ -80,10 +80,10 @@ def take(packages: Sequence[Package]) -> Iterator[WorkerReads]:
 
 
 def uses(package: Package, places: Mapping[int, int]) -> tuple[set[int], bool, bool]:
-    """Return the places of the packages that one looked up, and whether all or interfaces.
+    """Return the indices of the packages that one looked up, and whether all or interfaces.
 
-    Packages that have no place, because they only lie around the checked ones, are looked
-    through: what was accessed in them is noted, but they may in turn have used accessed ones.
+    Packages without an index, which are not checked themselves, are looked
+    through: accesses in them are recorded, but they may in turn have used others.
     """
     result: set[int] = set()
     uses_all = uses_interfaces = False
@@ -103,7 +103,7 @@ def uses(package: Package, places: Mapping[int, int]) -> tuple[set[int], bool, b
 
 
 def disk_of(package: Package) -> Disk:
-    """Return what was accessed in a package that lies on disk, also below changes in memory."""
+    """Return the accesses in a package on disk, also below changes in memory."""
     tree = getattr(package.tree, "base", package.tree)
     assert isinstance(tree, DiskTree)  # noqa: S101  discovery makes no others
     return tree.disk

@@ -27,7 +27,7 @@ Key = tuple[str, tuple[str, ...] | None]
 
 @dataclass(frozen=True)
 class Settings:
-    """The settings of a session, and where its packages come from."""
+    """The settings of a session, and the origins of its packages."""
 
     selection: Selection
     adjustments: Adjustments
@@ -46,13 +46,13 @@ class Batch:
     targets: frozenset[Key]
     settings: Settings
     current: str
-    """The current directory of who checks."""
+    """The current directory of the client."""
     target: str
     """The distribution."""
     kept: tuple[str, ...]
-    """Those that the packages are to run on as well."""
+    """The kept distributions."""
     variables: Mapping[str, str]
-    """Of the environment, with paths that are in the mirror."""
+    """The environment variables, with paths in the mirror."""
 
 
 @dataclass(frozen=True)
@@ -74,11 +74,11 @@ class Answer:
 
 
 def key_of(target: Target, top: str = "") -> Key:
-    """Return how a target is called on all machines.
+    """Return the key of a target, the same on all machines.
 
     Args:
         target: The target.
-        top: The directory of the mirror that it is in.
+        top: The directory of the mirror.
     """
     only = None if target.only is None else tuple(sorted(target.only))
     return target.package.directory.removeprefix(top), only
@@ -88,8 +88,8 @@ def check(batch: Batch, files: mirror.Mirror) -> Answer:
     """Check a batch; it changes the current directory and the environment of this process.
 
     Args:
-        batch: What is checked.
-        files: The packages, and what is around them.
+        batch: The batch.
+        files: The packages and their surroundings.
     """
     with tempfile.TemporaryDirectory(prefix="ros2-scaffold-") as scratch:
         top = os.path.realpath(scratch)

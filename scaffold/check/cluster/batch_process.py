@@ -16,10 +16,10 @@ from scaffold.cluster.mirror import Mirror
 
 
 def check(work: batch.Batch, files: Mirror) -> batch.Answer:
-    """Check a batch in a process of its own.
+    """Check a batch in a separate process.
 
     Raises:
-        RuntimeError: the process does not get to its end.
+        RuntimeError: the process fails.
     """
     done = subprocess.run(
         [sys.executable, "-m", __name__],

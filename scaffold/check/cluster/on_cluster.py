@@ -27,11 +27,11 @@ class ClusterSession(AgreedSession):
     """A session that checks packages on a cluster, with the built-in rules."""
 
     address = ""
-    """Of the scheduler."""
+    """The address of the scheduler."""
     tell: Callable[[str], None]
-    """Called with what the user should know."""
+    """Called with messages for the user."""
     settings: Settings
-    """What the workers make their sessions of."""
+    """The settings for the sessions of workers."""
 
     def run(
         self,
@@ -41,7 +41,7 @@ class ClusterSession(AgreedSession):
         """Check packages on the cluster; yield in the order given.
 
         Raises:
-            EnvironmentMissingError: there is no cluster, or it cannot be used.
+            EnvironmentMissingError: there is no usable cluster.
         """
         if not targets:
             return
@@ -64,7 +64,7 @@ class ClusterSession(AgreedSession):
                     yield _result(target, checked.pop(key_of(target)))
 
     def _batches(self, targets: Sequence[Target], most: int) -> dict[str, Batch]:
-        """Return parts of about the same number of packages, by name."""
+        """Split the packages into batches of about equal size, by name."""
         size = -(-len(targets) // most)
         kept = tuple(item.name for item in distributions.kept())
         return {
@@ -87,14 +87,14 @@ def _result(target: Target, checked: Checked | None) -> Result:
 
 
 def _variables() -> dict[str, str]:
-    """Return the variables by which `check` finds what is installed, with what they lead to."""
+    """Return the variables by which `check` finds installed packages, with their paths."""
     ros_home = os.environ.get("ROS_HOME") or os.path.join(os.path.expanduser("~"), ".ros")
     prefixes = filter(os.path.isabs, os.environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep))
     return {"ROS_HOME": ros_home, "AMENT_PREFIX_PATH": os.pathsep.join(prefixes)}
 
 
 def _mirror(targets: Sequence[Target], paths: Sequence[str]) -> Mirror:
-    """Pack the packages, those around them, and what else is looked at.
+    """Pack the packages, those around them, and other accessed files.
 
     Raises:
         EnvironmentMissingError: a file cannot be read.

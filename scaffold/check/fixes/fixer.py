@@ -15,9 +15,9 @@ from scaffold.record import NamedTuple
 from scaffold.source import ViewError
 
 MAX_ROUNDS = 10
-"""Fixes that still find work after this many rounds work against each other."""
+"""The maximum number of rounds; fixes that need more conflict with each other."""
 MAX_ROUNDS_OF_FILE = 6
-"""Rounds with edits of one file; in 22 public repositories three are enough."""
+"""The maximum number of rounds per file; in 22 public repositories three are enough."""
 
 Check = Callable[[Package], list[Diagnostic]]
 
@@ -28,18 +28,18 @@ class Fixed(NamedTuple):
     package: Package
     """The package after the fixes, in memory."""
     before: Mapping[str, bytes]
-    """What the fixes were made for: the content of the changed and removed files that existed."""
+    """The previous content of changed and removed files."""
     changed: Mapping[str, bytes]
     """New content by path, for files that differ or are new."""
     removed: frozenset[str]
     executable: frozenset[str]
-    """Files that get their executable bits."""
+    """Files to make executable."""
     applied: int
     """How many fixes were applied."""
     diagnostics: list[Diagnostic]
-    """What remains; a fix that would break its file is no longer among it."""
+    """The remaining findings, without fixes that would break their file."""
     unsettled: frozenset[str]
-    """Codes that still had fixes when the rounds, or those of their file, were used up."""
+    """Codes that still had fixes after the maximum number of rounds."""
 
     @property
     def is_change(self) -> bool:
@@ -47,7 +47,7 @@ class Fixed(NamedTuple):
         return bool(self.changed or self.removed or self.executable)
 
     def then(self, later: Fixed) -> Fixed:
-        """Return the outcome of both, where others were fixed afterwards; they do not count."""
+        """Combine it with the outcome of later fixes."""
         removed = (self.removed - later.changed.keys()) | later.removed
         changed = {**self.changed, **later.changed}
         return later._replace(
@@ -67,12 +67,12 @@ class Step(NamedTuple):
 
 
 def fix(package: Package, check: Check, *, unsafe: bool = False) -> Fixed:
-    """Apply the fixes of what ``check`` finds, until it finds nothing more to fix.
+    """Apply the fixes of the findings of ``check``, until there are no more.
 
     Args:
         package: The package as it is.
         check: Returns the diagnostics of a package.
-        unsafe: Apply the fixes that the author should look at, too.
+        unsafe: Whether to apply unsafe fixes as well.
     """
     overlay = Overlay(package.tree)
     count = 0
@@ -106,10 +106,10 @@ def outcome(
     Args:
         package: The package after the fixes.
         overlay: Its files.
-        diagnostics: What is left.
+        diagnostics: The remaining findings.
         applied: How many fixes were applied.
-        unsafe: Whether unsafe fixes were to be applied.
-        is_settled: Whether the last round found nothing more that it could apply.
+        unsafe: Whether unsafe fixes were applied.
+        is_settled: Whether the last round had no more fixes to apply.
     """
     pending = [
         diagnostic for diagnostic in diagnostics if _is_wanted(diagnostic.fix, unsafe=unsafe)
@@ -134,13 +134,13 @@ def apply(
     """Apply the fixes of some diagnostics, as many as do not overlap.
 
     Args:
-        package: What the diagnostics are about.
-        overlay: Its files; they stay as they are.
+        package: The package of the diagnostics.
+        overlay: Its files, which are not changed.
         diagnostics: The diagnostics.
-        unsafe: Apply the fixes that the author should look at, too.
+        unsafe: Whether to apply unsafe fixes as well.
 
     Returns:
-        The files afterwards, and how many fixes were applied.
+        The files after the fixes, and the number of applied fixes.
     """
     fixes = _ready([item for item in diagnostics if _is_wanted(item.fix, unsafe=unsafe)])
     inside = [fixed for item in fixes if (fixed := _inside(item, overlay)) is not None]
@@ -162,7 +162,7 @@ def apply(
 
 
 def _is_too_late(fix: Fix | None, overlay: Overlay) -> bool:
-    """Tell whether a file of a fix has been edited so often that no end is in sight."""
+    """Tell whether a file of a fix has been edited in too many rounds."""
     return fix is not None and any(
         overlay.rounds[change.path] >= MAX_ROUNDS_OF_FILE for change in fix.changes
     )
@@ -175,8 +175,8 @@ def _is_wanted(fix: Fix | None, *, unsafe: bool) -> bool:
 def _ready(diagnostics: Sequence[Diagnostic]) -> list[Fix]:
     """Return the fixes that need not wait for others.
 
-    One that edits another file than its diagnostic is about waits while that line is edited: an
-    unused import is removed before anybody declares what it imports.
+    A fix that edits another file than that of its diagnostic waits while its line is edited: an
+    unused import is removed before a dependency is declared for it.
     """
     lines = {
         (item.location.path, item.location.line) for item in diagnostics if _edits_own_file(item)
@@ -201,7 +201,7 @@ def _changes(fixes: Iterable[Fix]) -> list[Change]:
 
 
 def _inside(fix: Fix, overlay: Overlay) -> Fix | None:
-    """Return a fix with links followed; ``None`` if one leads out of the package."""
+    """Return a fix with real paths; ``None`` if a symlink leads out of the package."""
     changes: list[Change] = []
     for change in fix.changes:
         path = overlay.real(change.path)
@@ -215,7 +215,7 @@ def _inside(fix: Fix, overlay: Overlay) -> Fix | None:
 
 
 def _compatible(package: Package, fixes: Iterable[Fix]) -> list[Fix]:
-    """Return fixes in order, without those that touch what an earlier one touches."""
+    """Return fixes in order, without those that overlap an earlier one."""
     chosen: list[Fix] = []
     taken: dict[str, list[Edit]] = {}
     whole: set[str] = set()
@@ -240,7 +240,7 @@ def _compatible(package: Package, fixes: Iterable[Fix]) -> list[Fix]:
 
 
 def _touching(edit: Edit, others: Sequence[Edit]) -> Sequence[Edit]:
-    """Return those of some edits, in order and apart from each other, that touch another."""
+    """Return those of some sorted, disjoint edits that touch another one."""
     first = bisect_left(others, edit.start, key=_end)
     return others[first : bisect_right(others, edit.end, key=_start)]
 
@@ -254,12 +254,12 @@ def _end(edit: Edit) -> int:
 
 
 def _go_together(package: Package, edit: Edit, other: Edit) -> bool:
-    """Tell whether two edits that touch each other may both be made."""
+    """Tell whether two edits that touch each other are compatible."""
     return _are_neighbors(package, edit, other) or _are_dependencies(edit, other)
 
 
 def _are_neighbors(package: Package, edit: Edit, other: Edit) -> bool:
-    """Tell whether both remove whole lines, one after the other."""
+    """Tell whether both remove adjacent whole lines."""
     first, second = sorted((edit, other), key=_start)
     if edit.text or other.text or not first.start < first.end == second.start < second.end:
         return False
@@ -272,7 +272,7 @@ def _are_neighbors(package: Package, edit: Edit, other: Edit) -> bool:
 
 
 def _are_dependencies(edit: Edit, other: Edit) -> bool:
-    """Tell whether both insert a dependency, each on a line of its own, at one place."""
+    """Tell whether both insert a dependency on a separate line at one place."""
     if edit.path != MANIFEST or not edit.start == edit.end == other.start == other.end:
         return False
     from scaffold.model.manifest.edit import inserted_dependency
@@ -294,7 +294,7 @@ def splice(text: str, edits: Iterable[Edit]) -> str:
 
 
 def _order(edit: Edit) -> tuple[int, int, tuple[int, str]]:
-    """Return the order of edits; at the same place dependencies are sorted as people sort them."""
+    """Return the sort key of edits; at the same place, dependencies are sorted by custom."""
     if edit.path != MANIFEST or edit.start != edit.end:
         return edit.start, edit.end, (0, "")
     from scaffold.model.manifest.edit import inserted_dependency
@@ -323,7 +323,7 @@ def _sound(package: Package, fixes: list[Fix]) -> tuple[list[Fix], Mapping[str, 
 
 
 def _largest(package: Package, path: str, fixes: Sequence[Fix]) -> Sequence[Fix]:
-    """Return many of some fixes that together do not break a file."""
+    """Return a large subset of fixes that together do not break a file."""
     edits = [edit for item in fixes for edit in _edits_of(item, path)]
     if not fixes or _edited(package, path, dict.fromkeys(edits)) is not None:
         return fixes

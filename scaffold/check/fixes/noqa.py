@@ -25,7 +25,7 @@ from scaffold.record import NamedTuple
 from scaffold.source import Source, ViewError
 
 _NEVER = ("SC", "CM074")
-"""What could not be checked, and suppressions; trailing whitespace, which a comment would end."""
+"""Codes that must not be suppressed: unchecked files, suppressions, and trailing whitespace."""
 _XML = (".xml", ".launch", ".xacro", ".urdf")
 _INTERFACES = (".msg", ".srv", ".action")
 _YAML = (".yaml", ".yml")
@@ -69,7 +69,7 @@ def _fix(package: Package, path: str, row: int, codes: Sequence[str]) -> Fix:
 
 
 def _row(package: Package, diagnostic: Diagnostic) -> int | None:
-    """Return the row on which a ``noqa`` may silence a finding; ``None`` if there is none left."""
+    """Return the next row on which a ``noqa`` may suppress a finding; ``None`` if there is none."""
     code, at = diagnostic.code, diagnostic.location
     if code.startswith(_NEVER):
         return None
@@ -91,7 +91,7 @@ def _names(codes: str, code: str) -> bool:
 
 
 def _candidates(package: Package, source: Source, diagnostic: Diagnostic) -> Iterator[int]:
-    """Yield the rows that may end in a comment that silences a finding."""
+    """Yield the rows on which a comment may suppress a finding."""
     path, row = source.path, diagnostic.location.line
     if path.endswith(".py"):
         yield from _python_rows(package, diagnostic)
@@ -129,7 +129,7 @@ def _may_end_in_comment(source: Source, row: int) -> bool:
 
 
 def _is_inside(pattern: str, source: Source, row: int) -> bool:
-    """Tell whether the end of a row is inside of what a pattern matches."""
+    """Tell whether the end of a row is inside of a match of a pattern."""
     end = source.offset(row) + len("".join(source.lines[row - 1 : row]))
     return any(
         match.start() < end < match.end()
@@ -139,7 +139,7 @@ def _is_inside(pattern: str, source: Source, row: int) -> bool:
 
 
 def _is_plain_yaml(source: Source, row: int) -> bool:
-    """Tell whether a comment at the end of a row changes nothing of the data."""
+    """Tell whether a comment at the end of a row does not change the data."""
     import yaml
 
     end = source.offset(row) + len("".join(source.lines[row - 1 : row]))
@@ -157,7 +157,7 @@ def _events(text: str) -> list[str]:
 
 
 def _ends(source: Source) -> Mapping[int, int]:
-    """Return for each row the first one, from it on, that may end in a comment."""
+    """Return for each row the first row, from it on, that may end in a comment."""
     inside = {
         row for row, line in enumerate(source.lines, 1) if re.search(r"^[^#]*\\$", line.rstrip())
     }
@@ -187,7 +187,7 @@ def _tokens(source: Source) -> list[tokenize.TokenInfo]:
 
 
 class _Header(NamedTuple):
-    """A class, function or module whose docstring pydocstyle reports, and where it may be silenced.
+    """A class, function or module with a docstring, and the rows where pydocstyle reads ``noqa``.
 
     The rows from ``start`` to ``stop`` end with the docstring.
     """
@@ -198,7 +198,7 @@ class _Header(NamedTuple):
 
 
 def _headers(source: Source) -> list[_Header]:
-    """Return where pydocstyle looks for comments about docstrings."""
+    """Return the rows where pydocstyle reads comments about docstrings."""
     try:
         tree = ast.parse(source.text.removeprefix("\ufeff"))
     except (SyntaxError, ValueError, RecursionError):

@@ -12,11 +12,11 @@ from scaffold.files.disk import MAX_BYTES
 from scaffold.files.tree import Tree, within
 
 MOST_KEPT = 2_000_000
-"""Size in bytes up to which a file is read only once; larger files are rarely edited."""
+"""The size in bytes up to which the content of a file is kept in memory."""
 
 
 class Changes(Protocol):
-    """What is different from the files below."""
+    """The differences from the files below."""
 
     @property
     def changed(self) -> Mapping[str, bytes]:
@@ -24,36 +24,36 @@ class Changes(Protocol):
 
     @property
     def removed(self) -> Collection[str]:
-        """The paths of files that are gone."""
+        """The paths of removed files."""
 
     @property
     def executable(self) -> Collection[str]:
-        """The files that get their executable bits."""
+        """The files to make executable."""
 
 
 class Overlay:
     """A tree with changes on top of another one, in memory.
 
-    A file below the changes is what it was when it was first read, however it changes meanwhile.
-    A change of a link is a change of the file that it leads to.
+    A file below the changes has its content of the first read, even if it changes meanwhile.
+    A change of a symlink is a change of its target.
     """
 
     def __init__(self, base: Tree) -> None:
         self.base = base
-        """What is below the changes."""
+        """The tree below the changes."""
         self.place: str | None = getattr(base, "root", None)
-        """The directory of what is below the changes, if it is on disk."""
+        """The directory of the tree below, if it is on disk."""
         self.changed: dict[str, bytes] = {}
         self.removed: set[str] = set()
         self.executable: set[str] = set()
         self.rounds: Counter[str] = Counter()
-        """How many rounds of fixes edited each file."""
+        """The number of rounds that edited each file."""
         self._read: dict[str, bytes] = {}
         self._real: dict[str, str | None] = {}
 
     @classmethod
     def of(cls, base: Tree, changes: Changes) -> Overlay:
-        """Return a tree with the changes that fixes have made of it before."""
+        """Return an overlay with existing changes of a tree."""
         result = cls(base)
         result.changed.update(changes.changed)
         result.removed.update(changes.removed)
@@ -73,16 +73,16 @@ class Overlay:
 
     @property
     def nested(self) -> tuple[str, ...]:
-        """The directories that hold a package of their own."""
+        """The directories of nested packages."""
         return tuple(self.base.nested)
 
     @property
     def broken_links(self) -> Sequence[str]:
-        """The links to files that are not there."""
+        """The dangling symlinks."""
         return tuple(getattr(self.base, "broken_links", ()))
 
     def read(self, path: str, most: int = MAX_BYTES) -> bytes:
-        """Return what is in a file of so many bytes at most; raises OSError."""
+        """Return the content of a file with a size limit; raises OSError."""
         if path in self.removed:
             raise FileNotFoundError(path)
         if self.changed and path not in self.changed:
@@ -92,7 +92,7 @@ class Overlay:
         return self.before(path, most)
 
     def before(self, path: str, most: int = MAX_BYTES) -> bytes:
-        """Return what is in a file below the changes; see `read`."""
+        """Return the content of a file below the changes; see `read`."""
         if path in self._read:
             return within(most, path, self._read[path])
         data = self.base.read(path, most)
@@ -101,11 +101,11 @@ class Overlay:
         return data
 
     def is_executable(self, path: str) -> bool:
-        """Tell whether the file has, or gets, an executable bit."""
+        """Tell whether the file has or will have an executable bit."""
         return path in self.executable or self.base.is_executable(path)
 
     def real(self, path: str) -> str | None:
-        """Return the path of the file that a path leads to, ``None`` outside of the root."""
+        """Return the real path of a file, ``None`` outside of the root."""
         if self.place is None:
             return path
         if path not in self._real:
@@ -117,16 +117,16 @@ class Overlay:
 
     @property
     def differing(self) -> Mapping[str, bytes]:
-        """The changed files that are new or differ from what is below."""
+        """The changed files that are new or differ from those below."""
         return {path: data for path, data in self.changed.items() if [*self.had(path)] != [data]}
 
     def had(self, path: str) -> Iterator[bytes]:
-        """Yield what was in a file before the changes, if it existed."""
+        """Yield the content of a file before the changes, if it existed."""
         with suppress(OSError):
             yield self.before(path)
 
     def edited_since(self, before: Overlay) -> list[str] | None:
-        """Return the files with another content, ``None`` if there is any other difference."""
+        """Return the files with changed content, ``None`` if there is any other difference."""
         if (self.files, self.executable) != (before.files, before.executable):
             return None
         changed = {*self.changed, *before.changed}

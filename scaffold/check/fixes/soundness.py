@@ -8,9 +8,9 @@ from scaffold.source import ParseError, Source
 
 
 def reader_of(path: str) -> Callable[[str, str], None] | None:
-    """Return what reads files of this kind, by path and text; it raises for one that is broken.
+    """Return a parser for files of this kind, given path and text, which raises for broken ones.
 
-    ``None`` for files that nothing here can judge.
+    ``None`` for unsupported files.
     """
     name = path.rpartition("/")[2]
     if name == "CMakeLists.txt":
@@ -19,7 +19,7 @@ def reader_of(path: str) -> Callable[[str, str], None] | None:
 
 
 def breaks(path: str, before: str, after: str) -> bool:
-    """Tell whether a file can be read before an edit and not after it."""
+    """Tell whether a file parses before an edit but not after it."""
     read = reader_of(path)
     return read is not None and not _is_read(read, path, after) and _is_read(read, path, before)
 

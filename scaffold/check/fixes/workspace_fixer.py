@@ -44,12 +44,12 @@ class _Piece:
         self.result: Result | None = None
         """Of the last check."""
         self.checked = self.overlay
-        """The files as they were then."""
+        """The files at that time."""
         self.identity = target.package.identity
         self.earlier: Earlier | None = None
-        """What is left of the last check, for the next one."""
+        """The reusable results of the last check, for the next one."""
         self.style: dict[str, Sequence[Diagnostic]] = {}
-        """What was found in files that were edited since then."""
+        """The style findings in files edited since then."""
         self.applied = 0
 
     @property
@@ -72,7 +72,7 @@ class _Piece:
         return applied > 0
 
     def edited(self) -> frozenset[str] | None:
-        """Return the followed files that differ from the last check, ``None`` if others do."""
+        """Return the tracked files that differ from the last check, ``None`` if others do."""
         edited = self.overlay.edited_since(self.checked)
         if edited is None or not all(map(is_followed, edited)):
             return None
@@ -81,7 +81,7 @@ class _Piece:
         return frozenset(map(self.package.full_path, edited))
 
     def leave(self, edited: frozenset[str] | None) -> None:
-        """Keep of the last check what does not depend on edited files, for the next one."""
+        """Keep the results of the last check that do not depend on edited files."""
         verdict = self.result.verdict if self.result is not None else None
         if edited is not None and verdict is not None and edited.isdisjoint(verdict.configuring):
             left = Earlier.of(self.package, verdict, edited)
@@ -89,7 +89,7 @@ class _Piece:
             self.earlier = left._replace(verdict=left.verdict._replace(style=style))
 
     def leave_style(self) -> None:
-        """Keep for the next check what is known of style, and nothing else."""
+        """Keep only the style findings for the next check."""
         files = frozenset(map(self.package.full_path, self.package.files))
         self.earlier = Earlier(Verdict({}, dict(self.style), [], {}), files, {})
 
@@ -100,11 +100,11 @@ def fix(
     """Fix packages that see each other; nothing is written.
 
     Args:
-        targets: Packages, or files of them: then what is found there is fixed, wherever the fix
-            is. Their files are those of memory afterwards.
+        targets: Packages, or files of them: then findings there are fixed, wherever the fix
+            is. Their files are in memory afterwards.
         session: Checks them.
-        progress: Hears how far it is.
-        unsafe: Apply the fixes that the author should look at, too.
+        progress: Receives the progress.
+        unsafe: Whether to apply unsafe fixes as well.
     """
     pieces = [_Piece(target) for target in targets]
     progress.begin("style", len(pieces))
@@ -144,13 +144,13 @@ def _fix_style(
     *,
     unsafe: bool,
 ) -> bool:
-    """Fix the style of edited files until it is stable; tell whether it is.
+    """Fix the style of edited files until it is stable; return whether it is.
 
     Args:
         piece: The package.
         session: Checks it.
-        style: What is to be fixed at first, of any files, if that is known.
-        unsafe: Apply the fixes that the author should look at, too.
+        style: The initial style findings of any files, if known.
+        unsafe: Whether to apply unsafe fixes as well.
     """
     before = piece.checked
     for _ in range(MAX_ROUNDS):
@@ -169,7 +169,7 @@ def _fix_style(
 
 
 def _affected(pieces: Sequence[_Piece], changed: Sequence[_Piece]) -> list[_Piece]:
-    """Return the changed packages and those whose verdict may be another because of them."""
+    """Return the changed packages and those whose findings may depend on them."""
     if not changed:
         return []
     packages = [piece.package for piece in pieces]

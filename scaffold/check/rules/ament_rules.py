@@ -19,18 +19,18 @@ if TYPE_CHECKING:
 
 
 class AmentRule(Rule):
-    """A code of the table of ament's linters, which holds its documentation."""
+    """A code of an ament linter, with its documentation in the table."""
 
     examples: ClassVar[tuple[Example, ...]] = ()
     row: ClassVar[AmentCode]
 
     @classmethod
     def fix_safety(cls) -> Safety | None:
-        """Return what the table has."""
+        """Return the safety in the table."""
         return cls.row.fix
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        """Yield what the linter reports under this code."""
+        """Yield the findings of the linter with this code."""
         from scaffold.ament import diagnostics
 
         return diagnostics(package, self.code)

@@ -43,7 +43,7 @@ _PLUGINS = {
     "Q": "flake8-quotes",
     "W": "pycodestyle",
 }
-"""Where a style code is from, by its beginning; the longest decides."""
+"""The plugins of style codes by prefix; the longest decides."""
 _STYLE_HEAD = """\
 ## Python style and docstrings
 
@@ -51,7 +51,7 @@ The codes of flake8 and pydocstyle, with the verdict of ament_flake8 and ament_p
 
 
 def summary(rule: type[Rule]) -> str:
-    """Return the first line of a rule's docstring, without Markdown of docstrings."""
+    """Return the first line of a rule's docstring, as plain Markdown."""
     return cleandoc(rule.__doc__ or "").partition("\n")[0].rstrip(".").replace("``", "`")
 
 
@@ -79,7 +79,7 @@ def style_page(style: AmentCode) -> str:
 
 
 def style_text(style: AmentCode) -> str:
-    """Return what a code of flake8 or pydocstyle is about and who defines it, as Markdown."""
+    """Return the description and the origin of a code of flake8 or pydocstyle, as Markdown."""
     text = style.summary[0].upper() + style.summary[1:]
     plugin = max((start for start in _PLUGINS if style.code.startswith(start)), key=len)
     source = f"{_PLUGINS[plugin]}, as {linters(style)[0]} runs it"
@@ -96,7 +96,7 @@ def linters(row: AmentCode) -> tuple[str, ...]:
 
 
 def as_data(rule: type[Rule]) -> dict[str, object]:
-    """Return what a program may want to know about a rule."""
+    """Return the metadata of a rule as data."""
     return {
         "code": rule.code,
         "name": rule.name,

@@ -13,12 +13,12 @@ if TYPE_CHECKING:
 
 
 class _Internal(Rule):
-    """Reported by the engine itself, not by a check of the package."""
+    """A finding of the engine itself, not of a check of the package."""
 
     examples: ClassVar[tuple[Example, ...]] = ()
 
     def check(self, package: Package) -> Iterator[Diagnostic]:  # noqa: ARG002  the contract
-        """Yield nothing: the engine makes these diagnostics."""
+        """Yield nothing, as the engine creates these diagnostics."""
         return iter(())
 
 

@@ -30,7 +30,7 @@ def package_of(example: Example) -> Package:
 
 
 def reports(rule: type[Rule], example: Example) -> list[Report]:
-    """Return what a rule reports about an example, in reading order.
+    """Return the reports of a rule about an example, in reading order.
 
     Raises:
         ContentError: the rule crashes on the example, or cannot read a file of it.

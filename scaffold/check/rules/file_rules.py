@@ -20,11 +20,11 @@ if TYPE_CHECKING:
 class FileRule(Rule):
     """A rule that reads the files of one kind separately.
 
-    A subclass has ``check_file``, or ``check_in`` if it looks at more than the file.
+    A subclass defines ``check_file``, or ``check_in`` if it reads more than the file.
     """
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        """Yield what is wrong in any of the files."""
+        """Yield the findings in all files."""
         for path in self.paths(package):
             try:
                 yield from self.check_path(package, path)
@@ -32,15 +32,15 @@ class FileRule(Rule):
                 continue
 
     def paths(self, package: Package) -> Sequence[str]:
-        """Return the files that may be of the kind."""
+        """Return the files that may be of this kind."""
         return package.python_files
 
     def check_path(self, package: Package, path: str) -> Iterator[Diagnostic]:
-        """Yield what is wrong in a file; raises ViewError if it cannot be read."""
+        """Yield the findings in a file; raises ViewError if it cannot be read."""
         raise NotImplementedError
 
     def check_in(self, package: Package, file: Any) -> Iterator[Diagnostic]:  # noqa: ANN401,ARG002
-        """Yield what is wrong in a file, in the light of its package."""
+        """Yield the findings in a file, given its package."""
         return self.check_file(file)
 
     def check_file(self, file: Any) -> Iterator[Diagnostic]:  # noqa: ANN401  see the subclasses
@@ -49,7 +49,7 @@ class FileRule(Rule):
 
     @property
     def looks_further(self) -> bool:
-        """Whether what is found in a file may depend on other files."""
+        """Whether the findings in a file may depend on other files."""
         return type(self).check_in is not FileRule.check_in
 
 
@@ -57,7 +57,7 @@ class PythonRule(FileRule):
     """A rule that reads every Python file of a package that parses."""
 
     def check_path(self, package: Package, path: str) -> Iterator[Diagnostic]:
-        """Yield what is wrong in a file; raises ViewError if it cannot be read."""
+        """Yield the findings in a file; raises ViewError if it cannot be read."""
         return self.check_in(package, package.module(path))
 
     def check_file(self, module: PythonModule) -> Iterator[Diagnostic]:
@@ -77,7 +77,7 @@ class TestRule(FileRule):
         return test_paths(package)
 
     def check_path(self, package: Package, path: str) -> Iterator[Diagnostic]:
-        """Yield what is wrong in a file; raises ViewError if it cannot be read."""
+        """Yield the findings in a file; raises ViewError if it cannot be read."""
         return self.check_in(package, package.module(path))
 
     def check_file(self, module: PythonModule) -> Iterator[Diagnostic]:
@@ -95,7 +95,7 @@ class RclpyRule(FileRule):
         return rclpy_paths(package)
 
     def check_path(self, package: Package, path: str) -> Iterator[Diagnostic]:
-        """Yield what is wrong in a file; raises ViewError if it cannot be read."""
+        """Yield the findings in a file; raises ViewError if it cannot be read."""
         from scaffold.model.rclpy.file import rclpy_file
 
         return self.check_in(package, rclpy_file(package, path))
@@ -115,7 +115,7 @@ class MessageRule(FileRule):
         return message_paths(package)
 
     def check_path(self, package: Package, path: str) -> Iterator[Diagnostic]:
-        """Yield what is wrong in a file; raises ViewError if it cannot be read."""
+        """Yield the findings in a file; raises ViewError if it cannot be read."""
         from scaffold.model.messages.inference import MessageTypes
 
         return self.check_in(package, MessageTypes.of(package, path))
@@ -135,7 +135,7 @@ class LaunchRule(FileRule):
         return launch_paths(package)
 
     def check_path(self, package: Package, path: str) -> Iterator[Diagnostic]:
-        """Yield what is wrong in a file; raises ViewError if it cannot be read."""
+        """Yield the findings in a file; raises ViewError if it cannot be read."""
         from scaffold.model.launch.python_file import LaunchFile
 
         return self.check_in(package, LaunchFile.of(package, path))

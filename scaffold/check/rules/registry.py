@@ -23,7 +23,7 @@ def load(roots: Sequence[str]) -> list[type[Rule]]:
         roots: The ``rules`` directories.
 
     Raises:
-        ContentError: a file does not load, holds no rule or more than one, is not named like
+        ContentError: a file does not load, has no rule or more than one, is not named like
             its rule, or uses a code or a name again.
     """
     rules: dict[str, type[Rule]] = {}

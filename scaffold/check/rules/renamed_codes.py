@@ -12,13 +12,13 @@ _FILE = os.path.join(
 
 @cache
 def renamed_codes() -> dict[str, str]:
-    """Return today's code by each former one."""
+    """Return the current codes by former ones."""
     with open(_FILE, encoding="utf-8") as file:
         return dict(line.split() for line in file if not line.startswith("#"))
 
 
 def new_codes(prefix: str) -> list[str]:
-    """Return the codes that replace those beginning with two letters and a digit or more."""
+    """Return the codes that replace former ones with a prefix, two letters and some digits."""
     if not prefix[2:].isdigit():
         return []
     return sorted({new for old, new in renamed_codes().items() if old.startswith(prefix)})

@@ -58,7 +58,7 @@ class Report:
         return cls(at, message)
 
     def within(self, files: Iterable[str]) -> Report:
-        """Return it with a path: where it has none, that of the only file."""
+        """Return it with a path, by default that of the only file."""
         if self.at.count(":") > 1:
             return self
         (path,) = files
@@ -67,7 +67,7 @@ class Report:
 
     @property
     def path(self) -> str:
-        """The file that the diagnostic is about."""
+        """The file of the diagnostic."""
         return self.at.rsplit(":", 2)[0]
 
     @property
@@ -86,9 +86,9 @@ class Example:
         fixed: The files that the fixes change or add; ``None`` when there is no fix.
         executable: The files with an executable bit.
         neighbours: Other packages of the workspace: files by path, by package directory.
-        rosdep_keys: What rosdep resolves; ``None`` for a machine without its cache.
+        rosdep_keys: The rosdep keys; ``None`` for a machine without a cache.
         distro: The distribution that the package is checked for.
-        moved_from: The one that it comes from, where it is moved; empty else.
+        moved_from: The source distribution of a migration; empty otherwise.
     """
 
     def __init__(
@@ -114,7 +114,7 @@ class Example:
         self.moved_from = moved_from
 
     def targeting(self) -> AbstractContextManager[None]:
-        """Return what the package is to be checked in."""
+        """Return the context manager that sets the target."""
         origin = distributions.named(self.moved_from) if self.moved_from else None
         return distributions.targeting(distributions.named(self.distro), origin)
 
@@ -130,7 +130,7 @@ _EFFECTS = {
     **dict.fromkeys(("LY", "NM", "PX", "TS"), Effect.DECLARED_WRONG),
     "LY02": Effect.UNPUBLISHABLE,
 }
-"""What flaws of an area do, of those where most do not stop a program."""
+"""The usual effects of flaws by area, if not that a program stops."""
 
 
 class Rule:
@@ -139,29 +139,29 @@ class Rule:
     code: ClassVar[str]
     """Two letters of the area and three digits."""
     name: ClassVar[str]
-    """Names the flaw; the file has the same name with underscores."""
+    """The name of the flaw; the file has the same name with underscores."""
     severity: ClassVar[Severity] = Severity.ERROR
     other_severities: ClassVar[Mapping[Severity, str]] = {}
     """Severities that a diagnostic may have instead, each with the condition for it."""
     effect: ClassVar[Effect | None] = None
-    """What the flaw does, where it is not what most flaws of the area do: see ``usual_effect``."""
+    """The effect of the flaw, if it is not that of most flaws of the area: see ``usual_effect``."""
     release_refused: ClassVar[str] = ""
-    """Why no release is made of what has this flaw: then it is an error with `check --release`."""
+    """Why this flaw blocks a release, so that it is an error with `check --release`."""
     is_fixed_for_all: ClassVar[bool] = False
-    """Whether what a fix writes for a distribution runs on those before, which need no fix."""
+    """Whether fixed code also runs on earlier distributions, which need no fix."""
     is_deprecation: ClassVar[bool] = False
-    """Whether what it reports, unless that is an error, works and will go: see ``migrate``."""
+    """Whether its findings, unless errors, are about deprecations: see ``migrate``."""
     is_removal: ClassVar[bool] = False
-    """Whether what it reports, a warning included, is not there any more: see ``migrate``."""
+    """Whether its findings, including warnings, are about removals: see ``migrate``."""
     is_about_moves: ClassVar[bool] = False
-    """Whether it reports in ``migrate`` alone, so that a suppression may be unused elsewhere."""
+    """Whether it only reports in ``migrate``, so that a suppression may be unused elsewhere."""
     since: ClassVar[str] = "0.1"
-    """The version of ros2-scaffold that had it first."""
+    """The version of ros2-scaffold that introduced it."""
     examples: ClassVar[tuple[Example, ...]]
 
     @classmethod
     def usual_effect(cls) -> Effect:
-        """Return what the flaw does, which decides how early a screen shows it."""
+        """Return the effect of the flaw, which determines its position on the screen."""
         if cls.effect is not None:
             return cls.effect
         of_area = _EFFECTS.get(cls.code[:2], Effect.STOPS_PROGRAM)
@@ -169,7 +169,7 @@ class Rule:
 
     @classmethod
     def fix_safety(cls) -> Safety | None:
-        """Return how the fixes of the rule are applied, as its examples show it."""
+        """Return the safety of the fixes of the rule, derived from its examples."""
         reports = [report for example in cls.examples for report in example.reports]
         if any(report.fix is not None for report in reports):
             return Safety.SAFE
@@ -178,7 +178,7 @@ class Rule:
         return None
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        """Yield what is wrong; a view that the package does not have ends the check silently."""
+        """Yield the findings; a missing view ends the check silently."""
         raise NotImplementedError
 
     def report(
@@ -193,11 +193,11 @@ class Rule:
         """Return a diagnostic of this rule.
 
         Args:
-            at: What the diagnostic is about; its location is the place.
+            at: An object whose location is that of the diagnostic.
             message: What is wrong, what happens, what to do.
-            fix: How to repair it automatically.
-            severity: One of ``other_severities``, where the usual one does not fit.
-            cause: What other findings, also of other rules, share with this one: they are shown as
+            fix: The automatic fix.
+            severity: One of ``other_severities``, instead of the usual one.
+            cause: Shared by findings with the same cause, also of other rules, which are shown as
                 one. Findings with the same message need none.
         """
         severity = severity or self.severity

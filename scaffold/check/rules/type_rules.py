@@ -22,13 +22,13 @@ _KEY = "reported by the type checker"
 
 
 class TypeRule(FileRule):
-    """A rule about reports of the type checker; a subclass has ``judge``."""
+    """A rule about reports of the type checker; a subclass defines ``judge``."""
 
     kinds: ClassVar[frozenset[str]]
-    """The rules of the type checker that it is made of."""
+    """The rules of the type checker that it uses."""
 
     def paths(self, package: Package) -> Sequence[str]:
-        """Return the files that something is reported about."""
+        """Return the files with reports."""
         return [*_reported(package)]
 
     def check_path(self, package: Package, path: str) -> Iterator[Diagnostic]:
@@ -38,7 +38,7 @@ class TypeRule(FileRule):
     def judge_all(
         self, package: Package, path: str, reported: Sequence[TyDiagnostic]
     ) -> Iterator[Diagnostic]:
-        """Yield what is wrong in a file; nothing in one for ROS 1, whose messages are others."""
+        """Yield the findings in a file; none in one for ROS 1, which has other messages."""
         roots = package.imports(path)
         if "rospy" in roots and "rclpy" not in roots:
             return
@@ -58,14 +58,14 @@ class TypeRule(FileRule):
             yield result._replace(message=f"{result.message}{comes}")
 
     def judge(self, finding: TypeFinding) -> Diagnostic | None:
-        """Return what is wrong, ``None`` where that is not certain; may raise ViewError."""
+        """Return the problem, ``None`` if uncertain; may raise ViewError."""
         raise NotImplementedError
 
 
 def is_any_wrong(
     rules: Sequence[TypeRule], package: Package, path: str, reported: Sequence[TyDiagnostic]
 ) -> bool:
-    """Tell whether any of some reports about a file leads to a finding, as far as is known."""
+    """Tell whether any of some reports about a file leads to a finding, as far as known."""
     try:
         with time_limit.limited():
             return any(any(rule.judge_all(package, path, reported)) for rule in rules)
@@ -85,5 +85,5 @@ def _reported(package: Package) -> Reported:
 
 
 def give(package: Package, reported: Reported) -> None:
-    """Hand the rules what was reported in a package, until its views are dropped."""
+    """Give the rules the reports about a package, until its views are dropped."""
     package.remember(_KEY, lambda: reported)
