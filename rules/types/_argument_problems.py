@@ -29,6 +29,7 @@ from ._arguments import (
     is_uncallable,
     is_unpacked,
     parameter_name,
+    when_sent,
     wrong_callback,
 )
 
@@ -91,7 +92,7 @@ def _argument(finding: TypeFinding, callee: str, expected: str, given: str) -> s
     if re.fullmatch(_OF_MESSAGE, full_name(owner or called)):
         return (
             f"{parameter!r} of {full_name(owner)} is {with_article(name_of(expected))}, not "
-            f"{in_words(given)}: it cannot be published{hint}"
+            f"{in_words(given)}: {when_sent(expected)}{hint}"
         )
     is_made_int = full_name(called) in _CONVERTING and parameter == "nanoseconds"
     is_made_int = is_made_int and given.rstrip("*") == "float"

@@ -14,6 +14,7 @@ from scaffold.api.types import (
     full_name,
     has_call,
     is_kind_of,
+    name_of,
     overload_problem,
     parameters,
     short_name,
@@ -21,6 +22,15 @@ from scaffold.api.types import (
 
 TIMEOUTS = {"can_transform": 3, "can_transform_full": 5, "transform": 2, "transform_full": 4}
 """Where functions of tf2 with several signatures take a timeout."""
+
+
+_SENT = {"bool": "False is sent", "float": "another number is sent"}
+"""What the fields of messages, which nothing checks, turn any other object into."""
+
+
+def when_sent(expected: str) -> str:
+    """Return what comes of a message with a value of another type than a field has."""
+    return _SENT.get(name_of(expected), "it cannot be published")
 
 
 def has_too_many(finding: TypeFinding, callee: str) -> bool:

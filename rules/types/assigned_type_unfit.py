@@ -17,6 +17,8 @@ from scaffold.api.types import (
     with_article,
 )
 
+from ._arguments import when_sent
+
 _CONVERTED = ("rclpy.time.Time", "rclpy.duration.Duration")
 """What tf2 accepts as well as a message: such a message may not be published at all."""
 _NODE = (
@@ -112,6 +114,24 @@ class AssignedTypeUnfit(TypeRule):
             },
             "6:17: 'data' of std_msgs.msg.Int32 is an int, not a tuple: it cannot be published",
         ),
+        Example(
+            "numbers and a text that are sent as something else",
+            {
+                "led.py": "from geometry_msgs.msg import Vector3\n"
+                "from std_msgs.msg import Bool\n\n\n"
+                "def switch(led: int, place: str):\n"
+                "    flag = Bool()\n"
+                "    flag.data = led\n"
+                "    point = Vector3()\n"
+                "    point.x = place\n"
+                "    return flag, point\n\n\n"
+                "switch(1, '0.5')\n"
+            },
+            "7:17: 'data' of std_msgs.msg.Bool is a bool, not an int: False is sent ('led' comes "
+            "from line 13)",
+            "9:15: 'x' of geometry_msgs.msg.Vector3 is a float, not a str: another number is sent "
+            "('place' comes from line 13)",
+        ),
         Example("a list of what the field holds", {"trail.py": _TRAIL.format("pose")}),
         Example(
             "a list of something else",
@@ -187,7 +207,7 @@ class AssignedTypeUnfit(TypeRule):
         hint = f"; write {short_name(class_)}()" if class_ else ""
         is_alike = _are_alike(finding, full_name(class_in(expected)), full_name(class_in(given)))
         is_converted = full_name(class_in(given)) in _CONVERTED and finding.module.mentions("tf2")
-        outcome = "" if is_alike else f": it cannot be published{hint}"
+        outcome = "" if is_alike else f": {when_sent(expected)}{hint}"
         return self.report(
             finding,
             f"{matched['field']!r} of {full_name(matched['owner'])} is "
