@@ -7,10 +7,12 @@ import re
 from collections.abc import Iterator, Sequence
 
 from scaffold.api import Edit, Fix, closest_name
+from scaffold.api.distributions import target
 from scaffold.api.rclpy import LOG_METHODS, is_of_rclpy, rclpy_file
 from scaffold.api.types import (
     MARKED,
     TypeFinding,
+    full_name,
     keywords,
     overload_problem,
     parameters,
@@ -103,6 +105,14 @@ def _unknown(finding: TypeFinding) -> str:
     closest = closest_name(finding.package, matched["name"], names, 0.6)
     hint = f" (did you mean {closest!r}?)" if closest else ""
     return f"{_shown(callee)} has no argument {matched['name']!r}{hint}"
+
+
+def outcome(finding: TypeFinding) -> str:
+    """Return what a call does that has the wrong arguments."""
+    matched = finding.match(rf"Argument `\w+` does not match any known parameter of {_CALLEE}")
+    if matched is not None and re.search(r"\.(?:msg|srv|action)\.", full_name(matched["callee"])):
+        return str(target().fact("messages.unknown_keyword"))
+    return "TypeError"
 
 
 def _repeated(finding: TypeFinding) -> str:

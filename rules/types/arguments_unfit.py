@@ -7,7 +7,7 @@ import ast
 from scaffold.api import Diagnostic, Example, Report, TypeRule
 from scaffold.api.types import TypeFinding
 
-from ._call_problems import call_fix, call_problem
+from ._call_problems import call_fix, call_problem, outcome
 
 _OLD_KEYWORDS = frozenset({"node_name", "node_namespace", "node_executable"})
 """What launch_ros calls otherwise since Foxy."""
@@ -284,6 +284,15 @@ class ArgumentsUnfit(TypeRule):
             "8:54: create_service() has no argument 'lazy': TypeError",
         ),
         Example(
+            "a field that a message does not have",
+            {
+                "say.py": "from std_msgs.msg import String\n\n\n"
+                "def said(text):\n    return String(dta=text)\n"
+            },
+            "5:19: String() has no argument 'dta' (did you mean 'data'?): the value is silently "
+            "dropped",
+        ),
+        Example(
             "an unknown one",
             {"ticker.py": _NODE.format("0.1, self.tick, oneshot=True")},
             "7:56: create_timer() has no argument 'oneshot': TypeError",
@@ -316,7 +325,8 @@ class ArgumentsUnfit(TypeRule):
             return None
         called = problem.partition("()")[0]
         cause = f"arguments of {called}" if called != problem else ""
-        return self.report(finding, f"{problem}: TypeError", call_fix(finding), cause=cause)
+        message = f"{problem}: {outcome(finding)}"
+        return self.report(finding, message, call_fix(finding), cause=cause)
 
 
 def _is_old(finding: TypeFinding) -> bool:

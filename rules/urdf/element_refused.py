@@ -135,6 +135,16 @@ class ElementRefused(Rule):
             "4:8: <mass> has no 'value': urdfdom rejects the whole file; 'val' is not read",
         ),
         Example(
+            "a matrix without its zeros",
+            {
+                "robot.urdf": '<robot name="r">\n  <link name="a">\n    <inertial>\n'
+                '      <mass value="1"/>\n'
+                '      <inertia ixx="1" iyy="1" izz="1"/>\n'
+                "    </inertial>\n  </link>\n</robot>\n"
+            },
+            "5:8: <inertia> has no 'ixy', 'ixz' or 'iyz': urdfdom rejects the whole file",
+        ),
+        Example(
             "several attributes of one element",
             {
                 "robot.urdf": '<robot name="r">\n  <link name="a"/>\n  <link name="b"/>\n'
@@ -223,10 +233,8 @@ class ElementRefused(Rule):
             names = _OF_URDF.get((holder, part.tag), ())
             missing = [name for name in names if name not in part.attributes]
             if missing:
-                suggestions = [
-                    closest_name(package, attribute, list(part.attributes), 0.6)
-                    for attribute in missing
-                ]
+                others = [name for name in part.attributes if name not in names]
+                suggestions = [closest_name(package, name, others, 0.6) for name in missing]
                 hint = "".join(f"; {closest!r} is not read" for closest in suggestions if closest)
                 which = f"<{part.tag}> has no {_listed(missing)}"
                 yield self.report(part, f"{which}: urdfdom rejects the whole file{hint}")
