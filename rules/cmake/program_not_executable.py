@@ -157,6 +157,15 @@ class ProgramNotExecutable(Rule):
             executable=("talker/node.py",),
         ),
         Example(
+            "a module with a demo, installed with the program that imports it",
+            {
+                "CMakeLists.txt": _LISTS.replace("node.py", "node.py talker/run.py"),
+                "talker/node.py": "RATE = 2\n\nif __name__ == '__main__':\n    print(RATE)\n",
+                "talker/run.py": f"{SHEBANG}\nfrom node import RATE\n\nprint(RATE)\n",
+            },
+            executable=("talker/node.py", "talker/run.py"),
+        ),
+        Example(
             "without its first line",
             {"CMakeLists.txt": _LISTS, "talker/node.py": "import rclpy\n"},
             Report(
@@ -294,10 +303,14 @@ class ProgramNotExecutable(Rule):
         return None
 
     def _check_shebang(self, package: Package) -> Iterator[Diagnostic]:
-        for path in sorted({program.path for program in programs(package)}):
+        paths = {program.path for program in programs(package)}
+        imported = tuple(f"/{path}" for path in paths_imported_by(package, paths))
+        for path in sorted(paths):
             if not path.endswith(".py") or path.endswith("__init__.py") or not package.has(path):
                 continue
             if is_only_imported(package, path) or runs_with_python(package, path):
+                continue
+            if f"/{path}".endswith(imported) and "rclpy" not in package.imports(path):
                 continue
             source = package.editable(path)
             line = source.lines[0]

@@ -31,6 +31,7 @@ from scaffold.api.parameters import (
     comparable,
     comparable_in_file,
     declared_by,
+    own_texts,
     own_values,
     parameter_file,
     parameter_paths,
@@ -62,7 +63,7 @@ class ParameterUndeclared(Rule):
     effect = Effect.IGNORED
     other_severities = {
         Severity.WARNING: "the node has the same value without it, as the default of the parameter "
-        "that is meant or under that name, or it is an empty text"
+        "that is meant, under that name or as a text, or it is an empty text"
     }
     examples = (
         Example(
@@ -117,8 +118,11 @@ class ParameterUndeclared(Rule):
         Example(
             "a value that the node has anyway",
             {
-                "talker.py": _NODE.format("") + "        self.text = 'hello'\n",
-                "a.yaml": _FILE.format("limits:\n      hihg: 3\n    text: hello\n    device: ''"),
+                "talker.py": _NODE.format("")
+                + "        self.text = ['hello']\n        self.size = 2\n",
+                "a.yaml": _FILE.format(
+                    "limits:\n      hihg: 3\n    text: hello\n    size: 2\n    device: ''"
+                ),
             },
             Report(
                 "a.yaml:6:7",
@@ -134,6 +138,12 @@ class ParameterUndeclared(Rule):
             ),
             Report(
                 "a.yaml:8:5",
+                "node 'talker' declares no parameter 'size': the value is ignored; it "
+                "has limits.high, rate",
+                severity=Severity.WARNING,
+            ),
+            Report(
+                "a.yaml:9:5",
                 "node 'talker' declares no parameter 'device': the value is ignored; "
                 "it has limits.high, rate",
                 severity=Severity.WARNING,
@@ -220,11 +230,12 @@ class _Ignored(NamedTuple):
         meant = declared.places.get(closest)
         if meant is not None and comparable(meant.default) == self.value:
             return True
+        home = owner.home(self.package)
         try:
-            own = own_values(owner.home(self.package), owner.path)
+            own = own_values(home, owner.path).get(plain_name(self.name), frozenset())
+            return own == {self.value} or self.value in own_texts(home, owner.path)
         except ViewError:
             return False
-        return own.get(plain_name(self.name), frozenset()) == {self.value}
 
 
 def _comparable_in_launch(given: GivenParameter) -> str:

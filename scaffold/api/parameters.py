@@ -28,6 +28,7 @@ from scaffold.model.parameters.files import (
 from scaffold.model.parameters.own_values import (
     comparable,
     comparable_in_file,
+    own_texts,
     own_values,
     plain_name,
 )
@@ -55,6 +56,7 @@ __all__ = [
     "narrow_default",
     "number_of",
     "own_nodes",
+    "own_texts",
     "own_values",
     "parameter_file",
     "parameter_paths",

@@ -181,13 +181,26 @@ def _is_uncalled(package: Package, diagnostic: Diagnostic) -> bool:
 
 
 def _is_hardly_reached(package: Package, undefined: Diagnostic) -> bool:
-    """Tell whether an undefined name is only evaluated after spin, elsewhere, or never."""
+    """Tell whether an undefined name is only evaluated after spin, elsewhere, or never.
+
+    An undefined exception ends what the intended one would have ended.
+    """
     if undefined.code != _UNDEFINED:
         return False
     return _is_uncalled(package, undefined) or any(
-        only_while_stopping(module, name) or _is_of_platform(module, name)
+        only_while_stopping(module, name)
+        or _is_of_platform(module, name)
+        or _is_raised(module, name)
         for module, name in _names_at(package, undefined)
     )
+
+
+def _is_raised(module: PythonModule, name: ast.expr) -> bool:
+    """Tell whether a name is that of an exception: instead of it, another one is raised."""
+    above = module.parent(name)
+    if isinstance(above, ast.Call) and above.func is name:
+        above = module.parent(above)
+    return isinstance(above, ast.Raise)
 
 
 def _is_of_platform(module: PythonModule, name: ast.expr) -> bool:

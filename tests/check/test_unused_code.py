@@ -371,7 +371,9 @@ def test_uncalled_function_of_a_library(
 
 def test_exception_that_is_no_exception(package: Path, capsys: pytest.CaptureFixture[str]) -> None:
     write(package / "talker" / "talk.py", "raise NotImplemented('later')\n")
+    write(package / "talker" / "node.py", "raise NotThere('later')\n")
     assert severities(capsys, "F901") == {"talker/talk.py": "warning"}
+    assert severities(capsys, "F821") == {"talker/node.py": "warning"}
 
 
 def test_uncalled_launch_helper(package: Path, capsys: pytest.CaptureFixture[str]) -> None:

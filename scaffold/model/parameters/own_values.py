@@ -37,6 +37,13 @@ def comparable_in_file(node: YamlNode) -> str:
 
 
 @fact
+def own_texts(package: Package, path: str) -> frozenset[str]:
+    """Return the texts that are written in a file, see `comparable`; raises ViewError."""
+    constants = package.module(path).walk(ast.Constant)
+    return frozenset(comparable(item.value) for item in constants if isinstance(item.value, str))
+
+
+@fact
 def own_values(package: Package, path: str) -> Mapping[str, frozenset[str]]:
     """Return the values of variables, attributes, arguments and keys in a file; see `comparable`.
 
