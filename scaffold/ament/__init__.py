@@ -13,10 +13,10 @@ __all__ = ["StyleCheck", "diagnostics"]
 
 
 def diagnostics(package: Package, code: str) -> Iterator[Diagnostic]:
-    """Yield what a linter of ament, other than those of Python style, reports under one code.
+    """Yield the findings with one code of an ament linter other than those of Python style.
 
     Raises:
-        ViewError: the package does not have what the linter reads.
+        ViewError: a file that the linter reads is missing.
     """
     linters = CODES[code].linters
     if linters == LINT_CMAKE:

@@ -31,18 +31,18 @@ if TYPE_CHECKING:
 
 
 _UNDEFINED = "F821"
-"""All names that a file lacks have one cause: an import, or a part of it that is gone."""
+"""The common cause of all undefined names of a file: a missing import or part of the file."""
 _OWN_CODES = {
     UNPARSABLE: ("unparsable-file", Severity.ERROR),
     CRASHED: ("rule-crashed", Severity.ERROR),
     TOO_LARGE: ("file-too-large", Severity.WARNING),
     UNFOLLOWED: ("style-not-judged", Severity.INFO),
 }
-"""The codes of the engine that come from here, with their names and severities."""
+"""The codes of the engine reported here, with their names and severities."""
 
 
 def _identity() -> str:
-    """Return what invalidates the cached findings of all files: this code, Python and ruff."""
+    """Return the key of this code, Python and ruff, which invalidates all cached findings."""
     top = os.path.dirname(__file__)
     own = []
     for folder, _, files in os.walk(top):
@@ -123,7 +123,7 @@ class StyleCheck:
         self._reported: Mapping[str, list[RuffDiagnostic]] | None = None
 
     def diagnostics(self, package: Package) -> list[Diagnostic]:
-        """Return what ament_flake8 and ament_pep257 would report, without duplicates.
+        """Return the findings of ament_flake8 and ament_pep257, without duplicates.
 
         Raises:
             EnvironmentMissingError: ruff does not run.
@@ -231,7 +231,7 @@ class StyleCheck:
         return files
 
     def _place(self, package: Package, file: _File, number: int) -> str:
-        """Return where ruff finds the file.
+        """Return the path of the file for ruff.
 
         A package in memory is written to a temporary directory, and so is a file whose name is
         not valid Unicode: ruff would not report such a name as it is.
@@ -282,7 +282,7 @@ def _diagnostic(package: Package, path: str, finding: Finding) -> Diagnostic:
 
 
 def _fix(package: Package, path: str, finding: Finding) -> Fix | None:
-    """Return the fix with offsets in the text as it is on disk."""
+    """Return the fix with offsets in the text on disk."""
     try:
         source = package.editable(path)
     except ViewError:

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from scaffold.model.python.module import PythonModule
 
 Arguments = tuple[str | None, ...]
-"""As on a command line; ``None`` for what is not known without running the tests."""
+"""As on a command line; ``None`` for arguments that are unknown without running the tests."""
 
 _KEYWORDS = {
     "flake8": {"EXCLUDE": "--exclude", "MAX_LINE_LENGTH": "--linelength"},
@@ -38,12 +38,12 @@ class Call(NamedTuple):
 
 
 def directory_of(package: Package) -> str:
-    """Return the directory where the tests of a package run; made up for one in memory."""
+    """Return the directory where the tests of a package run; a placeholder for one in memory."""
     return os.path.abspath(package.place or "/package")
 
 
 def linter_calls(package: Package, linter: str) -> list[Call]:
-    """Return how the tests of a package run a linter; runs that cannot fail are left out.
+    """Return how the tests of a package run a linter, without runs that cannot fail.
 
     Args:
         package: The package.
@@ -159,7 +159,7 @@ class _TestEvaluator(Evaluator):
 
     Args:
         module: The file.
-        directory: That of the package, where the test runs.
+        directory: The directory of the package, where the test runs.
     """
 
     def __init__(self, module: PythonModule, directory: str) -> None:
@@ -182,7 +182,7 @@ class _TestEvaluator(Evaluator):
         return super().attribute(node)
 
     def call(self, node: ast.Call) -> object:
-        """Return what functions make of a path."""
+        """Return the value of a function of a path."""
         name = self.module.qualified_name(node.func)
         if name in {"os.getcwd", "pathlib.Path.cwd"}:
             return PathValue(self._directory) if name != "os.getcwd" else self._directory

@@ -105,7 +105,7 @@ def _mixed_case(package: Package, finding: Finding) -> _Explained:
 
 
 def _lower(package: Package, source: Source) -> Fix | None:
-    """Return one fix for the whole file, unless a word in question may be no command."""
+    """Return one fix for the whole file, unless one of the words may be no command."""
     edits: list[Edit] = []
     commands = outline(package, source).commands
     for line in lines(source):
@@ -185,4 +185,4 @@ _FILTERS: Mapping[str, tuple[str, Callable[[Package, Finding], _Explained | None
     "CM083": ("syntax", _unclosed),
     "CM084": (PRAGMA_INVALID, _pragma),
 }
-"""The filter of the linter behind each code, and what makes a message of its findings."""
+"""The linter filter of each code, and the function for its messages."""

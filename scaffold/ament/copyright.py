@@ -32,14 +32,14 @@ class Header(NamedTuple):
 
     path: str
     location: Location
-    """The first notice; the first line when there is none."""
+    """The first notice, or the first line without one."""
     holders: tuple[str, ...] = ()
     licence: str | None = None
-    """The SPDX identifier of the known header; ``None`` when there is no such header."""
+    """The SPDX identifier of the known header; ``None`` if there is none."""
     text: str = ""
-    """What follows the last notice, in one line."""
+    """The text after the last notice, in one line."""
     unreadable: str = ""
-    """Why ament_copyright ends in a traceback on this file."""
+    """Why ament_copyright crashes on this file."""
 
     @property
     def is_known(self) -> bool:
@@ -48,7 +48,7 @@ class Header(NamedTuple):
 
 
 def headers(package: Package) -> list[Header]:
-    """Return the headers of the source files that ament_copyright looks at.
+    """Return the headers of the source files that ament_copyright checks.
 
     These are C, C++, CMake and Python files except empty ones and the ``setup.py`` next to
     package.xml.
@@ -77,7 +77,7 @@ def _header(package: Package, path: str) -> Header | None:
 
 
 def _read(package: Package, path: str) -> Header | None:
-    """Return the header of a source file, ``None`` for one that is empty or cannot be read."""
+    """Return the header of a source file; ``None`` if it is empty or cannot be read."""
     try:
         data = package.bytes_of(path)
     except LargeFileError:
@@ -120,7 +120,7 @@ def read(path: str, data: bytes) -> Header:
 
 
 def _behind_first_lines(text: str) -> int | None:
-    """Return the offset after shebang, coding and empty lines; None if nothing follows them."""
+    """Return the offset after shebang, coding and empty lines; None if no text follows."""
     at = 0
     while True:
         begin = 1 if at == 0 and text[0] == "\ufeff" else at
@@ -157,7 +157,7 @@ def _line_comments(text: str, start: int) -> str:
 
 
 def _block_comment(text: str, start: int) -> str:
-    """Return the lines of the first block comment without their common beginning."""
+    """Return the lines of the first block comment without their common prefix."""
     mark = "\ufeff" if start == 0 and text[0] == "\ufeff" else ""
     for opening, closing in (("/*", "*/"), ("<!--", "-->")):
         if text.find(opening, start) < 0:
@@ -184,7 +184,7 @@ def _without_common_beginning(lines: list[str]) -> list[str]:
 
 
 def _notices(block: str) -> tuple[list[str], str]:
-    """Return the copyright notices, and what follows the last one."""
+    """Return the copyright notices, and the text after the last one."""
     result: list[str] = []
     end = 0
     is_exact = distributions.target().fact("copyright.is_case_sensitive")
@@ -213,7 +213,7 @@ def _begins_line(block: str, at: int, floor: int) -> bool:
 
 
 def _is_near_start(block: str, before: int, at: int, floor: int) -> bool:
-    """Tell whether the spaces from ``before`` to ``at`` begin a line, or its second character."""
+    """Tell whether the spaces from ``before`` to ``at`` are at the first or second column."""
     if before == floor or "\n" in block[before:at]:
         return True
     return before - 1 == floor or block[before - 2] == "\n"
@@ -242,7 +242,7 @@ class KnownText(NamedTuple):
 
 
 def contributing(licence: str) -> str | None:
-    """Return the CONTRIBUTING.md of a license, which `new` writes as well; ``None`` without one."""
+    """Return the CONTRIBUTING.md of a license, as written by `new`; ``None`` without one."""
     directory = os.path.join(content.built_in(), "templates", "_licenses")
     if licence not in os.listdir(directory):  # it is the user's word, and may be a path
         return None
@@ -272,7 +272,7 @@ def known_texts() -> dict[str, list[KnownText]]:
 
 
 def identify(text: str) -> str | None:
-    """Return the SPDX identifier of the license header in a text whose spaces are joined."""
+    """Return the SPDX identifier of the license header in a normalized text."""
     return _identified(text, _known("header"))
 
 
@@ -295,7 +295,7 @@ def _in_order(text: str, sections: tuple[str, ...]) -> bool:
 
 
 def departure(text: str) -> tuple[str, str, str] | None:
-    """Return the license that an unknown header resembles, and where it differs.
+    """Return the license closest to an unknown header, and the difference.
 
     Returns:
         The SPDX identifier, the expected and the actual words; ``None`` when no known header is
@@ -312,7 +312,7 @@ def departure(text: str) -> tuple[str, str, str] | None:
 
 
 def _compare(words: list[str], sections: list[list[str]]) -> tuple[int, list[str], list[str]]:
-    """Return how many words agree, then the expected and the actual words after them."""
+    """Return the number of equal words, then the expected and the actual words after them."""
     same = at = 0
     for number, section in enumerate(sections):
         reach = at + _HOLDER if number else len(words)
@@ -343,7 +343,7 @@ def identify_file(name: str, data: bytes) -> str | None:
 
 
 def _find_marked(text: str, mark: str) -> int:
-    """Find a long text of which only length, digest and first characters are kept."""
+    """Find a long text, stored only as length, digest and first characters."""
     from hashlib import sha256
 
     length, digest, beginning = mark.split(" ", 2)

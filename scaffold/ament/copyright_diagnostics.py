@@ -26,7 +26,7 @@ _CAUSE = "copyright"
 
 
 def diagnostics(package: Package, code: str) -> Iterator[Diagnostic]:
-    """Yield what ament_copyright reports under one code, as advice where the linter is not run."""
+    """Yield the findings of ament_copyright with one code, as info if the linter is not run."""
     if code == "LY020":
         missing = [header for header in headers(package) if not header.holders]
         yield from _of_headers(package, code, missing, _no_notice)
@@ -38,7 +38,7 @@ def diagnostics(package: Package, code: str) -> Iterator[Diagnostic]:
 
 
 def _has_own_texts(package: Package) -> bool:
-    """Tell whether a dependency extends the linter with licenses of its own."""
+    """Tell whether a dependency extends the linter with licenses."""
     try:
         names = package.manifest.declared_names
     except ViewError:
@@ -67,7 +67,7 @@ def _of_headers(
 
 
 def _no_notice(header: Header, others: int) -> str:
-    """Return the message; ``others`` counts more such files, -1 where each file has its own."""
+    """Return the message; ``others`` counts more such files, -1 if each file has its own."""
     if others < 0:
         return header.unreadable or "no copyright notice in the first comment of this file"
     return f"no copyright notice here and in {others} more" if others else "no copyright notice"
@@ -110,7 +110,7 @@ def _of_repository(package: Package, code: str) -> Iterator[Diagnostic]:
 
 
 def _fix(package: Package, name: str) -> Fix | None:
-    """Return the fix that writes a missing file which is the same in all packages of a license."""
+    """Return the fix that writes a missing file with a text fixed by the license."""
     if name != CONTRIBUTING or package.has(name):
         return None
     named = {element.text for element in package.manifest.all("license")}

@@ -45,7 +45,7 @@ def select(files: Iterable[str], named: Collection[str] = ()) -> dict[str, int]:
 
     Args:
         files: All files.
-        named: Files that ament_flake8 is given by name.
+        named: Files passed to ament_flake8 by name.
 
     Both take ``*.py``. ament_flake8 skips directories with an AMENT_IGNORE file and all
     directories whose name starts with a dot or an underscore; ament_pep257 knows only the second.

@@ -16,7 +16,7 @@ TOO_LARGE = "SC004"
 CRASHED = "SC002"
 """The engine's own code for a defect of this tool."""
 UNFOLLOWED = "SC006"
-"""The engine's own code for a configuration of style that is not followed."""
+"""The engine's own code for an unsupported style configuration."""
 
 Replacement = tuple[int, int, int, int, str]
 """Line and column of the start, of the end (both from 1, the end exclusive), and the new text."""
@@ -33,7 +33,7 @@ class Finding(NamedTuple):
     line: int
     column: int
     message: str = ""
-    """Empty: the summary of the code."""
+    """The message; empty for the summary of the code."""
     end_line: int = 0
     end_column: int = 0
     fix: tuple[Replacement, ...] = ()
@@ -42,4 +42,4 @@ class Finding(NamedTuple):
     fix_is_unsafe: bool = False
     """Whether the fix may change what the code does, or its words."""
     is_doubtful: bool = False
-    """Whether the code may run all the same: a warning, whatever its code usually is."""
+    """Whether the code may work nevertheless, so that it is a warning."""

@@ -29,16 +29,16 @@ class Cache:
 
     @classmethod
     def of_user(cls, depends_on: Callable[[], str]) -> Cache | None:
-        """Return the user's cache, unless it is switched off or there is no home for it."""
+        """Return the user's cache, unless it is disabled or there is no home directory."""
         directory = cache.directory("style")
         return None if directory is None else cls(directory, depends_on())
 
     def key(self, path: str, settings: Sequence[tuple[int, str]], data: bytes) -> str:
-        """Return the key of a file: of its bytes and of what else rules look at.
+        """Return the key of a file, from its bytes and other inputs of rules.
 
         Args:
             path: Its path in the package.
-            settings: The linters that look at it, with what they are asked for.
+            settings: The linters that check it, with their options.
             data: Its bytes.
         """
         name = path.rpartition("/")[2]

@@ -20,7 +20,7 @@ LINE_LENGTH = 140
 INDENTATION = 2
 PRAGMA = "# lint_cmake: "
 PRAGMA_INVALID = "pragma"
-"""Not a filter of the linter: it ends in a traceback on such a line."""
+"""Not a filter of the linter, which crashes on such a line."""
 FILTERS = (
     "convention/filename",
     "linelength",
@@ -49,10 +49,10 @@ class Finding(NamedTuple):
     filter: str
     source: Source
     start: int
-    """Offset of what is wrong; both offsets are 0 when it is the file as a whole."""
+    """The start offset; both offsets are 0 for the file as a whole."""
     end: int
     detail: str = ""
-    """What the message mentions: a name or a number."""
+    """A name or a number for the message."""
 
     @property
     def location(self) -> Location:
@@ -96,11 +96,11 @@ class Line(NamedTuple):
     raw: str
     code: str
     command: str
-    """The word in front of a parenthesis at the start of the line; empty without one."""
+    """The word before a parenthesis at the start of the line; empty without one."""
     name_start: int
     name_end: int
     open: int
-    """Where the parenthesis is."""
+    """The offset of the parenthesis."""
 
 
 def lines(source: Source) -> list[Line]:
@@ -133,7 +133,7 @@ class Scan:
         self.lines = lines(source)
 
     def run(self) -> list[Finding]:
-        """Return the findings, without those that a pragma of the file switches off."""
+        """Return the findings, without those disabled by a pragma of the file."""
         result = [*self._file_name(), *self._each_line(), *self._spaces(), *self._find_module()]
         switches: list[str] = []
         for line in self.lines:
@@ -246,7 +246,7 @@ class Scan:
             yield self._whole("package/consistency", detail)
 
     def _argument(self, number: int) -> str:
-        """Return the first word, here or further down, that is not the command's own."""
+        """Return the first word after the command, here or further down."""
         own = self.lines[number].command
         for line in self.lines[number:]:
             for match in re.finditer(r"\w+", line.code):
@@ -264,7 +264,7 @@ def _is_on(name: str, switches: list[str]) -> bool:
 
 
 def _is_string(raw: str) -> bool:
-    """Tell whether a line begins with a string, which cannot be broken."""
+    """Tell whether a line starts with a string, which cannot be broken."""
     rest = raw.lstrip()
     if rest.startswith("#"):
         rest = rest[1:].lstrip()
@@ -287,7 +287,7 @@ class Outline(NamedTuple):
     """The arguments of a CMake file that a fix must not change, and its commands."""
 
     literals: list[tuple[int, int]]
-    """The quoted and the bracket arguments, in order: spaces inside them are significant."""
+    """The quoted and bracket arguments in order, whose spaces are significant."""
     commands: frozenset[int]
     """The offsets of the names of commands."""
 
@@ -298,7 +298,7 @@ class Outline(NamedTuple):
 
 
 def outline(package: Package, source: Source) -> Outline:
-    """Return the outline of a CMake file; made once, and only for files with something to fix."""
+    """Return the outline of a CMake file; computed once, only for files with fixes."""
     return package.remember(("cmake_outline", source.path), lambda: _outline(source.text))
 
 

@@ -17,16 +17,16 @@ class Linters(NamedTuple):
     """The linters of a distribution."""
 
     versions: Mapping[str, tuple[int, ...]]
-    """By the name of the package that brings them."""
+    """The versions by package."""
     python: tuple[int, int]
-    """What they run on: they see strings and builtins as this Python does."""
+    """The Python version that they run on, which affects strings and builtins."""
 
     def has(self, name: str) -> bool:
-        """Tell whether a linter or plugin is there."""
+        """Tell whether a linter or plugin is installed."""
         return name in self.versions
 
     def since(self, name: str, *version: int) -> bool:
-        """Tell whether a linter is there and at least of a version."""
+        """Tell whether a linter is installed in at least a version."""
         return self.versions.get(name, ()) >= version
 
     @property

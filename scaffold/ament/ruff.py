@@ -51,18 +51,18 @@ PASSES = (
 
 
 def passes() -> Iterator[Sequence[str]]:
-    """Yield the arguments of both passes; the syntax is that of the target's Python."""
+    """Yield the arguments of both passes, for the syntax of the target's Python."""
     version = distributions.target().python_version.replace(".", "")
     for command, *arguments in PASSES:
         yield (command, f"--target-version=py{version}", *arguments)
 
 
 MAX_ARGUMENTS = 100_000
-"""Bytes of file names for one process; the system's limit is at least 128 KiB for all arguments."""
+"""The maximum size of file names for one process; the system limit is at least 128 KiB."""
 
 
 MOST_OF_A_LINE = 200
-"""Findings of one code on one line; only one of them is shown."""
+"""The maximum number of findings of one code on one line, of which one is shown."""
 
 
 class RuffDiagnostic(NamedTuple):
@@ -107,7 +107,7 @@ class Run:
         return result
 
     def close(self) -> None:
-        """End the processes that still run and that nothing waits for."""
+        """End the processes that are still running."""
         while self._running:
             process, pipe = self._running.pop()
             os.close(pipe)
@@ -119,7 +119,7 @@ class Run:
 
 
 def _bisect(arguments: Sequence[str], files: Sequence[str]) -> Iterator[tuple[str, RuffDiagnostic]]:
-    """Check files of which one crashes ruff: bisect, so that the others are still checked."""
+    """Check files of which one crashes ruff, by bisection, so that the others are still checked."""
     if len(files) == 1:
         yield files[0], RuffDiagnostic("", 1, 1, 1, 1, "nested too deeply for its linters", (), "")
         return
@@ -250,7 +250,7 @@ def _find() -> str:
 
 
 def identity() -> str:
-    """Return what changes when another ruff is installed."""
+    """Return a value that changes when another ruff is installed."""
     status = os.stat(executable())
     return f"{executable()}:{status.st_size}:{status.st_mtime_ns}"
 

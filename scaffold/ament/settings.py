@@ -27,9 +27,9 @@ if TYPE_CHECKING:
     from scaffold.model.package import Package
 
 UNKNOWN = "\0"
-"""In place of an argument that cannot be determined."""
+"""A placeholder for an unknown argument."""
 MAX_BYTES = 200_000
-"""Of a configuration file."""
+"""The size limit of a configuration file."""
 
 
 _OF_BOTH = sorted(pep257.AMENT & pep257.CONVENTIONS["pep257"])
@@ -41,7 +41,7 @@ class Settings(NamedTuple):
     linters: int = FLAKE8 | PEP257
     flake8: Options = flake8.AMENT
     pep257: frozenset[str] = pep257.AMENT
-    """The codes that it reports."""
+    """The codes reported by ament_pep257."""
 
     def linters_of(self, finding: Finding) -> int:
         """Return the linters that report a finding."""
@@ -65,7 +65,7 @@ class Settings(NamedTuple):
 
 
 class Note(NamedTuple):
-    """A part of a package's configuration that is not followed, and what happens instead."""
+    """An unsupported part of a package's configuration, and the consequence."""
 
     location: Location
     message: str
@@ -76,13 +76,13 @@ class _Run(NamedTuple):
 
     asked: Options | frozenset[str]
     covers: Callable[[str], bool]
-    """Of an absolute path."""
+    """Tells whether it checks an absolute path."""
     named: tuple[str, ...] = ()
-    """The paths that are given to it, absolute."""
+    """The absolute paths passed to it."""
 
 
 class PackageSettings:
-    """The configurations that each file of a package is checked with.
+    """The configurations for each file of a package.
 
     Args:
         package: The package.
@@ -135,8 +135,8 @@ class PackageSettings:
 
         Args:
             path: The file.
-            linters: Those that would look at it.
-            default: The options where no test of the package runs flake8.
+            linters: The linters that would check it.
+            default: The default options, if no test of the package runs flake8.
         """
         full = os.path.join(self._directory, path)
         asked: dict[int, list[Options | frozenset[str]]] = {}
@@ -300,7 +300,7 @@ class PackageSettings:
 
 
 class _StopError(Exception):
-    """The linter would end with an error before it checks anything."""
+    """The linter would fail before checking any file."""
 
 
 class _Parser(argparse.ArgumentParser):
@@ -334,9 +334,9 @@ def settings_of(package: Package) -> PackageSettings:
 
 
 def files_of_settings(package: Package) -> frozenset[str]:
-    """Return the files that say by what style is judged, by ``Package.full_path``.
+    """Return the files that configure style, by ``Package.full_path``.
 
-    Of those in Python, all tests are looked at, and only those count that run a linter.
+    All Python tests are examined, but only those that run a linter are returned.
     """
     looked_at = Reads()
     with recorded(looked_at):

@@ -30,16 +30,16 @@ class Use(NamedTuple):
 
     runs: bool
     why_not: str = ""
-    """Why the linter does not run; for people."""
+    """Why the linter does not run, for messages."""
     excluded: tuple[str, ...] = ()
     """Patterns of files that it is configured to skip."""
     is_excluded: bool = False
-    """The package switches it off on purpose."""
+    """Whether the package disables it on purpose."""
     paths: tuple[str, ...] = ()
-    """The files and directories that it is given; empty for the whole package."""
+    """The files and directories passed to it; empty for the whole package."""
 
     def covers(self, path: str) -> bool:
-        """Tell whether the linter looks at a file."""
+        """Tell whether the linter checks a file."""
         is_given = not self.paths or any(
             path == given or path.startswith(f"{given}/") for given in self.paths
         )
@@ -90,7 +90,7 @@ _KEYWORDS = ("EXCLUDE", "TESTNAME", "TIMEOUT", "EXTENSIONS", "CONFIG_FILE")
 
 
 def _called(cmake: CMakeLists, calls: Sequence[Command]) -> Use:
-    """Return what CMake hands a linter: files that it leaves out, and where it looks at all."""
+    """Return the arguments of a linter in CMake: excluded files, and paths."""
     excluded: list[Argument] = []
     given: list[str] = []
     is_limited = True
@@ -114,7 +114,7 @@ def _called(cmake: CMakeLists, calls: Sequence[Command]) -> Use:
 
 
 def hook(package: Package, linter: str) -> Command | None:
-    """Return the command that runs a linter because the manifest names it; raises ViewError."""
+    """Return the command that runs a linter declared in the manifest; raises ViewError."""
     finds = package.cmake.find(*_FINDING)
     wrapper = f"ament_cmake_{linter}"
     is_found = finds and any(_brings(package, name, wrapper) for name in _found(package))
@@ -122,9 +122,9 @@ def hook(package: Package, linter: str) -> Command | None:
 
 
 def _found(package: Package) -> set[str]:
-    """Return the packages that CMake finds, of those that the manifest names as well.
+    """Return the packages found by CMake and declared in the manifest.
 
-    ament_lint_auto finds test dependencies alone, so that it does not see a ``<depend>``.
+    ament_lint_auto only finds test dependencies, so that it ignores a ``<depend>``.
     """
     manifest, cmake = package.manifest, package.cmake
     others = manifest.build_names if cmake.finds_automatically else set()
@@ -161,7 +161,7 @@ def _brings(package: Package, name: str, wrapper: str) -> bool:
 
 
 def file_excludes(cmake: CMakeLists) -> list[str] | None:
-    """Return what ament_lint_auto tells linters to skip; ``None`` if it cannot be determined."""
+    """Return the files that ament_lint_auto excludes; ``None`` if unknown."""
     result: list[str] = []
     for command in cmake.find("set", "list"):
         words = [argument.text for argument in command.arguments]
@@ -194,7 +194,7 @@ def _by_pytest(package: Package, linter: str) -> Use | None:
 
 
 def linter_tests(package: Package, linter: str) -> Iterator[tuple[PythonModule, str]]:
-    """Yield the tests in Python that import a linter, each with why it cannot fail, if so.
+    """Yield the Python tests that import a linter, each with why it cannot fail, if so.
 
     Args:
         package: The package.
@@ -228,7 +228,7 @@ def _asserts(module: PythonModule) -> bool:
 
 
 def _arguments(lists: Sequence[ast.List]) -> tuple[str, ...]:
-    """Return what follows ``--exclude`` in lists of arguments."""
+    """Return the values of ``--exclude`` in lists of arguments."""
     result: list[str] = []
     for node in lists:
         values = [item.value for item in node.elts if isinstance(item, ast.Constant)]

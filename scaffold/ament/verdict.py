@@ -46,11 +46,11 @@ if TYPE_CHECKING:
     from scaffold.model.python.module import PythonModule
 
 MOST_EDITS = 200
-"""Of one fix; a line with more is fixed in several rounds, if at all."""
+"""The maximum number of edits per fix; lines with more need several rounds."""
 
 _TAKEN = "E211 E261 E262 E265 E266 E401 W605"
 TAKEN = frozenset(_TAKEN.split())
-"""Codes on which ruff's verdict is pycodestyle's."""
+"""Codes for which ruff and pycodestyle agree."""
 
 _OWN = (blank_lines, statements, indirect_names, comprehensions)
 _CONFIGURED = (
@@ -63,7 +63,7 @@ _CONFIGURED = (
     optional,
     complexity,
 )
-"""Those that the options of flake8 change."""
+"""Codes that depend on options of flake8."""
 
 
 def check(
@@ -80,8 +80,8 @@ def check(
         data: Its bytes.
         ask_ruff: Waits for ruff and returns its diagnostics; called after our own
             rules, which run at the same time as ruff.
-        settings: Which linters look at the file, and what they are asked for.
-        parsed: The file, where it has been parsed before.
+        settings: The linters of the file, with their options.
+        parsed: The file, if parsed before.
     """
     decoded = decode(data)
     is_same = parsed is not None and parsed.source.text.removeprefix(BOM) == decoded.text
@@ -108,7 +108,7 @@ def _judged(
     own: Sequence[Finding],
     reported: Sequence[RuffDiagnostic],
 ) -> list[Finding]:
-    """Return the findings with one of the settings, given those of our own rules."""
+    """Return the findings for one of the settings, given those of our own rules."""
     options = settings.flake8
     ruff_findings = _from_ruff(text, reported, options)
     if options.inline_quotes != AMENT.inline_quotes:
@@ -229,7 +229,7 @@ def _from_ruff(
 def _with_fixes(
     findings: Iterable[Finding], diagnostics: Sequence[RuffDiagnostic]
 ) -> list[Finding]:
-    """Give our findings the fixes that ruff has for the same code at the same line."""
+    """Add the fixes of ruff for the same code at the same line to our findings."""
     same_place: dict[tuple[str, int], list[Finding]] = {}
     for item in diagnostics:
         if item.fix and not _loads_conversions(item):
@@ -250,13 +250,13 @@ def _with_fixes(
 
 
 def _loads_conversions(item: RuffDiagnostic) -> bool:
-    """Tell whether an import that nothing uses has an effect of its own, as those of tf2 have."""
+    """Tell whether an unused import has side effects, like those of tf2 conversions."""
     name = item.message.partition("`")[2].partition(".")[0].partition("`")[0].partition(" ")[0]
     return item.code == "F401" and name in CONVERSIONS
 
 
 class _Alignment:
-    """The columns with which continuation lines are aligned."""
+    """The columns of aligned continuation lines."""
 
     def __init__(self, text: PythonText) -> None:
         self._text = text
@@ -304,7 +304,7 @@ def _once(findings: Iterable[Finding]) -> list[Finding]:
 
 
 def _joined(findings: Sequence[Finding]) -> Finding:
-    """Return the first of some findings, with the fixes of all where they do not meet."""
+    """Return the first of some findings, with the fixes of all if they do not overlap."""
     first, *others = findings
     if not others:
         return first
@@ -334,7 +334,7 @@ def _joined(findings: Sequence[Finding]) -> Finding:
 
 
 def _added(edits: list[Replacement], more: Sequence[Replacement]) -> bool:
-    """Add edits to others in the order of the text, all or none: those that meet cannot be."""
+    """Merge sorted edits, all or none, as overlapping ones are impossible."""
     new = sorted({*more})
     if _meet(new):
         return False
@@ -352,5 +352,5 @@ def _added(edits: list[Replacement], more: Sequence[Replacement]) -> bool:
 
 
 def _meet(edits: Sequence[Replacement]) -> bool:
-    """Tell whether any of some edits begins before the one ahead of it ends."""
+    """Tell whether any of some sorted edits overlap."""
     return any(item[2:4] > other[:2] for item, other in pairwise(edits))

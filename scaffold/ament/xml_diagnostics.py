@@ -45,14 +45,14 @@ _IN_EXPORT = frozenset({"architecture_independent", "build_type", "deprecated", 
 
 # linear: a declaration and comments each end at their first end mark
 _PROLOGUE = re.compile(rb"\s*(?:<\?xml[^>]*\?>)?\s*(?:<!--.*?-->\s*)*", re.DOTALL)
-"""Matches what is in front of the first element."""
+"""Matches the text before the first element."""
 
 
 def diagnostics(package: Package, code: str) -> Iterator[Diagnostic]:
-    """Yield what ament_xmllint reports under one code.
+    """Yield the findings of ament_xmllint with one code.
 
     Raises:
-        ViewError: the code is about package.xml, and there is none that can be parsed.
+        ViewError: the code is about package.xml, which is missing or unparsable.
     """
     if code == "PX050":
         problems = _unreadable(package)
@@ -71,22 +71,22 @@ def diagnostics(package: Package, code: str) -> Iterator[Diagnostic]:
 
 
 def _is_unused_file(package: Package, unreadable: Diagnostic) -> bool:
-    """Tell whether a file is empty, so that no program and no linter loads it."""
+    """Tell whether a file is empty and never mentioned."""
     return unreadable.message == "the file is empty" and not linter_use(package, "xmllint").runs
 
 
 def _is_for_linter_alone(package: Package) -> bool:
-    """Tell whether colcon reads the manifest as it is, and no linter looks at its schema."""
+    """Tell whether colcon accepts the manifest, and no linter checks its schema."""
     is_known = package.manifest.declared_format in {None, *map(str, FORMATS)}
     return is_known and not linter_use(package, "xmllint").runs
 
 
 def _is_read_anyway(package: Package, path: str, message: str) -> bool:
-    """Tell whether what is wrong with a file does not bother those who read it.
+    """Tell whether the readers of a file accept its error.
 
-    The reader of plugin descriptions (tinyxml2) takes several elements at the top, and ``<`` in a
-    value; the same reader takes ``--`` in a comment of a behavior tree. Parts of larger documents
-    have several elements; the readers of launch files take one.
+    The reader of plugin descriptions (tinyxml2) accepts several elements at the top, and ``<`` in a
+    value; the same reader accepts ``--`` in a comment of a behavior tree. Parts of larger documents
+    have several elements; the readers of launch files accept one.
     """
     try:
         start = package.bytes_of(path).lstrip()
@@ -165,7 +165,7 @@ def _rename(package: Package, unknown: Unknown, tag: str) -> Fix:
 
 
 def _explain_element(structure: Structure, unknown: Unknown) -> tuple[str, str | None]:
-    """Return the reason, and the tag that it should be, if that is obvious."""
+    """Return the reason, and the correct tag, if obvious."""
     tag, number = unknown.element.tag, structure.format
     if unknown.element is structure.root:
         return "is not <package>, the root of every manifest", None

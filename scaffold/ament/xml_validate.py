@@ -15,7 +15,7 @@ from collections.abc import Iterable
 from typing import Any, cast
 
 MOST_SECONDS = 2
-"""Of the processor; a schema for launch files takes some milliseconds."""
+"""The limit of CPU time in seconds; a schema for launch files takes some milliseconds."""
 MOST_MEMORY = 1_000_000_000
 """Bytes."""
 RELAX_NG = "http://relaxng.org/ns/structure/1.0"
@@ -23,11 +23,11 @@ RELAX_NG = "http://relaxng.org/ns/structure/1.0"
 Job = tuple[str, bytes, bytes]
 """The kind of a schema, the schema, and the document."""
 Complaint = tuple[int, str, bool]
-"""A line of the document, what is wrong there, and whether the schema itself cannot be used."""
+"""A line of the document, the error, and whether the schema itself is unusable."""
 
 
 def validate(kind: str, schema: bytes, document: bytes) -> Complaint | None:
-    """Return the first place where a document does not fit a schema."""
+    """Return the first schema error of a document."""
     from lxml import etree
 
     def parse(data: bytes) -> etree._Element:

@@ -31,12 +31,12 @@ MAX_TEXT = 10_000_000
 
 
 def of_package(package: Package) -> list[str]:
-    """Return the paths that ament_xmllint looks at, links that lead nowhere among them."""
+    """Return the paths that ament_xmllint checks, including dangling symlinks."""
     return [path for path in (*lintable(package), *broken_links(package)) if _is_xml(path)]
 
 
 def mistake(package: Package, path: str) -> tuple[Location, str] | None:
-    """Return the first place where an XML file is not well-formed, and what is wrong there."""
+    """Return the first place where an XML file is not well-formed, and the error."""
     try:
         data = package.bytes_of(path)
     except OSError as error:
@@ -45,9 +45,9 @@ def mistake(package: Package, path: str) -> tuple[Location, str] | None:
 
 
 def check(path: str, data: bytes) -> tuple[Location, str] | None:
-    """Return the first mistake in an XML file.
+    """Return the first error in an XML file.
 
-    Prefixes of namespaces may be undeclared, as xmllint has it; nothing outside of the file is
+    Prefixes of namespaces may be undeclared, as in xmllint; nothing outside of the file is
     read, so references to entities of another file are accepted.
     """
     reader = _Reader()
@@ -99,7 +99,7 @@ class _Reader:
 
 
 def _explain(path: str, data: bytes, error: expat.ExpatError) -> tuple[Location, str]:
-    """Return the mistake in our own words where the text can be decoded, else in expat's."""
+    """Return the error in our own words if the text can be decoded, else in those of expat."""
     from scaffold.formats import xml_reader
 
     try:
@@ -136,16 +136,16 @@ _READS_OTHERS = frozenset(
 
 
 class Verdict(NamedTuple):
-    """The result of checking an XML file against a schema that it names."""
+    """The result of validating an XML file with one of its schemas."""
 
     location: Location
     message: str
     is_checked: bool
-    """False if the schema was not used; the message says why."""
+    """Whether the schema was used; otherwise the message says why not."""
 
 
 class _Use(NamedTuple):
-    """An XML file and a schema that it names."""
+    """An XML file and one of its schemas."""
 
     path: str
     data: bytes
@@ -154,9 +154,9 @@ class _Use(NamedTuple):
 
 
 def verdicts(package: Package) -> Sequence[Verdict]:
-    """Return the verdicts on XML files other than package.xml and the schemas that they name.
+    """Return the verdicts on XML files other than package.xml with their schemas.
 
-    For a file that does not fit its schema, the first mismatch.
+    For an invalid file, the first error.
     """
     return package.remember("xml_schemas", lambda: _verdicts(package))
 
@@ -188,7 +188,7 @@ def _verdicts(package: Package) -> list[Verdict]:
 
 
 def _uses(package: Package, path: str) -> Iterator[_Use]:
-    """Yield the schemas that a well-formed file names."""
+    """Yield the schemas of a well-formed file."""
     try:
         data = package.bytes_of(path) if path != "package.xml" else b""
     except OSError:
@@ -211,7 +211,7 @@ def _parse(data: bytes) -> etree._Element | None:
 
 
 def _named(root: etree._Element) -> list[tuple[str, str]]:
-    """Return the kinds and places of the schemas that a document names."""
+    """Return the kinds and locations of the schemas of a document."""
     result: list[tuple[str, str]] = []
     for node in root.itersiblings(preceding=True):
         if getattr(node, "target", "") == "xml-model":
@@ -223,7 +223,7 @@ def _named(root: etree._Element) -> list[tuple[str, str]]:
 
 
 def _judge(package: Package, use: _Use) -> Verdict | bytes | None:
-    """Return the verdict if it needs no libxml2, or the schema to validate with."""
+    """Return the verdict if libxml2 is not needed, or the schema to validate with."""
     manifest = re.search(r"package_format([123])\.xsd\Z", use.href)
     if manifest:
         wrong = violations(use.data, int(manifest[1]))
@@ -246,7 +246,7 @@ def _judge(package: Package, use: _Use) -> Verdict | bytes | None:
 
 
 def _reads_others(root: etree._Element) -> bool:
-    """Tell whether a schema makes its reader open other files."""
+    """Tell whether a schema includes other files."""
     document = root.getroottree().docinfo
     has_type = document.internalDTD is not None
     return has_type or any(element.tag in _READS_OTHERS for element in root.iter())
@@ -278,7 +278,7 @@ def _validated(jobs: Mapping[_Use, xml_validate.Job]) -> Iterator[tuple[_Use, Ve
 
 
 def _run(jobs: list[xml_validate.Job]) -> list[bytes]:
-    """Return the lines that the program for it writes until it ends or is ended."""
+    """Return the output lines of the validator until it ends or is killed."""
     import subprocess
 
     from lxml import etree
@@ -315,7 +315,7 @@ _DATA = os.path.join(os.path.dirname(os.path.dirname(__file__)), "data")
 
 
 def violations(data: bytes, number: int) -> list[tuple[int, str]]:
-    """Return the lines of a manifest that the schema of a format refuses, in libxml2's words.
+    """Return the lines of a manifest rejected by the schema of a format, with messages of libxml2.
 
     Args:
         data: The file.

@@ -53,14 +53,14 @@ def _style_codes() -> Iterator[AmentCode]:
 
 
 STYLE: Mapping[str, AmentCode] = {row.code: row for row in _style_codes()}
-"""Those about Python style and docstrings, in alphabetical order."""
+"""The codes of Python style and docstrings, in alphabetical order."""
 CODES: Mapping[str, AmentCode] = {
     row.code: row
     for row in sorted(
         [*STYLE.values(), *ament_lint_cmake.ROWS, *ament_copyright.ROWS, *ament_xmllint.ROWS]
     )
 }
-"""By code, in alphabetical order."""
+"""All codes in alphabetical order."""
 
 
 def diagnostic(
@@ -71,6 +71,6 @@ def diagnostic(
     severity: Severity | None = None,
     cause: str = "",
 ) -> Diagnostic:
-    """Return a diagnostic of a code, with the name and severity that the table gives it."""
+    """Return a diagnostic of a code, with the name and severity of the table."""
     row = CODES[code]
     return Diagnostic(code, row.name, severity or row.severity, at, message, fix, cause)

@@ -18,7 +18,7 @@ LINTERS: Mapping[int, str] = {
     XMLLINT: "ament_xmllint",
     COPYRIGHT: "ament_copyright",
 }
-"""Who reports a code; the values of several are added up."""
+"""Flags of the linters that report a code."""
 
 
 class AmentCode(NamedTuple):
@@ -27,20 +27,20 @@ class AmentCode(NamedTuple):
     code: str
     name: str
     summary: str
-    """One line, what is wrong; the message of a style finding that has none of its own."""
+    """One line about the problem; the default message of style findings."""
     linters: int = FLAKE8
-    """Who reports it; see `LINTERS`."""
+    """The linters that report it; see `LINTERS`."""
     severity: Severity = Severity.WARNING
-    """ERROR where the code fails when it is imported or run, or the package cannot be built."""
+    """ERROR if the code fails when imported or run, or the package cannot be built."""
     fix: Safety | None = None
-    """How the fix is applied, where the place is plain enough for one."""
+    """The safety of the fix, if there is one."""
     message: str = ""
-    """What users read, for example; a test has the case that it belongs to."""
+    """An example of the message, from a test case."""
     documentation: str = ""
-    """**Why.**, **Fix.** and **Source.**, where there is more to say than the summary."""
+    """**Why.**, **Fix.** and **Source.**, if there is more to say than the summary."""
     other_severities: Mapping[Severity, str] | None = None
     """Severities that a diagnostic may have instead, each with the condition for it."""
     is_optional: bool = False
-    """Whether only a configuration of a package's own asks for it."""
+    """Whether it is only enabled by a package's own configuration."""
     release_refused: str = ""
-    """Why no release is made of what has this flaw: then it is an error with `check --release`."""
+    """Why it blocks a release, so that it is an error with `check --release`."""

@@ -1,4 +1,4 @@
-"""A001 to A006: names that hide a builtin or a module of the standard library.
+"""A001 to A006: names that shadow a builtin or a module of the standard library.
 
 The findings are those of flake8-builtins; since 2.5 it has separate codes for imports, modules and
 the arguments of lambdas.
@@ -38,12 +38,12 @@ _NAMES = """
 """
 
 BUILTINS = frozenset(_NAMES.split())
-"""The builtins of Python 3.12 without those that flake8-builtins lets pass."""
+"""The builtins of Python 3.12 without those that flake8-builtins allows."""
 _NEWER = {
     (3, 11): frozenset({"BaseExceptionGroup", "ExceptionGroup"}),
     (3, 13): frozenset({"PythonFinalizationError"}),
 }
-"""Those that a Python brought."""
+"""Builtins by the Python version that added them."""
 _MODULES_THAT_PASS = frozenset({"__future__", "__main__", "setup", "test"})
 
 _Comprehension = (ast.ListComp, ast.SetComp, ast.DictComp, ast.GeneratorExp)
@@ -68,7 +68,7 @@ Named = Iterator[tuple[str, int, int]]
 
 
 def check(text: PythonText, options: Options = AMENT) -> Iterator[Finding]:
-    """Yield the names that hide a builtin."""
+    """Yield the names that shadow a builtin."""
     target = linters.of_target()
     builtins = _builtins(target.python)
     if options.builtins or options.builtins_ignorelist:
@@ -128,7 +128,7 @@ def _lambdas(text: PythonText, builtins: frozenset[str]) -> Iterator[Finding]:
 
 
 def hidden_module(path: str) -> str:
-    """Return the module of the standard library whose name a file or its package has."""
+    """Return the standard library module with the name of a file or its package."""
     if not _has_codes_of_imports():
         return ""
     *_, directory, file = ("", *path.split("/"))
@@ -150,7 +150,7 @@ def _finding(text: PythonText, code: str, kind: str, name: str, line: int, colum
 
 
 def _bound(node: ast.AST) -> Named:  # noqa: C901  one branch for each kind of statement
-    """Yield the names that a node binds, at the place where flake8-builtins reports them."""
+    """Yield the names bound by a node, at the place where flake8-builtins reports them."""
     if isinstance(node, ast.Assign):
         for target in node.targets:
             yield from _unpack(target)

@@ -28,7 +28,7 @@ def check(text: PythonText, options: Options) -> Iterator[Finding]:
 
 
 def _count(body: Sequence[ast.stmt], outer: str, counted: dict[str, tuple[int, ast.stmt]]) -> None:
-    """Count the paths through what is not inside of a function; the last of a name counts."""
+    """Count the paths through code outside of functions; the last of a name counts."""
     for node in body:
         if isinstance(node, ast.ClassDef):
             _count(node.body, f"{outer}{node.name}.", counted)
@@ -42,12 +42,12 @@ def _count(body: Sequence[ast.stmt], outer: str, counted: dict[str, tuple[int, a
 
 
 def _inner(body: Sequence[ast.stmt]) -> int:
-    """Return how many paths statements add."""
+    """Return the number of paths added by statements."""
     return sum(map(_paths, body))
 
 
 def _paths(node: ast.stmt) -> int:
-    """Return how many paths a statement adds; mccabe does not look into ``finally``."""
+    """Return the number of paths added by a statement; mccabe ignores ``finally``."""
     if isinstance(node, (ast.With, ast.AsyncWith)):
         return _inner(node.body)
     if isinstance(node, ast.ClassDef):

@@ -20,7 +20,7 @@ _CASTS = {
     "tuple": {"list", "tuple"},
 }
 _SINCE = {"C417": (3, 9), "C418": (3, 10), "C419": (3, 10), "C420": (3, 16)}
-"""The versions that brought codes."""
+"""The versions that added codes."""
 _PAIR = 2
 _Copy = ast.ListComp | ast.SetComp | ast.DictComp
 
@@ -34,7 +34,7 @@ def check(text: PythonText) -> Iterator[Finding]:
 
 
 def _unknown_codes() -> frozenset[str]:
-    """Return the codes that the version of the target does not have."""
+    """Return the codes that the version on the target lacks."""
     target = linters.of_target()
     return frozenset(
         code
@@ -67,7 +67,7 @@ def _finding(text: PythonText, code: str, node: ast.expr) -> Finding:
 
 
 def _call(node: ast.Call, name: str, inner_maps: set[ast.AST]) -> str:
-    """Return the code for a call of a name; empty if nothing is wrong."""
+    """Return the code for a call of a name; empty if there is none."""
     if not node.args:
         return _empty_call(node, name)
     first = node.args[0]
@@ -76,7 +76,7 @@ def _call(node: ast.Call, name: str, inner_maps: set[ast.AST]) -> str:
 
 
 def _nested_call(name: str, first: ast.expr) -> str:
-    """Return the code for what is done twice: sorting, copying, reversing."""
+    """Return the code for a repeated operation: sorting, copying, reversing."""
     if name in ("reversed", "set", "sorted") and _is_reversal(first):
         return "C415"
     if not isinstance(first, ast.Call) or not isinstance(first.func, ast.Name):
@@ -166,7 +166,7 @@ def _is_minus_one(node: ast.expr | None) -> bool:
 
 
 def _copies(node: _Copy) -> bool:
-    """Tell whether a comprehension yields just what it iterates over."""
+    """Tell whether a comprehension yields its unchanged items."""
     if len(node.generators) != 1 or node.generators[0].ifs or node.generators[0].is_async:
         return False
     target = node.generators[0].target
@@ -180,7 +180,7 @@ def _copies(node: _Copy) -> bool:
 
 
 def _repeats(node: _Copy) -> bool:
-    """Tell whether a comprehension gives all keys the same constant."""
+    """Tell whether a comprehension maps all keys to the same constant."""
     if not isinstance(node, ast.DictComp) or len(node.generators) != 1:
         return False
     (generator,) = node.generators

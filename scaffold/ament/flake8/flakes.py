@@ -61,21 +61,21 @@ CODES: Mapping[str, str] = {
     "UnusedAnnotation": "F842",
     "RaiseNotImplemented": "F901",
 }
-"""The codes that flake8 has for the messages of pyflakes; ``indirect_names`` judges F824."""
+"""The flake8 codes of pyflakes messages; F824 is checked by ``indirect_names``."""
 _STUBS = frozenset({"stubs", "typings"})
 _GIVEN = {"conf.py": frozenset({"tags"})}
-"""What Sphinx gives its configuration."""
+"""Names that Sphinx defines for its configuration."""
 
 
 def check(
     text: PythonText, builtins: Collection[str], diagnostics: Sequence[RuffDiagnostic]
 ) -> Iterator[Finding]:
-    """Yield what pyflakes reports.
+    """Yield the findings of pyflakes.
 
     Args:
         text: The file; nothing is reported without a syntax tree.
-        builtins: The names that its configuration adds to those of Python.
-        diagnostics: Those of ruff, which tell where an expression ends.
+        builtins: The additional builtins in its configuration.
+        diagnostics: The diagnostics of ruff, used for the ends of expressions.
     """
     from scaffold.ament.flake8.quick_pyflakes import messages
 
@@ -105,9 +105,9 @@ def check(
 
 
 def _is_of_3(text: PythonText, code: str, arguments: Sequence[object]) -> bool:
-    """Tell whether pyflakes reports this from version 3 on.
+    """Tell whether pyflakes only reports this from version 3 on.
 
-    That are annotations without a value, and definitions that replace what is assigned.
+    Such as annotations without a value, and definitions that replace assigned names.
     """
     if code != "F811":
         return code == "F842"
@@ -144,7 +144,7 @@ def _handler_lines(text: PythonText) -> dict[int, int]:
 
 
 def _is_made_when_run(text: PythonText, code: str, arguments: Sequence[object]) -> bool:
-    """Tell whether the module may have a name that nothing in its text defines."""
+    """Tell whether the module may have names that are not defined in its text."""
     if code == "F821":
         # A configuration such as .cmake-format.py is run by its program, with names from there.
         is_given = not _GIVEN.get(text.name, frozenset()).isdisjoint(arguments)
@@ -161,9 +161,9 @@ def _executes_text(text: PythonText) -> bool:
 
 
 def _is_stub(text: PythonText) -> bool:
-    """Tell whether a file is for type checkers alone: in ``stubs``, and its functions say ``...``.
+    """Tell whether a file is only for type checkers: in ``stubs``, with ``...`` as function bodies.
 
-    What ``mypy_path`` or pyright name is seldom imported, although it is not always ``.pyi``.
+    Files for ``mypy_path`` or pyright are rarely imported, although not always ``.pyi``.
     """
     if _STUBS.isdisjoint(text.path.split("/")) or not text.functions:
         return False
@@ -177,7 +177,7 @@ def _is_stub(text: PythonText) -> bool:
 
 
 def _has_getattr(text: PythonText) -> bool:
-    """Tell whether the module answers for names that it lacks (PEP 562)."""
+    """Tell whether the module has ``__getattr__`` (PEP 562)."""
     return text.tree is not None and any(
         isinstance(node, ast.FunctionDef) and node.name == "__getattr__" for node in text.tree.body
     )

@@ -24,7 +24,7 @@ _BINDING = (
 
 
 def check(text: PythonText) -> Iterator[Finding]:
-    """Yield the statements that have no effect; pyflakes reports them from 3.3 on."""
+    """Yield the statements without effect; pyflakes reports them from 3.3 on."""
     if text.index is None or not linters.of_target().since("pyflakes", 3, 3):
         return
     nodes: list[ast.Global | ast.Nonlocal] = [*text.nodes(ast.Global), *text.nodes(ast.Nonlocal)]

@@ -24,7 +24,7 @@ def _skips_file(text: PythonText) -> bool:
 
 
 def apply(text: PythonText, findings: Iterable[Finding]) -> list[Finding]:
-    """Remove flake8 from findings that a comment silences; drop those no other linter reports."""
+    """Remove flake8 from suppressed findings; drop those that no other linter reports."""
     if _skips_file(text):
         return _without(findings, lambda _: True)
     if "noqa" not in text.text.lower():
@@ -34,7 +34,7 @@ def apply(text: PythonText, findings: Iterable[Finding]) -> list[Finding]:
 
 
 def apply_of_plugins(text: PythonText, findings: Iterable[Finding]) -> list[Finding]:
-    """Do the same under ``disable_noqa``, for the plugins that read the comments themselves."""
+    """Apply the comments under ``disable_noqa``, for plugins that read them themselves."""
     silenced = _Silenced(text)
     return _without(findings, silenced.covers_by_plugin)
 
@@ -66,7 +66,7 @@ class _Silenced:
         }
 
     def covers(self, finding: Finding) -> bool:
-        """Tell whether a comment silences a finding."""
+        """Tell whether a comment suppresses a finding."""
         if finding.code.startswith("Q") and finding.line in self._quotes:
             return True
         line = finding.line
@@ -75,7 +75,7 @@ class _Silenced:
         return finding.code.startswith(self._codes[line])
 
     def covers_by_plugin(self, finding: Finding) -> bool:
-        """Tell whether a comment silences a finding of the plugins for quotes and imports."""
+        """Tell whether a comment suppresses a finding of the plugins for quotes and imports."""
         if not finding.code.startswith("I"):
             return finding.code.startswith("Q") and finding.line in self._quotes
         matched = re.search(_OF_IMPORTS, self._text.lines[finding.line - 1], re.IGNORECASE)
@@ -94,7 +94,7 @@ class _Silenced:
 
 
 def _groups(text: PythonText) -> dict[int, tuple[int, int]]:
-    """Return the first and last row of each statement part that a string or backslash joins."""
+    """Return the first and last row of each part joined by strings or backslashes."""
     result: dict[int, tuple[int, int]] = {}
     first = last = 0
     for token in text.tokens:

@@ -24,7 +24,7 @@ Names = tuple[str, ...]
 SECTION = "flake8"
 LOCAL_PLUGINS = "flake8:local-plugins"
 IGNORED: Names = ("E121", "E123", "E126", "E226", "E24", "E704", "W503", "W504")
-"""What flake8 ignores unless ``ignore`` is set."""
+"""The codes that flake8 ignores by default."""
 EXCLUDED: Names = (
     ".svn",
     "CVS",
@@ -38,7 +38,7 @@ EXCLUDED: Names = (
     "*.egg",
 )
 PLUGINS: Names = ("A00", "B90", "C4", "C90", "CNL", "D", "E", "F", "I", "Q0", "W")
-"""The beginnings of codes that plugins of the distributions registered."""
+"""The code prefixes registered by plugins of the distributions."""
 IMPORT_STYLES = ("appnexus", "cryptography", "edited", "google", "pep8", "pycharm", "smarkets")
 CONVENTIONS = ("all", "google", "numpy", "pep257")
 PROPERTIES = "property,cached_property,functools.cached_property"
@@ -64,7 +64,7 @@ class Options(NamedTuple):
     ignore: Names | None = None
     extend_ignore: Names = ()
     per_file_ignores: tuple[tuple[str, Names], ...] = ()
-    """Patterns of files, and the codes that are ignored in them."""
+    """Patterns of files, and the codes ignored in them."""
     exclude: Names = EXCLUDED
     extend_exclude: Names = ()
     filename: Names = ("*.py",)
@@ -94,11 +94,11 @@ class Options(NamedTuple):
         return any(map(self.reports, codes))
 
     def for_file(self, path: str, directory: str) -> Options:
-        """Return the options with what they ignore in one file.
+        """Return the options for one file, with its ignored codes.
 
         Args:
             path: The absolute path of the file.
-            directory: Where flake8 is run.
+            directory: The directory where flake8 is run.
         """
         patterns = [(normal(name, directory), codes) for name, codes in self.per_file_ignores]
         fitting = [item for item in patterns if matches(path, [item[0]])]
@@ -119,14 +119,14 @@ AMENT = Options(
 
 
 def normal(path: str, directory: str) -> str:
-    """Return a path or pattern as flake8 compares it: a plain name fits in any directory."""
+    """Return a path or pattern normalized like flake8: a plain name matches in any directory."""
     if path == "." or "/" in path:
         path = os.path.abspath(os.path.join(directory, path))
     return path.rstrip("/")
 
 
 def matches(path: str, patterns: Sequence[str]) -> bool:
-    """Tell whether an absolute path, or its name, fits one of some patterns."""
+    """Tell whether an absolute path, or its name, matches one of some patterns."""
     name = path.rpartition("/")[2]
     return any(fnmatch(name, pattern) or fnmatch(path, pattern) for pattern in patterns)
 
@@ -135,7 +135,7 @@ def matches(path: str, patterns: Sequence[str]) -> bool:
 def _reports(
     select: Names | None, more: Names, ignore: Names | None, extend: Names, code: str
 ) -> bool:
-    """Decide as flake8 does: what was named wins over defaults, then the longer beginning."""
+    """Decide like flake8: explicit codes take precedence over defaults, then longer prefixes."""
     named, unnamed = (*(select or ()), *more), (*(ignore or ()), *extend)
     selected = (*(PLUGINS if select is None else select), *more)
     ignored = (*(IGNORED if ignore is None else ignore), *extend)
@@ -157,8 +157,8 @@ def read(text: str, directory: str) -> tuple[Options, list[str]]:
     """Return the options in a configuration file, and notes on what is not supported.
 
     Args:
-        text: What is in the file.
-        directory: Where it is; paths in it are relative to that.
+        text: The content of the file.
+        directory: Its directory; paths in it are relative to that.
 
     Raises:
         OptionsError: flake8 does not start with this file.
@@ -204,7 +204,7 @@ def _names(section: SectionProxy, key: str) -> Names:
 
 
 def _ignored_codes(section: SectionProxy, key: str) -> Names:
-    """Return a list of codes; only those to be ignored are examined by flake8."""
+    """Return a list of codes; flake8 only validates those to be ignored."""
     codes = _names(section, key)
     for code in codes:
         if not re.fullmatch(_CODE, code, re.ASCII):

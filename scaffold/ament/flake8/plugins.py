@@ -27,11 +27,11 @@ _RENAMED = {
     "failUnlessEqual": "assertEqual",
     "failUnlessRaises": "assertRaises",
 }
-"""Methods of unittest that are gone, by what flake8-deprecated looks for."""
+"""Removed methods of unittest that flake8-deprecated looks for."""
 
 
 def check(text: PythonText, options: Options = AMENT) -> Iterator[Finding]:
-    """Yield what the plugins of the target report."""
+    """Yield the findings of the plugins of the target."""
     target = linters.of_target()
     if target.has("flake8-blind-except"):
         yield from _blind_excepts(text, options)
@@ -53,7 +53,7 @@ def _blind_excepts(text: PythonText, options: Options) -> Iterator[Finding]:
 
 
 def _tight_classes(text: PythonText) -> Iterator[Finding]:
-    """Yield methods and decorators on the line after that of a class."""
+    """Yield methods and decorators right after the line of a class."""
     after_class: set[int] = set()
     for logical in text.logical_lines:
         if logical.is_comment:

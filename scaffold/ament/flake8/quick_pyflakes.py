@@ -18,9 +18,9 @@ from scaffold.model.python.scopes import ScopeIndex
 
 @contextmanager
 def _without_doctest() -> Iterator[None]:
-    """Import pyflakes without what it looks for examples in docstrings with.
+    """Import pyflakes without doctest.
 
-    Nobody asks for them here, and the module takes twice as long to import as pyflakes.
+    It is not needed here, and takes twice as long to import as pyflakes.
     """
     name = "doctest"
     if name in sys.modules:
@@ -50,10 +50,10 @@ _SILENT = frozenset({"ctx", "op", "ops", "arg", "attr", "conversion", "kind", "t
 
 
 def messages(index: ScopeIndex, path: str, builtins: Collection[str]) -> list[Message]:
-    """Return what pyflakes reports.
+    """Return the findings of pyflakes.
 
-    Afterwards no node and no scope holds itself: else all of the syntax tree would stay in memory
-    until Python looks for garbage, which takes longer than this.
+    Reference cycles of nodes and scopes are broken: otherwise the syntax tree would stay in memory
+    until garbage collection, which takes longer than this.
     """
     checker = QuickChecker(index.tree, path, builtins)
     checker.let_go()
@@ -73,14 +73,14 @@ class QuickChecker(Checker):
         super().__init__(tree, path, {*builtins}, withDoctest=False)
 
     def let_go(self) -> None:
-        """Forget the scopes, whose names know where they are used, and the own methods."""
+        """Break reference cycles: drop the scopes and the bound methods."""
         self._handlers.clear()
         self._nodeHandlers.clear()
         for scope in self.deadScopes:
             scope.clear()
 
     def handleNode(self, node: ast.AST | None, parent: ast.AST | None) -> None:  # noqa: N802
-        """Visit a node; one inside of a statement does not end the imports from the future."""
+        """Visit a node; one inside of a statement does not end the ``__future__`` imports."""
         depth = self.nodeDepth
         if node is None or not depth:
             super().handleNode(node, parent)
@@ -113,7 +113,7 @@ class QuickChecker(Checker):
     def getNodeHandler(  # noqa: N802
         self, node_class: type[ast.AST]
     ) -> Callable[[ast.AST], None]:
-        """Return what visits a type of node."""
+        """Return the visitor of a node type."""
         handler = super().getNodeHandler(node_class)
         if getattr(handler, "__func__", None) is Checker.handleChildren:
             handler = self.handleChildren
@@ -121,7 +121,7 @@ class QuickChecker(Checker):
         return handler
 
     def addBinding(self, node: ast.AST | None, value: Binding) -> None:  # noqa: N802
-        """Bind a name; the builtins of a file, which no node binds, hide nothing."""
+        """Bind a name; builtins, which no node binds, shadow nothing."""
         if node is None:
             self.scope[value.name] = value
         else:

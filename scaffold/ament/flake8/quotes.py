@@ -33,7 +33,7 @@ _HEADERS = frozenset({"class", "def", "async"})
 _DEPTHS = dict.fromkeys("([{", 1) | dict.fromkeys(")]}", -1)
 
 _Literal = tuple[str, Position, Position, bool]
-"""The text, the start and the end of a literal, and whether it is no f-string."""
+"""The text, the start and the end of a literal, and whether it is a plain string."""
 
 _NAMES = {"'": "single", '"': "double"}
 _OTHER = {"'": '"', '"': "'"}
@@ -159,7 +159,7 @@ def _judge(literal: str, quotes: _Quotes, *, is_docstring: bool) -> str:
 def _fix(
     code: str, literal: str, start: Position, end: Position, *, is_plain: bool
 ) -> tuple[Replacement, ...]:
-    """Swap the quotes where nothing else has to change."""
+    """Swap the quotes if nothing else has to change."""
     if code != "Q000" or not is_plain or "\\" in literal or "\n" in literal:
         return ()
     quote = literal[-1]
@@ -197,7 +197,7 @@ class _Places:
         self.is_awaited = True
 
     def read(self, tokens: Iterable[Token]) -> None:
-        """Go on with a logical line."""
+        """Process a logical line."""
         keyword = False
         depth = 0
         for token in tokens:

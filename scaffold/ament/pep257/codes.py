@@ -11,11 +11,11 @@ _ALL = """
 """
 ALL = frozenset(_ALL.split())
 MISSING = frozenset(code for code in ALL if code.startswith("D10"))
-"""About docstrings that are not there."""
+"""The codes of missing docstrings."""
 AMENT = ALL - MISSING - {"D203", "D212", "D404"}
-"""What ament_pep257 reports unless it is told otherwise."""
+"""The default codes of ament_pep257."""
 UNUSUAL = ALL - AMENT
-"""Those that only a configuration of a package's own asks for."""
+"""The codes only enabled by a package's own configuration."""
 
 _NOT_PEP257 = """
     D203 D212 D213 D214 D215 D404 D405 D406 D407 D408 D409 D410 D411 D413 D415 D416 D417 D418
@@ -37,7 +37,7 @@ def chosen(
     *,
     convention: str,
 ) -> frozenset[str]:
-    """Return the codes that ament_pep257 reports for the words of its flags."""
+    """Return the codes that ament_pep257 reports for its flags."""
     if ignored:
         codes = ALL - _fitting(ignored)
     elif selected:

@@ -26,7 +26,7 @@ Places = set[tuple[int, str]]
 
 
 def is_needed(settings: Settings) -> bool:
-    """Tell whether pydocstyle has to read the files."""
+    """Tell whether pydocstyle has to run."""
     options = settings.flake8
     if settings.linters & PEP257 and not settings.pep257 <= codes.AMENT:
         return True
@@ -64,7 +64,7 @@ def _of_flake8(text: PythonText, options: Options) -> Places | None:
 
 
 def _places(text: PythonText, **options: object) -> Places | None:
-    """Return what pydocstyle reports; ``None`` when it fails."""
+    """Return the findings of pydocstyle; ``None`` if it fails."""
     from scaffold.ament.pep257.reference import load
 
     pydocstyle = load()

@@ -33,7 +33,7 @@ class Literal(NamedTuple):
 
 
 class Definition:
-    """Something that may have a docstring."""
+    """A definition that may have a docstring."""
 
     def __init__(
         self, text: PythonText, kind: int, node: ast.Module | _Definition, literal: Literal
@@ -43,7 +43,7 @@ class Definition:
         self.literal = literal
         self.docstring = literal.text
         self.text = text
-        """The file that it is in."""
+        """The file of the definition."""
 
     @property
     def is_function(self) -> bool:
@@ -52,7 +52,7 @@ class Definition:
 
     @property
     def is_bytes(self) -> bool:
-        """Whether the literal is not text at all."""
+        """Whether the literal is a bytes literal."""
         return "b" in self.docstring[:2].lower().partition(self.docstring[-1])[0]
 
     @property
@@ -62,7 +62,7 @@ class Definition:
 
     @cached_property
     def value(self) -> str:
-        """The docstring without its quotes, escapes read."""
+        """The value of the docstring."""
         literal = self.docstring
         if "\\" not in literal:
             body = literal[literal.index(literal[-1]) :]
@@ -74,7 +74,7 @@ class Definition:
 
     @cached_property
     def source(self) -> str:
-        """The lines of the definition without the comments and blank lines at its end."""
+        """The lines of the definition without trailing comments and blank lines."""
         node = self.node
         lines = self.text.lines
         if isinstance(node, ast.Module):
@@ -93,12 +93,12 @@ class Definition:
 
     @cached_property
     def indent(self) -> str:
-        """What is on the line before the docstring's quotes."""
+        """The text on the line before the docstring's quotes."""
         return self.around[0].rpartition("\n")[2]
 
     @property
     def is_docstring(self) -> bool:
-        """Whether the literal, first on its line, is all of a statement: then Python keeps it."""
+        """Whether the literal is a whole statement at the start of a line: a docstring."""
         body = self.node.body[0]
         line = self.text.lines[self.literal.line - 1]
         return (
@@ -114,7 +114,7 @@ class Definition:
 
     @cached_property
     def decorators(self) -> Sequence[str]:
-        """Names of the decorators up to their arguments."""
+        """Names of the decorators without arguments."""
         if isinstance(self.node, ast.Module):
             return ()
         return tuple(self._decorator(item) for item in self.node.decorator_list)
@@ -127,7 +127,7 @@ class Definition:
 
     @cached_property
     def skipped(self) -> str:
-        """What pydocstyle's ``noqa`` names: codes, or ``all``."""
+        """The codes in pydocstyle's ``noqa``, or ``all``."""
         if "noqa" not in self.text.text:
             return ""
         for comment in self._header_comments():
@@ -157,7 +157,7 @@ class Definition:
 
 
 def definitions(text: PythonText) -> Iterator[Definition]:
-    """Yield what has a docstring, outer before inner."""
+    """Yield the definitions with a docstring, outer before inner."""
     if text.tree is None:
         return
     literal = _docstring(text, text.tree.body)
@@ -179,9 +179,9 @@ def definitions(text: PythonText) -> Iterator[Definition]:
 
 
 def _is_misread(text: PythonText, node: _Definition) -> bool:
-    """Tell whether pydocstyle takes an earlier colon for the end of the header.
+    """Tell whether pydocstyle takes an earlier colon as the end of the header.
 
-    It does not know ``def f[T](x: T)`` nor ``-> a[b:c]`` and goes on from the first colon.
+    It does not support ``def f[T](x: T)`` or ``-> a[b:c]`` and stops at the first colon.
     """
     returns = getattr(node, "returns", None)
     if returns and any(
@@ -205,7 +205,7 @@ def _blocks(node: ast.stmt) -> Iterator[Sequence[ast.stmt]]:
 
 
 def _docstring(text: PythonText, body: Sequence[ast.stmt]) -> Literal | None:
-    """Return the literal that a body starts with, whatever is done with it."""
+    """Return the literal at the start of a body, even if it is part of an expression."""
     if not body or not isinstance(body[0], (ast.Expr, ast.Assign, ast.AugAssign, ast.AnnAssign)):
         return None
     node = body[0]

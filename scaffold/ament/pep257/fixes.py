@@ -1,4 +1,4 @@
-"""Fixes for the form of docstrings; docstrings with unusual quoting are not fixed."""
+"""Fixes for the format of docstrings; docstrings with unusual quoting are not fixed."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from scaffold.ament.flake8.pycodestyle.physical import MAX_LENGTH
 from scaffold.ament.pep257.definitions import CLASS, Definition, leading_space
 
 Splice = tuple[int, int, str]
-"""Offsets in the literal and the text that replaces what is between them."""
+"""Start and end offsets in the literal, and the replacement text."""
 
 _DEFINITION = r"\s*(?:(?:class|def|async def)\s|@)"
 _SENTENCE_END = r"[A-Za-z0-9_)\]}\"'`>%]$"
@@ -20,7 +20,7 @@ _NO_SENTENCE = r">>>|[:@*-]|(?=[^\s./]*[./])\S+$"
 
 
 def fix(definition: Definition, code: str) -> tuple[tuple[Replacement, ...], str]:
-    """Return the edits that fix a finding, and a title; no edits if a person has to decide."""
+    """Return the edits that fix a finding, and a title; no edits if no fix is safe."""
     if not definition.is_docstring or "\f" in definition.docstring:
         return (), ""
     if code in _AROUND:
@@ -102,7 +102,7 @@ def _blank_lines_after(definition: Definition) -> Iterator[Replacement]:
 
 
 def _quotes(definition: Definition) -> tuple[int, int]:
-    """Return where the text starts and ends within the literal."""
+    """Return the start and end of the text within the literal."""
     literal = definition.docstring
     start = literal.index(literal[-1])
     width = 3 if literal[start : start + 3] in ('"""', "'''") else 1

@@ -1,4 +1,4 @@
-"""D2xx to D4xx: the form of docstrings, as pydocstyle checks it.
+"""D2xx to D4xx: the format of docstrings, as checked by pydocstyle.
 
 Each check yields codes with their messages for one definition. The sections of docstrings are
 checked in ``sections``.

@@ -15,7 +15,7 @@ from typing import Protocol
 
 @lru_cache(maxsize=4096)
 def correct(word: str) -> str | None:
-    """Return what the word should be, ``None`` when it is fine, empty when no form is known."""
+    """Return the imperative form of a word; ``None`` if it is fine, empty if unknown."""
     lowered = word.lower()
     if lowered in _blacklist():
         return ""
@@ -30,7 +30,7 @@ def correct(word: str) -> str | None:
 
 
 def _common(text: str, two: str) -> int:
-    """Return how many letters two words have in common at their start."""
+    """Return the length of the common prefix of two words."""
     pairs = zip(text, two, strict=False)
     return next((at for at, (a, b) in enumerate(pairs) if a != b), min(len(text), len(two)))
 
@@ -47,7 +47,7 @@ def _imperative_words() -> frozenset[str]:
 
 @lru_cache(maxsize=1)
 def _imperatives() -> dict[str, set[str]]:
-    """Return the words of the list by their stems, from the user's cache after the first time."""
+    """Return the words of the list by stem, cached after the first time."""
     import marshal
 
     from scaffold.files import cache

@@ -31,7 +31,7 @@ class Difference(NamedTuple):
     line: int
     code: str
     only_reference: bool
-    """Whether pydocstyle alone reports it; else we alone do."""
+    """Whether only pydocstyle reports it; otherwise only we do."""
 
     @property
     def message(self) -> str:
@@ -69,7 +69,7 @@ def _literal(text: str, _: object) -> object:
 
 
 def load() -> Any:  # noqa: ANN401  it has no types
-    """Return the module pydocstyle, made safe and silent."""
+    """Return the module pydocstyle, patched to be safe and silent."""
     pydocstyle = import_module("pydocstyle")
     # It evaluates what `__all__` is set to, and an f-string there may call anything.
     vars(import_module("pydocstyle.parser"))["eval"] = _literal
@@ -78,7 +78,7 @@ def load() -> Any:  # noqa: ANN401  it has no types
 
 
 def _reference(name: str, data: bytes) -> set[tuple[int, str]] | None:
-    """Return the lines and codes that pydocstyle reports; ``None`` when it crashes on the file."""
+    """Return the lines and codes of pydocstyle; ``None`` if it crashes on the file."""
     pydocstyle = load()
     with tempfile.TemporaryDirectory(prefix="ros2-scaffold-") as scratch:
         file = os.path.join(scratch, name)

@@ -9,11 +9,11 @@ from scaffold.ament.pep257.definitions import Definition, leading_space
 from scaffold.ament.pep257.sections import NUMPY, Section, google_sections, sections
 
 Splice = tuple[int, int, str]
-"""Offsets in the literal and the text that replaces what is between them."""
+"""Start and end offsets in the literal, and the replacement text."""
 
 
 class _Place:
-    """A section, and where its lines are within the literal."""
+    """A section, and the offsets of its lines within the literal."""
 
     def __init__(self, section: Section, lines: Sequence[str], starts: Sequence[int]) -> None:
         self.section = section
@@ -47,10 +47,10 @@ def splices(code: str, definition: Definition) -> Iterator[Splice]:
 
 
 def _is_numpy_afterwards(definition: Definition) -> bool:
-    """Tell whether nothing of Google's style is left once all names are alone above dashes.
+    """Tell whether no Google style is left once all names are alone above dashes.
 
     Sections that only Google has keep their colons, and descriptions below names stay indented:
-    dashes next to those would mix two conventions that no tool reads.
+    dashes next to those would mix two conventions, which no tool supports.
     """
     if any(section.title not in NUMPY for section in google_sections(definition)):
         return False
@@ -58,7 +58,7 @@ def _is_numpy_afterwards(definition: Definition) -> bool:
 
 
 def _is_indented(section: Section) -> bool:
-    """Tell whether what is below a name is further right than the name."""
+    """Tell whether the text below a name is indented more than the name."""
     rows = [row for row in section.after if row.strip() and set(row.strip()) != {"-"}]
     return bool(rows) and len(leading_space(rows[0])) > len(leading_space(section.line))
 
@@ -160,6 +160,6 @@ _FIXES: Mapping[str, tuple[Callable[[_Place], Iterator[Splice]], str]] = {
 }
 
 _TO_NUMPY = frozenset({"D406", "D407"})
-"""Codes whose fix makes a section one of NumPy's style."""
+"""Codes whose fix converts a section to NumPy style."""
 
 TITLES = {code: title for code, (_, title) in _FIXES.items()}

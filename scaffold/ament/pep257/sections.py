@@ -79,17 +79,17 @@ class Section(NamedTuple):
     after: Sequence[str]
     is_last: bool
     row: int
-    """Of its name, within the docstring."""
+    """The row of its name within the docstring."""
     is_numpy: bool
 
     @property
     def title(self) -> str:
-        """The name as it should be written."""
+        """The correct form of the name."""
         return self.name.title()
 
 
 def check(definition: Definition) -> Violations:
-    """Yield what is wrong with the sections of a docstring."""
+    """Yield the findings in the sections of a docstring."""
     for section in sections(definition):
         yield from (_numpy if section.is_numpy else _google)(section, definition)
 
@@ -101,7 +101,7 @@ def sections(definition: Definition) -> list[Section]:
 
 
 def google_sections(definition: Definition) -> list[Section]:
-    """Return the sections of a docstring with names of Google's style."""
+    """Return the sections of a docstring with names of Google style."""
     return _sections(definition.docstring.split("\n"), GOOGLE)
 
 
@@ -128,7 +128,7 @@ def _sections(lines: Sequence[str], names: Names) -> list[Section]:
 
 
 def _is_section(line: str, before: str) -> bool:
-    """Tell a section's name from a word that happens to start a line."""
+    """Tell whether a line is the name of a section, not just text."""
     name = _leading_words(line.strip()) or ""
     # Strips all characters that occur in the name, as pydocstyle does.
     suffix = line.strip().lstrip(name.strip()).strip()
@@ -138,7 +138,7 @@ def _is_section(line: str, before: str) -> bool:
 
 
 def _leading_words(line: str) -> str | None:
-    """Return the words that a line starts with, up to the first other character."""
+    """Return the leading words of a line, up to the first other character."""
     matched = re.match(r"[\w ]+", line.strip())
     return matched[0] if matched else None
 

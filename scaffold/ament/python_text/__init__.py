@@ -1,1 +1,1 @@
-"""A Python file as flake8 and pydocstyle tokenize it."""
+"""A Python file as tokenized by flake8 and pydocstyle."""

@@ -15,14 +15,14 @@ from tokenize import TokenInfo
 from scaffold.ament.python_text.tokens import FSTRING_END, FSTRING_MIDDLE, FSTRING_START, Position
 
 Cut = Generator[TokenInfo, None, int]
-"""Tokens, and then the offset after them."""
+"""A generator of tokens that returns the offset after them."""
 
 _CLOSING = {"(": ")", "[": "]", "{": "}"}
 _NOISE = (tokenize.NEWLINE, tokenize.INDENT, tokenize.DEDENT, tokenize.ENDMARKER)
 
 
 def open_up(tokens: list[TokenInfo]) -> list[TokenInfo]:
-    """Return the tokens with every f-string cut into its parts."""
+    """Return the tokens with every f-string split into its parts."""
     result: list[TokenInfo] = []
     for token in tokens:
         if token.type == tokenize.STRING and _is_f_string(token):
@@ -33,7 +33,7 @@ def open_up(tokens: list[TokenInfo]) -> list[TokenInfo]:
 
 
 def _is_f_string(token: TokenInfo) -> bool:
-    """Tell whether a string is an f-string that the tokenizer did not cut."""
+    """Tell whether a string is an f-string that the tokenizer did not split."""
     return "f" in _prefix(token.string).lower()
 
 
@@ -116,7 +116,7 @@ class _Opened:
         return at
 
     def _end_of_expression(self, at: int, end: int) -> int:
-        """Return where an expression ends: at ``!r``, at ``:`` or at the closing brace."""
+        """Return the end of an expression: at ``!r``, ``:`` or the closing brace."""
         text = self._text
         open_brackets: list[str] = []
         quote = ""

@@ -1,4 +1,4 @@
-"""Logical lines: statements and comment lines, split as flake8 passes them to pycodestyle."""
+"""Logical lines: statements and comment lines, as flake8 passes them to pycodestyle."""
 
 from __future__ import annotations
 
@@ -25,16 +25,16 @@ _FIRST = re.compile(r"(?i:[rbfu]{0,2})[\"']|\w+|.")
 
 
 class LogicalLine:
-    """A statement, or a comment on its own lines; its tokens are read when they are asked for.
+    """A statement, or a comment on its own lines, with lazily read tokens.
 
     Args:
         lines: The lines of the file.
         rows: The first and the last row.
-        column: Where it starts in the first row, from 0.
+        column: The start column in the first row, from 0.
         indent: Width of the indentation; a tab goes to the next multiple of 8.
         blank_lines: Blank lines since the logical line (or comment) before.
         code: The statement as in ``text``; empty for a comment.
-        levels: 1 when it is the first of a block, less than 0 for the blocks that end ahead of it.
+        levels: 1 for the first of a block; minus the number of blocks that end before it.
     """
 
     def __init__(
@@ -56,14 +56,14 @@ class LogicalLine:
         self.blank_lines = blank_lines
         """Blank lines since the logical line (or comment) before."""
         self.code = code
-        """As ``text``; an f-string may be one string in it."""
+        """Like ``text``, but an f-string may be a single string in it."""
         self.is_opaque = is_opaque
-        """Whether ``code`` is not ``text``."""
+        """Whether ``code`` differs from ``text``."""
         self.is_comment = not code
-        """Whether there is nothing but a comment."""
+        """Whether it is only a comment."""
         matched = _FIRST.match(code)
         self.first = matched[0] if matched else ""
-        """The first word; of a string only what it starts with; empty for a comment."""
+        """The first word; for a string only its start; empty for a comment."""
         self.last = code[-1:]
         """The last character; empty for a comment."""
         self._levels = levels
@@ -76,7 +76,7 @@ class LogicalLine:
 
         Args:
             tokens: The tokens.
-            first: The first of them that is not layout.
+            first: The first of them other than whitespace.
             lines: The lines of the file.
             blank_lines: Blank lines since the logical line before.
         """
@@ -89,7 +89,7 @@ class LogicalLine:
 
     @cached_property
     def tokens(self) -> list[Token]:
-        """The tokens, with the change of the indentation in front."""
+        """The tokens, preceded by changes of the indentation."""
         return read_statement(self.lines, self.row, self.end_row, self._levels)
 
     @cached_property
@@ -118,7 +118,7 @@ class LogicalLine:
 
 
 def _built(tokens: Sequence[Token], start: Position, lines: Sequence[str]) -> _Built:
-    """Return the text of a logical line, and the offsets and places where its tokens end."""
+    """Return the text of a logical line, and the offsets and positions of token ends."""
     parts: list[str] = []
     ends, places = [0], [start]
     length = 0
@@ -138,7 +138,7 @@ def _built(tokens: Sequence[Token], start: Position, lines: Sequence[str]) -> _B
 
 
 def _between(before: Token, token: Token, text: str, lines: Sequence[str]) -> str:
-    """Return what is between two tokens when the line breaks are taken out."""
+    """Return the text between two tokens without line breaks."""
     (row, column), (next_row, next_column) = before.end, token.start
     if row != next_row:
         return gap(lines[row - 1][column - 1], text)
@@ -151,7 +151,7 @@ def gap(last: str, following: str) -> str:
 
 
 def split(tokens: list[Token], lines: list[str]) -> list[LogicalLine]:
-    """Cut a file into logical lines."""
+    """Split a file into logical lines."""
     logical_lines: list[LogicalLine] = []
     depth = blank_lines = start = 0
     first: Token | None = None

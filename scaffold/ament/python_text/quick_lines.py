@@ -17,9 +17,9 @@ from scaffold.record import NamedTuple
 
 _MUTED = re.compile(rf"#[^\n]*|{'|'.join(QUOTED)}|['\"]", re.DOTALL)
 """Comments and string literals, the latter without their prefixes. From Python 3.12 on, fields of
-an f-string may have line breaks: then there is one of its quotes alone."""
+an f-string may have line breaks: then only one of its quotes is matched."""
 _PREFIX = re.compile(r"(?:^|\W)([rRbBuUfF]{1,2})\Z")
-"""What is ahead of the quotes of a string, at the end of three characters."""
+"""The prefix of a string, at the end of three characters."""
 _FIELD = re.compile(
     r"\{(?P<value>(?:[^{}:!#\"'\\\n]|\"[^\"{}:!#\\\n]*\"|'[^'{}:!#\\\n]*')*)"
     r"(?P<conversion>![rsa])?(?::(?P<format>[^{}\n]*))?\}"
@@ -27,9 +27,9 @@ _FIELD = re.compile(
 _STRING = re.compile(r"\"([^\"]*)\"|'([^']*)'")
 _LONE_BACKSLASH = re.compile(r"^[ \t]*\\\n", re.MULTILINE)
 _BREAK = "\0"
-"""Replaces a line break in a string; Python parses no file with this character."""
+"""Replaces a line break in a string; no valid file has this character."""
 _OPAQUE = "\1"
-"""Stands in an f-string whose fields are not read here."""
+"""Marks an f-string whose fields are not parsed here."""
 
 
 class Outline(NamedTuple):
@@ -37,20 +37,20 @@ class Outline(NamedTuple):
 
     lines: list[LogicalLine]
     literals: list[tuple[int, int, int]]
-    """Where each starts, where its quotes start, and where it ends; an f-string is one of them."""
+    """The start, the start of the quotes, and the end of each; an f-string is one literal."""
 
 
 class _UnsureError(Exception):
-    """It is not certain where a string ends."""
+    """The end of a string is uncertain."""
 
 
 def read(text: str, lines: list[str], *, is_opened: bool) -> Outline | None:
-    r"""Return the outline of a file that can be parsed; ``None`` where tokens are to be asked.
+    r"""Return the outline of a valid file; ``None`` if tokens are needed.
 
     Args:
         text: The text.
         lines: Its lines, with their ``\n``.
-        is_opened: Whether the linters see what is inside of the braces of an f-string.
+        is_opened: Whether the linters check the fields of f-strings.
     """
     if "\f" in text or ("\\\n" in text and _LONE_BACKSLASH.search(text)):
         return None
@@ -63,7 +63,7 @@ def read(text: str, lines: list[str], *, is_opened: bool) -> Outline | None:
 
 
 class _Mute:
-    """Replaces the content of strings and comments; those of strings keep their lengths."""
+    """Replaces the content of strings, keeping lengths, and of comments."""
 
     def __init__(self, *, is_opened: bool) -> None:
         self._is_opened = is_opened
@@ -97,10 +97,10 @@ def _crossed_out(content: str) -> str:
 
 
 def _opened(content: str) -> str:
-    """Return the content of an f-string as the linters see it: its fields are code.
+    """Return the content of an f-string with its fields as code.
 
     Raises:
-        _UnsureError: a field may go on behind the end.
+        _UnsureError: a field may continue after the end.
     """
     parts: list[str] = []
     at = 0
@@ -130,7 +130,7 @@ def _quoted(literal: str) -> str:
 
 
 def _is_balanced(value: str) -> bool:
-    """Tell whether a colon behind a value is that of its format, and not one inside of it."""
+    """Tell whether a colon after a value starts its format, and is not inside of it."""
     return (
         value.count("(") == value.count(")")
         and value.count("[") == value.count("]")
@@ -182,7 +182,7 @@ def _split(rows: Sequence[str], lines: list[str]) -> Iterator[LogicalLine]:
 
 
 def _joined(pieces: Sequence[str]) -> str:
-    """Join the rows of a statement as pycodestyle does."""
+    """Join the rows of a statement like pycodestyle."""
     text = ""
     for piece in pieces:
         if not piece:
@@ -192,7 +192,7 @@ def _joined(pieces: Sequence[str]) -> str:
 
 
 def _change(levels: list[int], width: int) -> int:
-    """Take note of an indentation; return 1 for a deeper one, else minus the levels that end."""
+    """Update the indentation; return 1 for a deeper one, else minus the number of ended levels."""
     if width > levels[-1]:
         levels.append(width)
         return 1

@@ -44,20 +44,20 @@ _PATTERNS = {
     ERRORTOKEN: ".",
 }
 _KINDS = (0, *_PATTERNS)
-"""By the number of the group."""
+"""The token types by group number."""
 # linear: the last of the groups takes any character, so there is a match wherever one is sought
 _TOKEN = re.compile(
     rf"[ \f\t]*(?:{'|'.join(f'({pattern})' for pattern in _PATTERNS.values())})", re.DOTALL
 )
 _DEPTHS = dict.fromkeys("([{", 1) | dict.fromkeys(")]}", -1)
 _SILENT = frozenset({NEWLINE, COMMENT})
-"""What a line begins with that has no statement."""
+"""Matches the start of lines without a statement."""
 
 
 def read(  # noqa: C901  calls for each token would take the time that is to be saved
     text: str, lines: Sequence[str], row: int = 1
 ) -> list[Token] | None:
-    r"""Return the tokens; ``None`` where Python's tokenizer is to be asked.
+    r"""Return the tokens; ``None`` if Python's tokenizer is needed.
 
     Args:
         text: The text of some lines of a file, or all; each ends with ``\n``.
@@ -71,7 +71,7 @@ def read(  # noqa: C901  calls for each token would take the time that is to be 
     line = lines[row - 1] if lines else ""
     is_ascii = text.isascii()
     is_first = True
-    """Whether a statement may begin here."""
+    """Whether a statement may start here."""
     end_of_line = NEWLINE
     for match in _TOKEN.finditer(text):
         group = match.lastindex or 0
@@ -115,7 +115,7 @@ def read(  # noqa: C901  calls for each token would take the time that is to be 
 
 
 def _indent(tokens: list[Token], indents: list[int], line: str, place: tuple[int, int]) -> bool:
-    """Add what the indentation of a statement means; tell whether that is certain."""
+    """Add the tokens of an indentation; return whether they are certain."""
     row, width = place
     if width == indents[-1] and line.startswith(" " * width):
         return True

@@ -1,4 +1,4 @@
-"""A Python file as the linters read it: lines, tokens, logical lines and syntax tree."""
+"""A Python file as read by the linters: lines, tokens, logical lines and syntax tree."""
 
 from __future__ import annotations
 
@@ -30,9 +30,9 @@ from scaffold.record import NamedTuple
 
 BOM = "\ufeff"
 _EXACT = frozenset({"utf-8", "utf-8-sig", "iso-8859-1"})
-"""Encodings that give back the bytes that they read."""
+"""Encodings that round-trip all bytes."""
 MAX_DEPTH = 300
-"""Levels of a syntax tree; real modules stay below 50, and visitors of a tree recurse."""
+"""The depth limit of syntax trees; real modules stay below 50, and visitors recurse."""
 
 
 class Decoded(NamedTuple):
@@ -40,11 +40,11 @@ class Decoded(NamedTuple):
 
     text: str
     is_clean: bool
-    """Whether the bytes are text of the declared encoding; else they were read as Latin-1."""
+    """Whether the bytes are valid in the declared encoding; otherwise they were read as Latin-1."""
 
 
 def decode(data: bytes) -> Decoded:
-    """Decode a file as Python would, and as Latin-1 where Python would refuse."""
+    """Decode a file like Python, and as Latin-1 if Python would fail."""
     if data.isascii() and b"coding" not in data[:400]:
         return Decoded(_universal_newlines(data.decode("ascii")), is_clean=True)
     try:
@@ -65,12 +65,12 @@ def _universal_newlines(text: str) -> str:
 
 
 class PythonText:
-    """The views that the checks share; each is made when first asked for.
+    """The shared views of a file, created lazily.
 
     Args:
         path: The path of the file in its package.
         text: Its text, with universal newlines and without a byte order mark.
-        index: The nodes of its syntax tree, where it has been parsed before.
+        index: The nodes of its syntax tree, if parsed before.
     """
 
     def __init__(self, path: str, text: str, index: ScopeIndex | None = None) -> None:
@@ -88,9 +88,9 @@ class PythonText:
 
     @cached_property
     def tree(self) -> ast.Module | None:
-        """The syntax tree; ``None`` when the running Python cannot parse the file.
+        """The syntax tree; ``None`` if the running Python cannot parse the file.
 
-        Also when it is deeper than visitors can follow, or larger; see ``is_too_deep`` and
+        Also if it is too deep for visitors, or too large; see ``is_too_deep`` and
         ``why_unchecked``.
         """
         return self.index.tree if self.index is not None else None
@@ -111,7 +111,7 @@ class PythonText:
         return self._parsed[0]
 
     def nodes(self, *kinds: type[Node]) -> Iterator[Node]:
-        """Yield the nodes of some types, one type after the other, each before those below it."""
+        """Yield the nodes of some types, one type after the other, in preorder."""
         return self.index.of_types(*kinds) if self.index is not None else iter(())
 
     @property
@@ -125,7 +125,7 @@ class PythonText:
         return [*self.nodes(ast.Import), *self.nodes(ast.ImportFrom)]
 
     def parents(self, node: ast.AST) -> Iterator[ast.AST]:
-        """Yield the nodes around another, from the inside out."""
+        """Yield the ancestors of a node, from the inside out."""
         return self.index.parents(node) if self.index is not None else iter(())
 
     @cached_property
@@ -148,7 +148,7 @@ class PythonText:
 
     @cached_property
     def tokens(self) -> list[Token]:
-        """The tokens as in Python 3.12; empty when the file cannot be tokenized."""
+        """The tokens as in Python 3.12; empty if the file cannot be tokenized."""
         return read(self.lines)
 
     @property
@@ -177,12 +177,12 @@ class PythonText:
 
     @cached_property
     def are_fstrings_opened(self) -> bool:
-        """Whether the linters see what is inside of the braces of an f-string."""
+        """Whether the linters check the fields of f-strings."""
         return linters.of_target().python >= OPEN_FSTRINGS
 
     @cached_property
     def outline(self) -> quick_lines.Outline | None:
-        """What can be known of the file without tokens, if anything."""
+        """The outline of the file without tokens, if possible."""
         if self.tree is None:
             return None
         return quick_lines.read(self.text, self.lines, is_opened=self.are_fstrings_opened)
@@ -203,7 +203,7 @@ class PythonText:
 
     @cached_property
     def _code(self) -> tuple[str, list[int], set[int]]:
-        """The texts of all logical lines, where each starts, and which of them are not exact."""
+        """The texts of all logical lines, their starts, and which of them are inexact."""
         texts = [logical.code for logical in self.logical_lines]
         starts = [0, *accumulate(len(text) + 1 for text in texts)]
         opaque = {at for at, logical in enumerate(self.logical_lines) if logical.is_opaque}
@@ -244,7 +244,7 @@ class PythonText:
         return [logical.row for logical in self.logical_lines]
 
     def column(self, line: int, byte_column: int) -> int:
-        """Turn a column of ``ast`` (bytes, from 0) into one in characters, from 1."""
+        """Convert a column of ``ast`` (bytes, from 0) to one in characters, from 1."""
         row = self.lines[line - 1] if line <= len(self.lines) else ""
         if row.isascii():
             return byte_column + 1

@@ -1,4 +1,4 @@
-"""Tokens as the linters of the target see them, whatever Python runs this tool."""
+"""Tokens as in the linters of the target, independent of the running Python."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ from scaffold.ament.python_text.tokens import (
 
 
 def read(lines: list[str], rows: tuple[int, int] | None = None) -> list[Token]:
-    """Tokenize a file; return an empty list when that is not possible.
+    """Tokenize a file; return an empty list if that is impossible.
 
     Args:
         lines: Its lines.
-        rows: The first and the last one to read, as if they were all.
+        rows: The first and the last row to tokenize.
     """
     tokens = _read(lines, rows)
     are_open, are_wanted_open = FSTRING_START > 0, linters.of_target().python >= OPEN_FSTRINGS
@@ -37,7 +37,7 @@ def read_statement(lines: list[str], row: int, end_row: int, levels: int) -> lis
         lines: The lines of the file.
         row: The first row.
         end_row: The last row.
-        levels: 1 when it is the first of a block, less than 0 for the blocks that end ahead of it.
+        levels: 1 for the first of a block; minus the number of blocks that end before it.
     """
     tokens = read(lines, (row, end_row))
     while tokens and tokens[-1].type in (DEDENT, ENDMARKER):

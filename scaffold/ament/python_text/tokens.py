@@ -24,7 +24,7 @@ LAYOUT = frozenset({NL, NEWLINE, INDENT, DEDENT})
 SILENT = LAYOUT | {COMMENT}
 
 OPEN_FSTRINGS = (3, 12)
-"""The first Python that has tokens for what is inside of an f-string."""
+"""The first Python with tokens for the parts of f-strings."""
 
 Token = tokenize.TokenInfo
 Position = tuple[int, int]

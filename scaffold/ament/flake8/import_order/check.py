@@ -52,7 +52,7 @@ class _Style:
         self.name = name
 
     def key(self, statement: Statement) -> tuple[Any, ...]:
-        """Return what statements are ordered by."""
+        """Return the sort key of statements."""
         group, is_from, level = statement.group, statement.is_from, statement.level
         modules = [name for _, name in statement.modules]
         names = [name for _, name in statement.names]
@@ -77,7 +77,7 @@ class _Style:
         return sorted(names, key=None if self.name in {"pycharm", "cryptography"} else fold)
 
     def is_same_section(self, before: Statement, statement: Statement) -> bool:
-        """Tell whether no blank line belongs between two statements."""
+        """Tell whether two statements belong together without a blank line."""
         groups = {before.group, statement.group}
         if self.name == "cryptography" and statement.group in {THIRD_PARTY, OWN}:
             return before.root == statement.root
@@ -86,12 +86,12 @@ class _Style:
         return len(groups) == 1 or groups == {OWN, RELATIVE}
 
     def may_be_split(self, before: Statement, statement: Statement) -> bool:
-        """Tell whether a blank line may be there although both are in one section."""
+        """Tell whether a blank line is allowed within a section."""
         return self.name == "edited" and statement.is_from and not before.is_from
 
 
 def check(text: PythonText, options: Options = AMENT) -> Iterator[Finding]:
-    """Yield the import statements that are in the wrong place."""
+    """Yield the misplaced import statements."""
     style = _Style(options.import_order_style)
     findings: list[Finding] = []
     before: Statement | None = None
@@ -140,7 +140,7 @@ def _for_types(text: PythonText) -> set[ast.stmt]:
 
 
 def _first_for_types(before: Statement, statement: Statement) -> Iterator[Finding]:
-    """Yield I300: the blank line and the ``if`` between two imports are three lines on."""
+    """Yield I300: the imports before and in ``if TYPE_CHECKING:`` must be three lines apart."""
     if statement.line - before.end_line != _TO_FIRST_FOR_TYPES:
         message = "no single blank line between the imports and the if TYPE_CHECKING block"
         yield Finding("I300", statement.line, 1, message)

@@ -14,18 +14,18 @@ from scaffold.record import NamedTuple
 
 CODES = ("I100", "I101", "I201")
 _OF_PLACE = r"(?i)isort|noqa(?!:)|noqa:[\w ,]{0,80}\bI\d|\b(?:before|after|first|last|order)\b"
-"""Matches comments that keep an import where it is."""
+"""Matches comments that depend on the place of an import."""
 
 
 class _Import(NamedTuple):
-    """An import statement and the lines that it will have."""
+    """An import statement and its new lines."""
 
     statement: Statement
     lines: str
 
 
 def attach(text: PythonText, tree: ast.Module, findings: Sequence[Finding]) -> list[Finding]:
-    """Give findings within a block that can be sorted the fix that sorts it."""
+    """Attach the fix that sorts a block to the findings in it."""
     fixed = list(findings)
     for block in _blocks(text, tree):
         first, last = block[0].statement.line, block[-1].statement.end_line
@@ -43,7 +43,7 @@ def attach(text: PythonText, tree: ast.Module, findings: Sequence[Finding]) -> l
 
 
 def _blocks(text: PythonText, tree: ast.Module) -> Iterator[list[_Import]]:
-    """Yield runs of imports with nothing but blank lines between them."""
+    """Yield blocks of imports with only blank lines between them."""
     block: list[_Import] = []
     for node in tree.body:
         plain = _plain(text, node) if isinstance(node, (ast.Import, ast.ImportFrom)) else None
@@ -65,9 +65,9 @@ def _only_blank(text: PythonText, before: Statement, item: _Import | None) -> bo
 
 
 def _plain(text: PythonText, node: ast.Import | ast.ImportFrom) -> _Import | None:
-    """Return a statement that has its lines to itself; ``None`` if it has to stay as it is.
+    """Return a statement alone on its lines; ``None`` if it must not be changed.
 
-    Comments in its lines move with it, but keep its names where they are.
+    Comments on its lines move with it, but keep the order of its names.
     """
     statement = describe(node)
     lines = "".join(text.lines[statement.line - 1 : statement.end_line]).rstrip("\n")
@@ -94,7 +94,7 @@ def _plain(text: PythonText, node: ast.Import | ast.ImportFrom) -> _Import | Non
 
 
 def _in_place(text: PythonText, node: ast.ImportFrom) -> str:
-    """Return a statement of several lines with its names sorted; empty if a line gets too long."""
+    """Return a multiline statement with sorted names; empty if a line gets too long."""
     first, last = node.lineno, node.end_lineno or node.lineno
     starts = text.line_starts
     spans = [

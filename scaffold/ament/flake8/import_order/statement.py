@@ -13,7 +13,7 @@ from scaffold.record import NamedTuple
 NAME = "flake8-import-order"
 MIXED, FUTURE, STANDARD, THIRD_PARTY, OF_COMPANY, OWN, RELATIVE = range(7)
 SHOWN = 60
-"""Characters of a statement in a message."""
+"""The maximum length of a statement in a message."""
 
 Folded = tuple[str, str]
 
@@ -31,11 +31,11 @@ class Statement(NamedTuple):
     shown: str
     is_from: bool
     is_for_types: bool = False
-    """Whether it is in a block for type checkers, which counts from 0.19 on."""
+    """Whether it is in a block for type checkers, which matters from 0.19 on."""
 
     @property
     def key(self) -> tuple[int, int, tuple[Folded, ...], tuple[Folded, ...]]:
-        """What statements are ordered by in the style of Google."""
+        """The sort key of statements in the style of Google."""
         return self.group, self.level, self.modules, self.names
 
     @property
@@ -45,7 +45,7 @@ class Statement(NamedTuple):
 
 
 def describe(node: ast.Import | ast.ImportFrom, options: Options = AMENT) -> Statement:
-    """Return what an import statement is judged by."""
+    """Return the properties of an import statement used by the checks."""
     names = [alias.name for alias in node.names]
     is_from = isinstance(node, ast.ImportFrom)
     if isinstance(node, ast.Import):
@@ -88,9 +88,9 @@ def _group(module: str, options: Options) -> int:
 
 
 def _standard_library() -> frozenset[str]:
-    """Return the standard library of the oldest distribution that the package is for.
+    """Return the standard library of the oldest distribution of the package.
 
-    The linters of a later one may want a module elsewhere; no order pleases both.
+    The linters of a later one may require another order; no order satisfies both.
     """
     oldest = min((distributions.target(), *distributions.kept()), key=lambda item: item.place)
     has_own_list = not linters.of(oldest).since(NAME, 0, 19)
@@ -103,5 +103,5 @@ def _company_names(options: Options) -> tuple[str, ...]:
 
 
 def fold(name: str) -> Folded:
-    """Return what names are ordered by: their letters, then their case."""
+    """Return the sort key of names: letters, then case."""
     return name.lower(), name

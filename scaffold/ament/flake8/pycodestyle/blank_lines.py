@@ -37,13 +37,13 @@ class _State:
     def __init__(self, lines: list[str]) -> None:
         self.lines = lines
         self.before = 0
-        """Blank lines before the statement, those above its comments included."""
+        """Blank lines before the statement, including those above its comments."""
         self.last = ""
         self.last_indent = 0
         self.last_at_top = ""
 
     def judge(self, logical: LogicalLine) -> tuple[str, str]:
-        """Return the code and the message for a logical line, empty when it is right."""
+        """Return the code and the message for a logical line; empty if it is right."""
         self.before = max(self.before, logical.blank_lines)
         count, indent = logical.blank_lines, logical.indent
         if not self.last and self.before < AT_TOP:
@@ -78,7 +78,7 @@ class _State:
         return "E301", f"expected {IN_BLOCK} blank line, found 0"
 
     def _is_in_function(self, logical: LogicalLine) -> bool:
-        """Look for the block around the definition, upwards, by indentation."""
+        """Search upwards for the block around the definition, by indentation."""
         around, level = self._around, logical.indent
         row = logical.end_row - AT_TOP
         while row >= 0:
@@ -92,9 +92,9 @@ class _State:
 
     @cached_property
     def _around(self) -> list[tuple[int, int]]:
-        """Return of each line its indentation, and the number of the next one above with less.
+        """Return the indentation of each line, and the nearest line above with less.
 
-        Blank lines are as wide as can be.
+        Blank lines have infinite indentation.
         """
         result: list[tuple[int, int]] = []
         for number, line in enumerate(self.lines):
@@ -106,7 +106,7 @@ class _State:
         return result
 
     def _is_one_liner(self, logical: LogicalLine) -> bool:
-        """Tell whether a definition is one line long: those need no blank lines between them."""
+        """Tell whether a definition is a one-liner, which needs no blank lines before it."""
         lines, indent, at = self.lines, logical.indent, logical.end_row - 1
         if at >= 1 and expand_indent(lines[at - 1]) > indent:
             return False
@@ -123,7 +123,7 @@ class _State:
         return True
 
     def move_on(self, logical: LogicalLine) -> None:
-        """Take note of a logical line before the next one is judged."""
+        """Update the state after a logical line."""
         if not logical.is_comment:
             self.last = _start(logical)
             self.last_indent = logical.indent
@@ -133,7 +133,7 @@ class _State:
 
 
 def _start(logical: LogicalLine) -> str:
-    """Return the first word of the logical line, or all of it where a definition may start."""
+    """Return the first word of the logical line, or all of it if a definition may start there."""
     if logical.is_comment:
         return ""
     if logical.first in _DEFINING:

@@ -24,7 +24,7 @@ from scaffold.ament.python_text.tokens import (
 )
 
 MOST_ROWS = 100
-"""Earlier lines of a bracket that a line may be indented against."""
+"""The maximum number of earlier lines that a line may be indented against."""
 
 _MESSAGES = {
     "E121": "continuation line is indented less than a hanging indentation requires",
@@ -58,9 +58,9 @@ class _Bracket:
 
     def __init__(self, indent: int, rows: list[int]) -> None:
         self.indent = indent
-        """Column that its lines align with; 0 until something follows the bracket."""
+        """The column that its lines align with; 0 until a token follows the bracket."""
         self.hang: int | None = None
-        """The hanging indentation that its lines have agreed on."""
+        """The hanging indentation of its lines."""
         self.rows = rows
         """Rows that its lines may be indented against."""
 
@@ -87,7 +87,7 @@ class _Walk:
         self.spare: list[list[int]] = [self.stack[0].rows]
         self.chances: dict[int, object] = {}
         self.columns: list[int] = []
-        """The columns of the chances, sorted."""
+        """The sorted columns that lines may align with."""
         self.last_start = start
         self.visual: object = None
         self.row = 0
@@ -113,7 +113,7 @@ class _Walk:
         yield from self._block_start(last)
 
     def _line_start(self, token: Token) -> Iterator[Fault]:  # noqa: C901, PLR0912  PEP 8's cases
-        """Judge the first token of a continuation line."""
+        """Check the first token of a continuation line."""
         bracket = self.stack[-1]
         column = token.start[1]
         self.last_start = token.start
@@ -151,7 +151,7 @@ class _Walk:
             yield token.start, "E126" if hang > self.step else "E121"
 
     def _hang(self, bracket: _Bracket) -> tuple[int, bool]:
-        """Return the indentation against the opening line, and whether that is a good one."""
+        """Return the indentation relative to the opening line, and whether it is valid."""
         hang, good = 0, False
         rows = bracket.rows
         if len(rows) > MOST_ROWS:
@@ -166,7 +166,7 @@ class _Walk:
         return hang, good
 
     def _note_columns(self, token: Token) -> None:
-        """Remember the columns that later lines may align with."""
+        """Record the columns that later lines may align with."""
         bracket = self.stack[-1]
         at_start = not self.row and len(self.stack) == 1
         column = token.start[1]
@@ -224,7 +224,7 @@ class _Walk:
                 break
 
     def _block_start(self, last: Token) -> Iterator[Fault]:
-        """Judge the last line of a statement that a block follows."""
+        """Check the last line of a statement before a block."""
         line = self.logical.lines[last.start[0] - 1]
         if self.opens_block and expand_indent(line) == self.level + self.step:
             at = (last.start[0], self.stack[0].indent + self.step)

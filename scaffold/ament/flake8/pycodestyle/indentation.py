@@ -10,12 +10,12 @@ from scaffold.ament.python_text.logical import LogicalLine
 from scaffold.ament.python_text.text import PythonText
 
 FOUR = 4
-"""Columns that a block may be indented, whatever step is asked for."""
+"""The indentation of a block that is always allowed."""
 TAB = 8
 
 
 def check(text: PythonText, options: Options = AMENT) -> Iterator[Finding]:
-    """Yield the logical lines that are indented wrongly."""
+    """Yield the logical lines with wrong indentation."""
     before: LogicalLine | None = None
     step = options.indent_size
     for logical in text.logical_lines:

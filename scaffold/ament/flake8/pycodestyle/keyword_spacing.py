@@ -16,14 +16,14 @@ from scaffold.ament.python_text.logical import LogicalLine
 from scaffold.ament.python_text.tokens import NAME, NL, OP, Position
 
 CODES = frozenset({"E251", "E252", "E275"})
-"""Codes of ruff that make a line worth a look."""
+"""Codes of ruff that select candidate lines."""
 
 CANDIDATES = r"\s=\s*[}!:]|=\s+[}!:]"
-"""What ruff passes over."""
+"""Candidates that ruff misses."""
 
 
 def check(logical: LogicalLine) -> Iterator[Finding]:
-    """Yield the places of a logical line where spaces are missing or too many."""
+    """Yield the places of a logical line with missing or surplus spaces."""
     for (row, column), code in _around_equals(logical):
         if code == "E251":
             message = "whitespace around the '=' of a keyword argument or default"

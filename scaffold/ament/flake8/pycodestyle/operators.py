@@ -37,20 +37,20 @@ _NEEDED = frozenset(_SPACED.split())
 
 _CODES = "E221 E222 E223 E224 E225 E226 E227 E228 E231 E271 E272 E273 E274"
 CODES = frozenset(_CODES.split())
-"""Codes of ruff that make a line worth a look."""
+"""Codes of ruff that select candidate lines."""
 
 CANDIDATES = (
     r",\]|\{[^{}\n]*:[^{}\n]*\{"
     r"|(?:  |\t)[ \t]*[-+*/|!<=>%&^:]"
     r"|[-+*/|!<=>%&^](?:  | ?\t)"
 )
-"""What ruff passes over: a comma before a bracket, a format within a format, spaces at ``->``."""
+"""Candidates that ruff misses: a comma before a bracket, nested formats, spaces at ``->``."""
 
 CONTINUED = r"[,;:]\\\n"
 """Likewise, in the text of the file: a comma before a backslash."""
 
 ARITHMETIC_CANDIDATES = r"|[-+*/@]"
-"""Likewise for E226, which the configuration of ament leaves out."""
+"""Likewise for E226, which the configuration of ament disables."""
 
 _OPERATOR = r"[^,\s](\s*)(?:[-+*/|!<=>%&^]+|:=)(\s*)"
 _KEYWORD = rf"(\s*)\b(?:{'|'.join(sorted(_KEYWORDS))})\b(\s*)"
@@ -83,7 +83,7 @@ def check(logical: LogicalLine) -> Iterator[Finding]:
 
 
 def _tight_punctuation(logical: LogicalLine) -> Iterator[Finding]:
-    """Yield E231 as pycodestyle did before 2.11: by the text of the line alone."""
+    """Yield E231 like pycodestyle before 2.11: only from the text of the line."""
     line = logical.text
     for item in re.finditer(r"[,;:](?=[^ \t])", line):
         at, before = item.start(), line[: item.start()]
@@ -103,7 +103,7 @@ class _Scan:
         self.braces: list[str] = []
         """Open brackets, ``f`` for an f-string, ``l`` for the arguments of a lambda."""
         self.wanted: bool | tuple[Position, bool] = False
-        """A space must follow; or a place and whether a space preceded the operator."""
+        """Whether a space must follow; or the offset and whether a space preceded the operator."""
         self.before: Token | None = None
 
     def faults(self) -> Iterator[tuple[Position, str, str]]:
@@ -135,7 +135,7 @@ class _Scan:
             braces.pop()
 
     def _is_tight(self, token: Token) -> bool:
-        """Tell whether something comes right after a comma, semicolon or colon."""
+        """Tell whether a token follows a comma, semicolon or colon without a space."""
         row, column = token.end
         following = self.logical.lines[row - 1][column : column + 1]
         if following in (" ", "\t", "\xa0") or following in "\r\n":
@@ -145,7 +145,7 @@ class _Scan:
         return not (token.string == "," and following in ")]")
 
     def _behind(self, token: Token) -> Iterator[tuple[Position, str, str]]:
-        """Judge the token after an operator."""
+        """Check the token after an operator."""
         before, wanted = self.before, self.wanted
         if before is None:
             return
@@ -169,7 +169,7 @@ class _Scan:
         self.wanted = False
 
     def _in_front(self, token: Token, before: Token) -> Iterator[tuple[Position, str, str]]:
-        """Judge an operator and what precedes it."""
+        """Check an operator and the space before it."""
         wanted: bool | None = False
         if token.string == "=" and self._is_keyword_argument():
             pass
@@ -191,7 +191,7 @@ class _Scan:
 
 
 def _is_operand(token: Token) -> bool:
-    """Tell whether an operator after the token has it as its left side."""
+    """Tell whether the token is the left operand of an operator after it."""
     if token.type == OP:
         return token.string in "}])"
     return token.string not in _KEYWORDS and token.string not in _SOFT_KEYWORDS

@@ -1,4 +1,4 @@
-"""E241, E242, W503 to W505: codes that only a package's own configuration enables."""
+"""E241, E242, W503 to W505: codes only enabled by a package's own configuration."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ from scaffold.ament.python_text.tokens import COMMENT, ERRORTOKEN, LAYOUT, OP, S
 _AFTER_PUNCTUATION = re.compile(r"[,;:]\s*(?:  |\t)")
 _NO_OPERATORS = frozenset("()[]{},:.;@=%~") | {"..."}
 _DOCUMENTED = 72
-"""Where a word in a long line of text may start, whatever is allowed."""
+"""The column at which a single long word may start."""
 
 
 def check(text: PythonText, options: Options) -> Iterator[Finding]:
-    """Yield what is wrong with statements and comments."""
+    """Yield the findings in statements and comments."""
     has_spaces = options.reports_any(("E241", "E242"))
     has_breaks = options.reports_any(("W503", "W504"))
     most = options.max_doc_length if options.reports("W505") else None
@@ -74,7 +74,7 @@ def _is_binary(token: Token | None) -> bool:
 
 
 def _long_text(logical: LogicalLine, most: int) -> Iterator[Finding]:
-    """Yield the long lines of docstrings and of comments that stand alone."""
+    """Yield the long lines of docstrings and of separate comments."""
     has_code = any(item.type not in (*SILENT, ERRORTOKEN, STRING) for item in logical.tokens)
     before: Token | None = None
     for token in logical.tokens:

@@ -9,15 +9,15 @@ from scaffold.ament.finding import Finding
 from scaffold.ament.python_text.text import PythonText
 
 MAX_LENGTH = 99
-"""Characters of a line that ament allows."""
+"""The maximum line length of ament."""
 
 
 def check(text: PythonText, max_length: int = MAX_LENGTH) -> Iterator[Finding]:
-    """Yield what is wrong with single lines.
+    """Yield the findings in single lines.
 
     Args:
         text: The file.
-        max_length: How many characters a line may have.
+        max_length: The maximum line length.
     """
     if not text.lines:
         return

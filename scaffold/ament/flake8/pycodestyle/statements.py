@@ -45,7 +45,7 @@ Faults = Iterator[tuple[int, str, str]]
 
 
 def check(text: PythonText) -> Iterator[Finding]:
-    """Yield what is wrong with statements."""
+    """Yield the findings in statements."""
     is_modern = linters.of_target().since("pycodestyle", 2, 11)
     for pattern, judge in (
         (_SPACE, spaces),
@@ -90,7 +90,7 @@ def _continued(text: PythonText) -> Iterator[LogicalLine]:
 
 
 def _placed(logical: LogicalLine, faults: Faults) -> Iterator[Finding]:
-    """Yield the findings of a logical line at their places in the file, with the fixes."""
+    """Yield the findings in a logical line at their places in the file, with fixes."""
     brackets = _Brackets(logical)
     for offset, code, message in faults:
         row, column = logical.position(offset)
@@ -109,7 +109,7 @@ def _with_fix(logical: LogicalLine, brackets: _Brackets, finding: Finding) -> Fi
 
 
 def _on_new_line(logical: LogicalLine, finding: Finding) -> tuple[Replacement, ...]:
-    """Return what breaks a line after its colon or at its semicolon."""
+    """Return the edits that break a line after its colon or at its semicolon."""
     row = finding.line
     line = logical.lines[row - 1].rstrip("\n")
     indent = line[: len(line) - len(line.lstrip())]
@@ -154,7 +154,7 @@ class _Brackets:
         self._open: list[str] = []
 
     def around(self, place: Position) -> Sequence[str]:
-        """Return what is open at a place: brackets, and ``f`` for an f-string."""
+        """Return the open brackets at an offset, and ``f`` for an f-string."""
         tokens = self._logical.tokens
         while self._at < len(tokens) and tokens[self._at].start < place:
             self._read(tokens[self._at])
@@ -199,7 +199,7 @@ def comparisons(line: str) -> Faults:
 
 
 def _types() -> str:
-    """Return what E721 looks for."""
+    """Return the pattern of E721."""
     target = linters.of_target()
     if target.since("pycodestyle", 2, 12):
         return _TYPES_2_12
@@ -352,7 +352,7 @@ def needless_backslashes(logical: LogicalLine) -> Iterator[Finding]:
 
 
 def late_imports(text: PythonText) -> Iterator[Finding]:
-    """E402: imports at module level below other code."""
+    """E402: module-level imports below other code."""
     seen_code = seen_docstring = False
     for logical in text.logical_lines:
         if logical.is_comment or logical.indent:
