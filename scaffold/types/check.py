@@ -26,12 +26,12 @@ from scaffold.types.stubs.marks import MARK
 from scaffold.types.ty import TyDiagnostic, UnavailableError
 
 _CHANGED = frozenset({"collections", "random"})
-"""Modules of Python of which people use what is no longer there."""
+"""Standard library modules with removed names that people still use."""
 _DIFFERENT = frozenset(
     {"ast", "asyncio", "contextlib", "datetime", "enum", "itertools", "math", "pkgutil", "queue"}
     | {"sqlite3", "typing", "unittest", "uuid", "warnings"}
 )
-"""Those of which people use what some of the Pythons that distributions come with do not have."""
+"""Standard library modules with names that only some of the supported Pythons have."""
 _OF_MODULES = frozenset({"import-not-found", "missing-module-member"})
 _STR = r'`(?:str|Literal\["[^`]*"\])`'
 _CONTAINER = r"(?:dict|list|set|tuple)\[[^`]*\]"
@@ -48,7 +48,7 @@ _NAMELESS = re.compile(
     rf"{_PLAIN}(?: and {_PLAIN})?"
     rf"|Argument to bound method `bytes\.\w+` is incorrect: Expected `.+`, found {_STR}"
 )
-"""Matches reports of interest that name nothing of ROS."""
+"""Matches relevant reports that do not name anything of ROS."""
 # linear: a line has 20 kB at most
 _SUPPRESSION = re.compile(rb"noqa:[^\n]*\bTY[0-9]", re.IGNORECASE)
 
@@ -58,9 +58,9 @@ class _File:
 
     Args:
         checked: The file.
-        key: What it has in the cache.
-        own_key: The same without what its callers are.
-        known: What the cache has.
+        key: Its cache key.
+        own_key: Its cache key without its callers.
+        known: The cached reports.
     """
 
     def __init__(self, checked: Checked, key: str, own_key: str, known: Reported | None) -> None:
@@ -69,11 +69,11 @@ class _File:
         self.own_key = own_key
         self.diagnostics = None if known is None else known.diagnostics
         self.is_confirmed = known is None or known.is_confirmed
-        """Whether nothing is reported that may be the consequence of an annotation."""
+        """Whether no report can be the consequence of an annotation."""
         self.silent_for = ""
-        """The types from its callers with which nothing was reported; empty if that is unknown."""
+        """The argument types of its callers with which nothing was reported; empty if unknown."""
         self.is_silent = False
-        """Whether nothing is reported, whatever else is in the files of its callers."""
+        """Whether nothing is reported, however the files of its callers are edited."""
 
 
 class TypeCheck:
@@ -81,9 +81,9 @@ class TypeCheck:
 
     Args:
         packages: The packages.
-        is_wanted: Tells by package and path whether a file is to be checked.
-        recalling: Returns what is entered before a package is looked at, and left after it.
-        is_any_wrong: Tells by package and path whether any of some reports leads to a finding.
+        is_wanted: Tells by package and path whether to check a file.
+        recalling: Returns the context manager in which a package is inspected.
+        is_any_wrong: Tells by package and path whether any of the reports leads to a finding.
     """
 
     def __init__(
@@ -94,22 +94,22 @@ class TypeCheck:
         is_any_wrong: Callable[[Package, str, Sequence[TyDiagnostic]], bool] = lambda *_: True,
     ) -> None:
         self.failure = ""
-        """Why types are not checked; empty if they are."""
+        """Why types are not checked; empty if they are checked."""
         self._scratch = ""
         self._project: Project | None = None
         self._types: dict[str, Types] = {}
-        """What modules pass to others, by place."""
+        """The types that modules pass to others, by place."""
         self._passing: dict[str, Mapping[str, Source]] = {}
-        """The modules of which that is to be found out, each with what it reaches."""
+        """The modules whose passed types are unknown, each with the files that it reaches."""
         self._asked: list[_File] = []
         self._waiting: list[_File] = []
-        """Those about which nothing is reported, unless they get something else."""
+        """Files without reports, unless their callers pass other types now."""
         self._files: dict[int, list[_File]] = {}
-        """Until what is reported about them is collected; by the number of the package."""
+        """The files whose reports are not collected yet, by the id of the package."""
         self._diagnostics: dict[int, dict[str, Sequence[TyDiagnostic]]] = {}
         self._reached: dict[int, dict[str, Reads]] = {}
         self._suppressing: set[int] = set()
-        self._packages = list(packages)  # so that no other gets its number
+        self._packages = list(packages)  # keeps its id from being reused
         self._sources = Sources()
         self._is_any_wrong = is_any_wrong
         try:
@@ -142,7 +142,7 @@ class TypeCheck:
         return Cache(f"{ty.identity()} {target} {sys.version_info[:2]}")
 
     def _add(self, package: Package, path: str) -> None:
-        """Look up what is known of a file, and have the type checker asked for the rest."""
+        """Look up the cached reports of a file, and schedule it for the type checker otherwise."""
         stubbed, sources = self._stubbed, self._sources
         source = sources.get(package, path)
         if source is None:
@@ -178,7 +178,7 @@ class TypeCheck:
             self._asked.append(file)
 
     def _is_silent(self, file: _File, of_callers: Mapping[str, Mapping[str, Source]]) -> bool:
-        """Tell whether nothing is reported about a file; what it gets may be found out later."""
+        """Tell whether nothing is reported about a file; its argument types may follow later."""
         callers = file.checked.callers
         for caller in callers:
             if caller.place not in self._types and caller.place not in self._passing:
@@ -199,7 +199,7 @@ class TypeCheck:
         return file.diagnostics is not None
 
     def _signature(self, file: _File) -> str:
-        """Return what changes with the types that a file gets; empty if they are not known."""
+        """Return a signature of the argument types of a file; empty if they are not known."""
         checked = file.checked
         types = [self._types[caller.place] for caller in checked.callers]
         received = signature(checked.source, types)
@@ -213,7 +213,7 @@ class TypeCheck:
         content: Callable[[Source], bytes],
         passing: Mapping[str, Mapping[str, Source]] | None = None,
     ) -> Project:
-        """Start the type checker on some files, with all that they import next to them."""
+        """Start the type checker on files, with everything that they import next to them."""
         checked = [file.checked for file in asked]
         return Project(self._directory(name), self._home, checked, content, passing)
 
@@ -223,19 +223,19 @@ class TypeCheck:
         return os.path.join(self._scratch, name)
 
     def reached_by(self, package: Package) -> Mapping[str, Reads]:
-        """Return what the reports about each file depend on.
+        """Return the signature of what the reports about each file depend on.
 
-        Files with a comment that names a code of types are left out: whether it suppresses
-        anything is to be found out in each run.
+        Files with a comment that names a type rule are left out: whether it suppresses
+        anything must be determined in each run.
         """
         return self._reached.get(id(package), {})
 
     def may_suppress(self, package: Package) -> bool:
-        """Tell whether a comment in a package names a code of types."""
+        """Tell whether a comment in a package names a type rule."""
         return id(package) in self._suppressing
 
     def by_file(self, package: Package) -> Mapping[str, Sequence[TyDiagnostic]]:
-        """Return what the type checker reported about the files of a package, by path."""
+        """Return the reports of the type checker about the files of a package, by path."""
         if self._files:
             self._collect()
             for number, files in self._files.items():
@@ -271,7 +271,7 @@ class TypeCheck:
         self._store(dict.fromkeys(asked))
 
     def _read(self, files: Sequence[_File]) -> None:
-        """Read what is reported about files, and keep what is of interest."""
+        """Read the reports about files, and keep the relevant ones."""
         assert self._project is not None  # noqa: S101  it has been started
         for file in files:
             reported = self._project.reports(file.checked)
@@ -287,14 +287,14 @@ class TypeCheck:
             file.is_silent = not (file.diagnostics or any(map(own_name, reported)))
 
     def _learn(self) -> None:
-        """Read the types of what modules pass to others."""
+        """Read the types that modules pass to others."""
         assert self._project is not None  # noqa: S101  it has been started
         for place, reached in self._passing.items():
             types = self._types[place] = self._project.passed_types(place, reached)
             self._cache.put_plain(self._cache.key(reached[place], reached, "passed"), types)
 
     def _store(self, files: Collection[_File]) -> None:
-        """Remember what is reported about files that the type checker was asked about."""
+        """Cache the reports about the files that were checked."""
         for file in files:
             self._cache.put(file.key, Reported(file.diagnostics or (), file.is_confirmed))
             if file.is_silent and file.checked.callers:
@@ -303,12 +303,12 @@ class TypeCheck:
             self._cache.trim()
 
     def _confirm(self) -> list[_File]:
-        """Keep what is reported without the annotations of the user's code as well.
+        """Keep the reports that also appear without the annotations of the user's code.
 
-        Where nothing comes of it anyway, nobody asks.
+        The second run is skipped for files whose reports lead to no finding.
 
         Returns:
-            The files that it was done for.
+            The files that were confirmed.
         """
         files = [
             file
@@ -334,7 +334,7 @@ class TypeCheck:
         return self._is_any_wrong(source.package, source.path, file.diagnostics or ())
 
     def close(self) -> None:
-        """End the type checker and remove what was written for it."""
+        """Stop the type checker and remove its files."""
         if self._project is not None:
             self._project.close()
             self._project = None
@@ -347,7 +347,7 @@ class TypeCheck:
 
 
 def _is_relevant(source: Source, roots: frozenset[str], stubbed: frozenset[str]) -> bool:
-    """Tell whether anything that is imported is known well enough to judge its use."""
+    """Tell whether a file imports anything whose use can be checked."""
     if not source.imports.isdisjoint(python_modules.later_modules()):
         return True
     known = stubbed | python_modules.removed() | _CHANGED
@@ -357,7 +357,7 @@ def _is_relevant(source: Source, roots: frozenset[str], stubbed: frozenset[str])
 
 
 def _is_shadowed(source: Source, stubbed: frozenset[str]) -> bool:
-    """Tell whether a program imports a file next to it in place of a library."""
+    """Tell whether a program imports a file next to it instead of a library."""
     if source.place.startswith(ty.LIBRARY):
         return False
     above = source.path.rpartition("/")[0]
@@ -370,7 +370,7 @@ def _is_shadowed(source: Source, stubbed: frozenset[str]) -> bool:
 
 
 def _roots(reached: Mapping[str, Source], *, are_stubs: bool) -> frozenset[str]:
-    """Return the importable packages that are code of the workspace, or its interfaces."""
+    """Return the importable packages of the workspace: code and interfaces."""
     return frozenset(
         place.split("/")[1]
         for place, source in reached.items()
@@ -379,7 +379,7 @@ def _roots(reached: Mapping[str, Source], *, are_stubs: bool) -> frozenset[str]:
 
 
 def _concerns(item: TyDiagnostic, stubbed: frozenset[str]) -> bool:
-    """Tell whether a report is about a library, and of interest."""
+    """Tell whether a report is about a library and relevant."""
     if item.kind in _OF_MODULES or item.message.startswith("Module `"):
         module, name = [*re.findall(r"`([\w.]+)`", item.message), "", ""][:2]
         root = module.partition(".")[0]

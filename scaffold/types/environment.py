@@ -21,22 +21,22 @@ from scaffold.types.stubs.marks import mark
 
 KIND = "stubs"
 KEPT = 6
-"""Environments that are kept: of this and of other versions of the tool."""
+"""The number of environments to keep, including those of other versions of the tool."""
 _IN_USE = 600.0
-"""Seconds after its last use until an environment may be removed; ty runs for a minute at most."""
+"""Seconds after its last use until an environment may be removed; ty runs for at most a minute."""
 _INDEX = "index"
 _MAGIC = b"scaffold-stubs-1\n"
 _SETTINGS = "home = /nonexistent\nversion = {}\n"
 
 
 def packages(distribution: Distribution) -> str:
-    """Return where the stubs are in an environment."""
+    """Return the directory of the stubs in an environment."""
     return os.path.join("lib", f"python{distribution.python_version}", "site-packages")
 
 
 @lru_cache(maxsize=len(NAMES))
 def identity(distribution: Distribution) -> str:
-    """Return what changes with the stubs of a distribution, and with how they are written."""
+    """Return a hash of the stubs of a distribution and of the code that writes them."""
     parts = [distribution.name]
     own = os.path.dirname(os.path.abspath(__file__))
     for top in (own, os.path.join(os.path.dirname(own), "data")):
@@ -54,11 +54,11 @@ def _stamps(top: str) -> Iterator[str]:
 
 
 def directory(distribution: Distribution, scratch: Callable[[str], str]) -> str:
-    """Return the environment of a distribution; it is written where it is not there yet.
+    """Return the environment of a distribution; it is written if it does not exist yet.
 
     Args:
         distribution: The distribution.
-        scratch: Returns where a temporary directory is, for when there is no cache.
+        scratch: Returns a temporary directory, used if there is no cache.
 
     Raises:
         OSError: it cannot be written.
@@ -68,7 +68,7 @@ def directory(distribution: Distribution, scratch: Callable[[str], str]) -> str:
         place = os.path.join(kept, identity(distribution))
         if _is_whole(place):
             with contextlib.suppress(OSError):
-                os.utime(place)  # as in use
+                os.utime(place)  # marks it as in use
             return place
         try:
             _write_aside(distribution, place)
@@ -83,7 +83,7 @@ def directory(distribution: Distribution, scratch: Callable[[str], str]) -> str:
 
 
 def _is_whole(place: str) -> bool:
-    """Tell whether an environment has all its files, as they were written by this user."""
+    """Tell whether an environment has all of its files, unchanged and owned by this user."""
     index = cache.read_sealed(os.path.join(place, _INDEX), _MAGIC)
     if index is None:
         return False
@@ -122,7 +122,7 @@ def _write_aside(distribution: Distribution, place: str) -> None:
 
 
 _ARRAY = ("ndarray[Any, Any]", "ndarray")
-"""The partial stub of numpy has a class without arguments."""
+"""The partial stub of numpy has a class without type arguments."""
 
 
 def _write(distribution: Distribution, place: str) -> list[str]:
@@ -137,13 +137,13 @@ def _write(distribution: Distribution, place: str) -> list[str]:
 
 
 def marked(path: str, text: str) -> str:
-    """Return a stub with marked names; its path tells its module."""
+    """Return a stub with marked names; its path determines its module."""
     parts = path.removesuffix(".pyi").split("/")
     return mark(text, ".".join(parts[:-1] if parts[-1] == "__init__" else parts))
 
 
 def write_files(top: str, files: dict[str, str]) -> None:
-    """Write files below a directory, which is made; raises OSError."""
+    """Write files below a directory, which is created; raises OSError."""
     for folder in {os.path.dirname(path) for path in files}:
         os.makedirs(os.path.join(top, folder), exist_ok=True)
     for path, text in files.items():
@@ -152,7 +152,7 @@ def write_files(top: str, files: dict[str, str]) -> None:
 
 
 def trim(kept: str) -> None:
-    """Remove the oldest environments, but none that a running type checker may read."""
+    """Remove the oldest environments, except those that a running type checker may read."""
     recent = time.time() - _IN_USE
     try:
         places = [entry.path for entry in os.scandir(kept)]
@@ -160,4 +160,4 @@ def trim(kept: str) -> None:
             if os.path.getmtime(path) < recent:
                 shutil.rmtree(path, ignore_errors=True)
     except OSError:
-        return  # another process tidies up
+        return  # another process is cleaning up

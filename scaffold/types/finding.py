@@ -30,25 +30,25 @@ _DECIDING = re.compile(
     r"|\b(?:HAS|HAVE)_(?!next\b)",
     re.IGNORECASE,
 )
-"""Matches conditions that ask what there is: for a version, a module, or a kind of object."""
+"""Matches conditions on a version, a module or the type of an object."""
 _LEAVING = re.compile(r"version_info|hexversion|__version__|(?i:distro)|find_spec|importorskip")
-"""Matches those that ask for a version or a module, and may end a block."""
+"""Matches conditions on a version or a module that may leave a block."""
 _PROBED = frozenset(
     {"AttributeError", "ImportError", "ModuleNotFoundError", "NameError", "TypeError"}
 )
 _ANYTHING = frozenset({"Exception", "BaseException"})
 _EXPECTING = frozenset({"raises", "suppress", "assertRaises", "assertRaisesRegex", "assertWarns"})
 _OF_ELEMENTS = frozenset({"not-subscriptable", "not-iterable"})
-"""Kinds about an object, not about a call of it."""
+"""Kinds of reports about an object, not about a call."""
 _OF_ARGUMENTS = frozenset(
     {"invalid-argument-type", "too-many-positional-arguments", "unknown-argument"}
 )
-"""Kinds about a call that always fails."""
-# linear: of the text of a function that is called
+"""Kinds of reports about a call that always fails."""
+# linear: only searched in the text of a called function
 _PATCHING = re.compile(r"\bpatch(?:\.object)?$|\bmonkeypatch\.setattr$")
-"""Matches what replaces an attribute while a test runs."""
+"""Matches calls that replace an attribute during a test."""
 _SHORT = 2
-"""Statements of a ``try`` that only asks whether something works."""
+"""The maximum number of statements of a ``try`` that only probes whether something works."""
 
 
 class TypeFinding:
@@ -57,7 +57,7 @@ class TypeFinding:
     Args:
         package: Where the file is.
         path: The file.
-        reported: What the type checker reported.
+        reported: The report of the type checker.
     """
 
     def __init__(self, package: Package, path: str, reported: TyDiagnostic) -> None:
@@ -84,7 +84,7 @@ class TypeFinding:
         return re.fullmatch(pattern, self.message, re.DOTALL)
 
     def node(self, *kinds: type[Node]) -> Node | None:
-        """Return the outermost node of some types that is exactly at the place."""
+        """Return the outermost node of some types with exactly the reported range."""
         for kind in kinds:
             for node in self.module.walk(kind):
                 if getattr(node, "lineno", 0) != self.location.line:
@@ -94,7 +94,7 @@ class TypeFinding:
         return None
 
     def parents(self) -> Iterator[ast.AST]:
-        """Yield the nodes around the place, inner ones first."""
+        """Yield the nodes around the reported place, inner ones first."""
         if self.innermost is not None:
             yield from self.module.parents(self.innermost)
 
@@ -104,7 +104,7 @@ class TypeFinding:
         return self.module.enclosing(self.innermost, ast.Call) if self.innermost else None
 
     def expression(self) -> ast.expr | None:
-        """Return the outermost expression that is exactly at the place."""
+        """Return the outermost expression with exactly the reported range."""
         return self.node(
             *(ast.Attribute, ast.Call, ast.Name, ast.Constant, ast.BinOp, ast.Subscript),
             *(ast.Lambda, ast.List, ast.Tuple, ast.Dict, ast.JoinedStr, ast.Compare, ast.UnaryOp),
@@ -112,7 +112,7 @@ class TypeFinding:
         )
 
     def passed_in(self) -> tuple[str, str] | None:
-        """Return the parameter that the report is about, and where the call is that gives it."""
+        """Return the parameter that the report is about, and the location of the call."""
         node = self._root
         if node is None:
             return None
@@ -124,12 +124,12 @@ class TypeFinding:
         return (node.id, f"line {place[1]} of {place[0]}") if place else None
 
     def arguments_for(self, name: ast.Name) -> Sequence[ast.expr]:
-        """Return what calls in the file pass to the parameter that a name is."""
+        """Return the arguments that calls in the file pass for a parameter."""
         return origins.arguments_for(self.module, name)
 
     @cached_property
     def _root(self) -> ast.Name | None:
-        """The name that the expression at the place starts with."""
+        """The name that the reported expression starts with."""
         node = self.expression()
         while isinstance(node, ast.Attribute | ast.Subscript):
             node = node.value
@@ -137,7 +137,7 @@ class TypeFinding:
 
     @cached_property
     def innermost(self) -> ast.AST | None:
-        """The smallest node that holds the whole place."""
+        """The smallest node that contains the reported range."""
         at = self.location
         start, end = (at.line, at.column), (at.end_line, at.end_column)
         best: ast.AST | None = None
@@ -148,7 +148,7 @@ class TypeFinding:
         return best
 
     def _around(self) -> Iterator[ast.AST]:
-        """Yield the nodes whose lines hold the place, outer ones first."""
+        """Yield the nodes whose lines contain the reported place, outer ones first."""
         pending: list[ast.AST] = [self.module.tree]
         line = self.location.line
         while pending:
@@ -163,9 +163,9 @@ class TypeFinding:
             pending.extend(ast.iter_child_nodes(node))
 
     def is_certain(self) -> bool:
-        """Tell whether nothing around the place expects what is reported.
+        """Tell whether no code around the place anticipates the reported error.
 
-        Code that asks for a version, a module or an attribute, and code that tries, knows better.
+        Checks of a version, a module or an attribute, and ``try`` blocks, anticipate it.
         """
         node = self.innermost
         if node is None or self._is_of_several(node) or self._is_of_another(node):
@@ -191,7 +191,7 @@ class TypeFinding:
         return child not in self.module.passed_over and not is_for_ros1(self.module, node)
 
     def _is_patched(self, node: ast.AST) -> bool:
-        """Tell whether a test puts something else in the place of what is used."""
+        """Tell whether a test patches what is used."""
         module = self.module
         if not module.mentions("patch"):
             return False
@@ -210,9 +210,9 @@ class TypeFinding:
         )
 
     def _is_imported_anew(self, node: ast.AST) -> bool:
-        """Tell whether a name in a function is that of a later import than the reported one.
+        """Tell whether a name in a function is bound by a later import than the reported one.
 
-        The type checker takes such a name for one of all that are imported.
+        The type checker uses the union of all imports of the name.
         """
         module = self.module
         if module.enclosing_function(node) is None:
@@ -229,8 +229,8 @@ class TypeFinding:
     def _is_defined_again(self, node: ast.AST) -> bool:
         """Tell whether a function or class that is called in a function is defined more than once.
 
-        The type checker holds such a call against all definitions; the last one is called. So is
-        what an attribute holds that is set to something else than the method of its name.
+        The type checker checks such a call against all definitions; the last one is called. The
+        same applies to an attribute that replaces the method of its name.
         """
         module = self.module
         call = node if isinstance(node, ast.Call) else module.enclosing(node, ast.Call)
@@ -243,7 +243,7 @@ class TypeFinding:
         return is_inside and len(kinds) > 1 and not {"function", "class"}.isdisjoint(kinds)
 
     def _is_replaced(self, method: ast.Attribute) -> bool:
-        """Tell whether a class has a method, and sets the attribute of that name as well."""
+        """Tell whether a class has a method and also assigns the attribute of that name."""
         module, name = self.module, method.attr
         class_ = module.enclosing_class(method)
         if class_ is None or module.text(method.value) != "self":
@@ -256,7 +256,7 @@ class TypeFinding:
         return any(isinstance(it.ctx, ast.Store) and module.text(it.value) == "self" for it in uses)
 
     def _imports_of(self, name: ast.Name) -> list[str]:
-        """Return from which packages a name is imported, one after the other, and nothing else."""
+        """Return the packages that a name is imported from, if nothing else binds it."""
         bindings = self.module.index.bindings_of(name)
         if any(binding.kind != "import" for binding in bindings):
             return []
@@ -269,7 +269,7 @@ class TypeFinding:
         return [binding.target.partition(".")[0] for binding in bindings]
 
     def _is_of_several(self, node: ast.AST) -> bool:
-        """Tell whether what is called or used may be another object than the reported one."""
+        """Tell whether the called or used object may be another one than the reported one."""
         if self.kind == "missing-attribute":
             return False  # only reported if no object of them has it
         assigned = self.module.enclosing(node, ast.Assign)
@@ -287,7 +287,7 @@ class TypeFinding:
         return any(origins.is_of_several(self.module, item) for item in called or [node])
 
     def _is_of_another(self, node: ast.AST) -> bool:
-        """Tell whether code for another distribution sets a name, and so its type."""
+        """Tell whether code for another distribution sets a name and thereby its type."""
         not_run = [*stretches_not_run(self.module)]
         if not not_run:
             return False
@@ -300,7 +300,7 @@ class TypeFinding:
         )
 
     def _bindings(self, node: ast.AST) -> Iterator[ast.AST]:
-        """Yield where the names and the attributes of ``self`` below a node are set."""
+        """Yield the assignments of names and attributes of ``self`` below a node."""
         index = self.module.index
         for name in self.module.below(node, ast.Name):
             yield from (binding.node for binding in index.bindings_of(name))
@@ -310,7 +310,7 @@ class TypeFinding:
                 yield from (store for store in stores if isinstance(store.ctx, ast.Store))
 
     def _asks_what_there_is(self, condition: Condition) -> bool:
-        """Tell whether a condition asks for a version, a kind of object, or what was imported."""
+        """Tell whether a condition checks a version, the type of an object, or an import."""
         parts = [*open_parts(self.module, condition.test)]
         values = [value for part in parts for value in values_asked(self.module, part)]
         texts = [ast.unparse(value) for value in values]
@@ -323,7 +323,7 @@ class TypeFinding:
         return not names.isdisjoint(self._imported)
 
     def _asks_arguments(self, conditions: Sequence[Condition]) -> bool:
-        """Tell whether the place is run for some values of another argument of its function."""
+        """Tell whether the place only runs for some values of another argument of its function."""
         root = self._root
         others = origins.other_parameters(self.module, root) if root else frozenset()
         if not others or self.passed_in() is None:
@@ -337,9 +337,9 @@ class TypeFinding:
         return not names.isdisjoint(others)
 
     def _asks_element(self, conditions: Sequence[Condition]) -> bool:
-        """Tell whether another element of the same sequence determines the kind of an element.
+        """Tell whether another element of the same sequence determines the type of an element.
 
-        ``if step[0] == 'turn':`` in front of ``step[1]``: the first one is the kind of a step.
+        In ``if step[0] == 'turn':`` before ``step[1]``, the first element is the kind of step.
         """
         node = self.expression()
         parts = [*ast.walk(node)] if node is not None else []
@@ -376,9 +376,9 @@ class TypeFinding:
         return False
 
     def _is_asked(self, node: ast.Try, handler: ast.ExceptHandler, child: ast.AST) -> bool:
-        """Tell whether a ``try`` only asks whether something works.
+        """Tell whether a ``try`` only probes whether something works.
 
-        One with a handler that does nothing instead, but log the error, does not.
+        One whose handlers only log the error does not.
         """
         if has_fallback(self.module, child, is_rare=False):
             return True
@@ -387,7 +387,7 @@ class TypeFinding:
 
 
 def _cases(condition: ast.expr) -> Iterator[ast.Compare]:
-    """Yield the comparisons in a condition that single out some values."""
+    """Yield the comparisons in a condition that select some values."""
     for node in ast.walk(condition):
         if isinstance(node, ast.Compare) and isinstance(node.ops[0], ast.Eq | ast.In):
             yield node

@@ -9,9 +9,9 @@ from scaffold.model.python.given_arguments import given_argument
 from scaffold.model.python.module import PythonModule
 
 _DEEPEST = 20
-"""Names, attributes, elements and calls that one value comes from."""
+"""The maximum number of names, attributes, elements and calls to trace a value through."""
 _MOST_FUNCTIONS = 4
-"""Functions that hand it on."""
+"""The maximum number of functions that pass it on."""
 _HANDING_ON = frozenset({"enumerate", "iter", "list", "next", "reversed", "sorted", "tuple", "zip"})
 _PUTTING = frozenset({"append", "appendleft", "insert", "setdefault"})
 _FUNCTIONS = (ast.FunctionDef, ast.AsyncFunctionDef)
@@ -20,8 +20,8 @@ _FUNCTIONS = (ast.FunctionDef, ast.AsyncFunctionDef)
 def is_of_several(module: PythonModule, node: ast.AST) -> bool:
     """Tell whether a value may be one of several that the type checker reports one by one.
 
-    That is so for entries of a dictionary, ``self.clients['reset']``, and for what comes from an
-    attribute that gets values of several origins.
+    This applies to entries of a dictionary, ``self.clients['reset']``, and to values from an
+    attribute with values of several origins.
     """
     for origin in _origins(module, node):
         match origin:
@@ -38,7 +38,7 @@ def is_of_several(module: PythonModule, node: ast.AST) -> bool:
 
 
 def is_attribute(module: PythonModule, node: ast.AST) -> bool:
-    """Tell whether a value is read from an object: libraries list all types that it may have."""
+    """Tell whether a value is read from an object: libraries declare all of its types."""
     values = [node, *(arguments_for(module, node) if isinstance(node, ast.Name) else ())]
     return any(
         isinstance(value, ast.Attribute) and module.text(value.value) != "self" for value in values
@@ -46,7 +46,7 @@ def is_attribute(module: PythonModule, node: ast.AST) -> bool:
 
 
 def _origins(module: PythonModule, node: ast.AST, depth: int = 0) -> Iterator[ast.AST]:
-    """Yield an expression and what it is read from: ``a.b``, and ``a``, also in other functions."""
+    """Yield an expression and its origins: ``a.b``, then ``a``, also in other functions."""
     for _ in range(_DEEPEST if depth < _MOST_FUNCTIONS else 0):
         yield node
         match node:
@@ -68,7 +68,7 @@ def _origins(module: PythonModule, node: ast.AST, depth: int = 0) -> Iterator[as
 
 
 def _assigned(module: PythonModule, name: ast.Name) -> Iterator[ast.expr]:
-    """Yield the entries of containers that a variable is given."""
+    """Yield the entries of containers that are assigned to a variable."""
     for binding in module.index.bindings_of(name):
         statement = module.parent(binding.node)
         if not isinstance(statement, ast.Assign) or binding.node not in statement.targets:
@@ -78,7 +78,7 @@ def _assigned(module: PythonModule, name: ast.Name) -> Iterator[ast.expr]:
 
 
 def _contents_of(module: PythonModule, container: ast.expr) -> set[str]:
-    """Return what makes the values that are put into a variable or an attribute of ``self``."""
+    """Return the sources of the values added to a variable or an attribute of ``self``."""
     text = module.text(container)
     sources: set[str] = set()
     if not isinstance(container, ast.Name | ast.Attribute):
@@ -92,7 +92,7 @@ def _contents_of(module: PythonModule, container: ast.expr) -> set[str]:
 
 
 def _put_into(module: PythonModule, container: ast.expr) -> set[str]:
-    """Return what makes the value that a statement puts into a container, or several at once."""
+    """Return the sources of the values that a statement adds to a container."""
     parent = module.parent(container)
     above = module.parent(parent) if parent is not None else None
     values: Sequence[ast.expr] = ()
@@ -113,7 +113,7 @@ def _put_into(module: PythonModule, container: ast.expr) -> set[str]:
 
 
 def _source(module: PythonModule, value: ast.expr) -> str:
-    """Return what makes a value: a call with the classes that it is given, or an expression."""
+    """Return the source of a value: a call with its class arguments, or an expression."""
     if isinstance(value, ast.Call):
         classes = [module.text(item) for item in value.args if _is_class(item)]
         classes += [module.text(item.value) for item in value.keywords if _is_class(item.value)]
@@ -123,7 +123,7 @@ def _source(module: PythonModule, value: ast.expr) -> str:
 
 
 def _is_nothing(value: ast.expr) -> bool:
-    """Tell whether a value has no type that matters: ``None``, or a container without elements."""
+    """Tell whether the type of a value is irrelevant: ``None``, or an empty container."""
     match value:
         case ast.Constant(value=None) | ast.List(elts=[]) | ast.Dict(keys=[]):
             return True
@@ -138,7 +138,7 @@ def _is_class(value: ast.expr) -> bool:
 
 
 def arguments_for(module: PythonModule, name: ast.Name) -> Sequence[ast.expr]:
-    """Return what calls in the file pass to the parameter that a name is; nothing for others."""
+    """Return the arguments that calls in the file pass for a parameter; empty for other names."""
     parameter, function = _parameter(module, name)
     if parameter is None or function is None:
         return ()
@@ -160,7 +160,7 @@ def arguments_for(module: PythonModule, name: ast.Name) -> Sequence[ast.expr]:
 
 
 def called_as(module: PythonModule, name: ast.Name) -> str:
-    """Return what is called with the parameter that a name is: ``to_pose``, ``Arm.move``."""
+    """Return the name of the function of a parameter: ``to_pose``, ``Arm.move``."""
     function = _parameter(module, name)[1]
     class_ = module.parent(function) if function is not None else None
     if function is None or not isinstance(class_, ast.ClassDef):
@@ -169,7 +169,7 @@ def called_as(module: PythonModule, name: ast.Name) -> str:
 
 
 def other_parameters(module: PythonModule, name: ast.Name) -> frozenset[str]:
-    """Return the parameters next to the one that a name is; nothing for other names."""
+    """Return the other parameters of the function of a parameter; empty for other names."""
     parameter, function = _parameter(module, name)
     if parameter is None or function is None or parameter.arg == "self":
         return frozenset()
@@ -181,7 +181,7 @@ def other_parameters(module: PythonModule, name: ast.Name) -> frozenset[str]:
 def _parameter(
     module: PythonModule, name: ast.Name
 ) -> tuple[ast.arg | None, ast.FunctionDef | ast.AsyncFunctionDef | None]:
-    """Return the parameter that a name is, and its function."""
+    """Return the parameter that a name refers to, and its function."""
     lookup = module.index.lookup(name.id, name)
     parameter = lookup[1][0].node if lookup is not None and lookup[1] else None
     function = lookup[0] if lookup is not None else None
@@ -195,7 +195,7 @@ def _is_static(decorator: ast.expr) -> bool:
 
 
 def _looped_over(module: PythonModule, name: ast.Name) -> ast.expr | None:
-    """Return what the loop that binds a name runs over."""
+    """Return the iterable of the loop that binds a name."""
     for binding in module.index.bindings_of(name):
         target = binding.node
         while isinstance(parent := module.parent(target), ast.Tuple | ast.List):
@@ -206,7 +206,7 @@ def _looped_over(module: PythonModule, name: ast.Name) -> ast.expr | None:
 
 
 def _sources_of(module: PythonModule, name: str) -> set[str]:
-    """Return what makes the values that an attribute of ``self`` gets."""
+    """Return the sources of the values of an attribute of ``self``."""
     sources = set()
     statements: list[ast.Assign | ast.AnnAssign] = [*module.walk(ast.Assign)]
     statements += module.walk(ast.AnnAssign)

@@ -17,10 +17,10 @@ CALLEE = r"[^\W\d]\w*(?:\.\w+)?"
 _OWNER = re.compile(
     r"(?:Object of type|Class) `([^\W\d]\w*)` has no attribute `\w+`", re.IGNORECASE
 )
-# linear: what comes before the name has no backquote
+# linear: the text before the name has no backquote
 _CALL = re.compile(rf"[^`]*(?:`\w+`[^`]*)*? (?:[a-z]+ )*`({CALLEE})`(?:: expected .*)?")
 _FOUND = re.compile(r"found `((?:Literal\[)?([A-Z][^\W_]\w*)(?:\.[^`|]*)?)`$")
-"""Matches a value of a class without a mark, or a member of an enumeration."""
+"""Matches an instance of an unmarked class, or a member of an enumeration."""
 _CALLS = frozenset(
     {
         "missing-argument",
@@ -32,12 +32,12 @@ _CALLS = frozenset(
 _CHANGING = re.compile(
     rb"\b(?:setattr|__dict__|__getattribute__|__new__|metaclass|exec|globals|vars)\b"
 )
-"""Matches what gives objects attributes that no assignment shows, or makes others instead."""
+"""Matches code that sets attributes dynamically or replaces objects."""
 _NAME = re.compile(rb"\b[A-Za-z_]\w*")
 
 
 def is_about_own(item: TyDiagnostic, sources: Iterable[Source]) -> bool:
-    """Tell whether a report is about a class or a function that one of some files defines."""
+    """Tell whether a report is about a class or a function that one of the files defines."""
     name = own_name(item)
     if not name:
         return False
@@ -45,11 +45,11 @@ def is_about_own(item: TyDiagnostic, sources: Iterable[Source]) -> bool:
     defining = [data for data in files if _definition(name).search(data)]
     if not defining or any(_CHANGING.search(data) for data in _with_bases(name, files)):
         return False
-    return item.kind in _CALLS or len(defining) == 1  # else the object may be of another class
+    return item.kind in _CALLS or len(defining) == 1  # otherwise the object may be of another class
 
 
 def with_own_marked(item: TyDiagnostic, sources: Iterable[Source]) -> TyDiagnostic:
-    """Return a report with the class of the value that is found marked if a file defines it."""
+    """Return a report with the class of the actual value marked if a file defines it."""
     found = _FOUND.search(item.message)
     if found is None:
         return item
@@ -81,7 +81,7 @@ def _definition(name: bytes) -> re.Pattern[bytes]:
 
 
 def _with_bases(name: bytes, files: Sequence[bytes]) -> Iterator[bytes]:
-    """Yield the files that define a name or, if it is a class, one that it inherits from."""
+    """Yield the files that define a name or, if it is a class, one of its bases."""
     names, seen = [name], {name}
     while names:
         definition = _definition(names.pop())

@@ -17,8 +17,7 @@ from scaffold.types.stubs.marks import MARK
 from scaffold.types.ty import TyDiagnostic
 
 Types = Sequence[tuple[str, str]]
-"""The functions that a module calls, each with what it gives the parameters; empty if that is not
-known."""
+"""The functions that a module calls, each with its argument types; empty if not known."""
 
 _REVEALED = re.compile(r"Revealed type: `(.*)`")
 _TEXT = re.compile(r'"[^"\\]*"')
@@ -27,11 +26,11 @@ _PLAIN = frozenset(
     {name for name, value in vars(builtins).items() if isinstance(value, type)}
     | {"Any", "Literal", "None", "False", "True", "Unknown"}
 )
-"""Names in types that mean the same everywhere."""
+"""Names in types that have the same meaning everywhere."""
 
 
 def revealing(passed: Sequence[Passed]) -> bytes:
-    """Return a file about which the type checker reports the types of what is passed."""
+    """Return a file with ``reveal_type`` calls for the values that a module passes."""
     return "".join(
         f"from {module} import {name}; reveal_type({name})\n" for module, name in _kept(passed)
     ).encode()
@@ -42,11 +41,11 @@ def types(
     reported: Iterable[TyDiagnostic],
     reached: Mapping[str, Source],
 ) -> Types:
-    """Return the types of what a module passes.
+    """Return the types of the values that a module passes.
 
     Args:
-        passed: What it passes.
-        reported: What is reported about the file that `revealing` returns.
+        passed: The values that it passes.
+        reported: The reports about the file from `revealing`.
         reached: The module and all that it imports, by place.
     """
     revealed: dict[int, str] = {}
@@ -59,14 +58,14 @@ def types(
 
 
 def signature(source: Source, callers: Iterable[Types]) -> str:
-    """Return what changes with the types that a module gets; empty if they are not known."""
+    """Return a signature of the argument types of a module; empty if they are not known."""
     calls = [call for passed in callers for call in passed]
     received = [call for call in calls if call[0].startswith(f"{source.dotted}.")]
     return repr(received) if all(given for _, given in received) else ""
 
 
 def _kept(passed: Sequence[Passed]) -> list[tuple[str, str]]:
-    """Return the modules and names of the values that are passed, besides constants."""
+    """Return the modules and names of the passed values, except constants."""
     names = {
         (call.module, value): None
         for call in passed
@@ -77,7 +76,7 @@ def _kept(passed: Sequence[Passed]) -> list[tuple[str, str]]:
 
 
 def _given(given: Mapping[str, str], by_name: Mapping[str, str]) -> str:
-    """Return what a call gives, by parameter; empty if the type of anything is not known."""
+    """Return the argument types of a call by parameter; empty if any of them is not known."""
     result: list[str] = []
     for key, value in given.items():
         type_ = by_name.get(value, value)
@@ -88,7 +87,7 @@ def _given(given: Mapping[str, str], by_name: Mapping[str, str]) -> str:
 
 
 def _tells_all(type_: str, reached: Mapping[str, Source]) -> bool:
-    """Tell whether a type is the same wherever its name is, whatever is edited."""
+    """Tell whether the name of a type identifies it, whatever is edited."""
     own = {place.split("/")[1] for place, item in reached.items() if not item.path}
     names = {*_NAME.findall(_TEXT.sub("", type_))}
     plain = {name for name in names if MARK not in name}

@@ -14,11 +14,11 @@ from scaffold.types.ty import TyDiagnostic
 
 _INVALID = "invalid-syntax"
 _LATE_GLOBAL = "prior to global declaration"
-"""What is said about an added `global` after a use of the name, which leaves the types right."""
+"""The error about an added `global` after a use of the name; the types are still right."""
 _COPY = "_ros2_"
-"""What the name of the copy of a file begins with."""
+"""The prefix of the name of a copy of a file."""
 _TYPES = "_ros2types_"
-"""What the name of a file begins with that asks for the types of what another one passes."""
+"""The prefix of the name of a file that reveals the types that a module passes."""
 
 
 class Checked:
@@ -27,8 +27,8 @@ class Checked:
     Args:
         source: The file.
         callers: The other modules that call its functions.
-        reached: It and they and all that these import, by place.
-        is_relevant: Whether it is checked also if its callers give it nothing.
+        reached: The file, its callers and everything that they import, by place.
+        is_relevant: Whether it is checked even if its callers pass nothing.
     """
 
     def __init__(
@@ -46,14 +46,14 @@ class Checked:
 
 
 class Project:
-    """A run of the type checker over some files; it starts when the object is made.
+    """A run of the type checker over some files; it starts on construction.
 
     Args:
         directory: Where to write the files.
         environment: The Python environment with the stubs.
         checked: The files to check.
-        content: Returns a file as the type checker is to see it.
-        passing: Modules that are asked for the types of what they pass, each with what it reaches.
+        content: Returns the rewritten content of a file for the type checker.
+        passing: Modules whose passed types are wanted, each with the files that it reaches.
     """
 
     def __init__(
@@ -95,9 +95,9 @@ class Project:
         )
 
     def _place(self, file: Checked) -> str:
-        """Return where a file is to be checked; write what its callers give it into a copy.
+        """Return the place where a file is checked; write the argument types into a copy.
 
-        What others see of it must not depend on who else calls it.
+        What other files import from it must not depend on its callers.
         """
         source = file.source
         received = [
@@ -115,7 +115,7 @@ class Project:
         return place
 
     def _ask_types(self, place: str) -> str:
-        """Write a file that asks for the types of what a module passes; return where it is."""
+        """Write a file that reveals the types that a module passes; return its place."""
         asking = passed_types.revealing(self._written[place].passed)
         return self._put_next_to(place, _TYPES, Extended(asking, ())) if asking else ""
 
@@ -125,7 +125,7 @@ class Project:
         return result
 
     def reports(self, file: Checked) -> list[TyDiagnostic]:
-        """Return what is reported about lines of the user in a file.
+        """Return the reports about the user's lines of a file.
 
         Raises:
             UnavailableError: the type checker fails or hangs.
@@ -134,12 +134,12 @@ class Project:
         return [*_of_user(self._results().get(place, ()), self._written[place])]
 
     def passed_types(self, place: str, reached: Mapping[str, Source]) -> passed_types.Types:
-        """Return the types of what a module passes; raises UnavailableError."""
+        """Return the types that a module passes; raises UnavailableError."""
         reported = self._results().get(_next_to(place, _TYPES), ())
         return passed_types.types(self._written[place].passed, reported, reached)
 
     def _results(self) -> Mapping[str, list[TyDiagnostic]]:
-        """Return what is reported, by place; of files that added lines break, without these."""
+        """Return the reports by place; files that added lines break are checked without them."""
         if self._reported is None and self._run is not None:
             self._reported = dict(self._run.results())
             broken = [place for place in self._texts if self._is_broken(place)]
@@ -152,7 +152,7 @@ class Project:
         return self._reported or {}
 
     def _is_broken(self, place: str) -> bool:
-        """Tell whether a file does not parse, which added lines may be the reason for."""
+        """Tell whether a file does not parse, possibly because of added lines."""
         is_extended = self._written[place].data != self._texts[place]
         reported = (self._reported or {}).get(place, ())
         return is_extended and any(
@@ -160,7 +160,7 @@ class Project:
         )
 
     def close(self) -> None:
-        """End the type checker."""
+        """Stop the type checker."""
         if self._run is not None:
             self._run.close()
 
@@ -171,7 +171,7 @@ def _next_to(place: str, prefix: str) -> str:
 
 
 def _of_user(diagnostics: Sequence[TyDiagnostic], written: Extended) -> Iterator[TyDiagnostic]:
-    """Yield what is reported about lines that are the user's, with their numbers."""
+    """Yield the reports about the user's lines, with the original line numbers."""
     for item in diagnostics:
         line = written.original_line(item.line)
         if line:
@@ -191,12 +191,12 @@ def _write(project: str, files: Iterable[tuple[str, bytes]]) -> None:
 
 
 def annotated(source: Source) -> bytes:
-    """Return a file with the types of its callbacks."""
+    """Return a file with annotated callbacks."""
     return source.with_callback_types if source.path else source.data
 
 
 def unannotated(source: Source) -> bytes:
-    """Return a file with no other annotations; nothing of one that does not parse."""
+    """Return a file with only the annotations of callbacks; empty if it does not parse."""
     if not source.path:
         return source.data
     return without_annotations(source.with_callback_types) or b""

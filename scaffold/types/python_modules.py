@@ -12,7 +12,7 @@ _REMOVED_IN: Mapping[tuple[int, int], frozenset[str]] = {
     (3, 12): frozenset({"asynchat", "asyncore", "distutils", "imp", "smtpd"}),
     (3, 13): frozenset({"cgi", "crypt", "imghdr", "pipes", "sndhdr", "telnetlib"}),
 }
-"""Modules by the version of Python that has them no more."""
+"""Modules by the version of Python that removed them."""
 _ADDED_IN: Mapping[str, tuple[int, int]] = {
     "tomllib": (3, 11),
     "asyncio.taskgroups": (3, 11),
@@ -32,16 +32,16 @@ _ADDED_IN: Mapping[str, tuple[int, int]] = {
     "pathlib.types": (3, 14),
     "string.templatelib": (3, 14),
 }
-"""Modules with the version of Python that has them first."""
+"""Modules with the version of Python that added them."""
 _REMOVED_NAMES: Mapping[str, tuple[int, int]] = {
     "sqlite3.version": (3, 14),
     "sqlite3.dbapi2.version": (3, 14),
 }
-"""Names that the stubs of the type checker lack too early: modules make them when asked."""
+"""Names that typeshed removes too early: the modules create them in ``__getattr__``."""
 
 
 def removed() -> frozenset[str]:
-    """Return the modules that Python had and that of the target does not have any more."""
+    """Return the modules that earlier Pythons had and that the target's Python no longer has."""
     python = distributions.target().python
     return frozenset[str]().union(
         *(names for version, names in _REMOVED_IN.items() if version <= python)
@@ -49,7 +49,7 @@ def removed() -> frozenset[str]:
 
 
 def later_modules() -> Mapping[str, str]:
-    """Return the modules that the target does not have yet, with the first Python that does."""
+    """Return the modules that the target does not have yet, with the Python that added them."""
     python = distributions.target().python
     return {
         name: ".".join(map(str, version)) for name, version in _ADDED_IN.items() if version > python
@@ -57,10 +57,10 @@ def later_modules() -> Mapping[str, str]:
 
 
 def is_of_another(name: str) -> bool:
-    """Tell whether a module that the target lacks is one of another Python.
+    """Tell whether a module that the target lacks exists in another Python.
 
     Args:
-        name: Its full name; a package counts whose modules are all new.
+        name: Its full name; a package counts if all of its modules are new.
     """
     return name.partition(".")[0] in removed() or any(
         item == name or item.startswith(f"{name}.") for item in later_modules()
@@ -72,7 +72,7 @@ def still_has(module: str, name: str) -> bool:
 
     Args:
         module: Its full name.
-        name: What is in it.
+        name: The name in the module.
     """
     removed_in = _REMOVED_NAMES.get(f"{module}.{name}")
     return removed_in is not None and distributions.target().python < removed_in

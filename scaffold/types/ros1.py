@@ -33,7 +33,7 @@ def _imported(statement: ast.Import | ast.ImportFrom) -> list[str]:
 
 
 def _conditions(module: PythonModule, node: ast.AST) -> Iterator[tuple[str, bool]]:
-    """Yield the conditions that a node runs under, ``a != b`` and ``not a`` as their opposites."""
+    """Yield the conditions under which a node runs; ``a != b`` and ``not a`` are negated."""
     for condition in all_conditions(module, node):
         test, needed = condition.test, condition.needed
         match test:

@@ -29,7 +29,7 @@ _IMPORT = re.compile(
     re.MULTILINE | re.VERBOSE,
 )
 _OF_PYTHON = "_py"
-"""The end of the name of a package whose Python package lacks it: ``tf2_ros_py``."""
+"""The suffix of a ROS package that its Python package lacks: ``tf2_ros_py``."""
 _LATER = re.compile(rb"[;:][ \t]*(?=(?:from|import)[ \t])")
 """Matches what is before a second statement on a line."""
 _WORD = re.compile(rb"[\w.]+")
@@ -39,11 +39,11 @@ class Source:
     """A file as a type checker sees it.
 
     Args:
-        package: Where it is.
-        path: Its path there; empty for stubs, which are made.
+        package: The package of the file.
+        path: Its path in the package; empty for stubs, which are generated.
         place: Its path for the type checker.
-        module: The package that relative imports start from; empty if nobody can import it.
-        data: What is in it.
+        module: The package that relative imports start from; empty if it is not importable.
+        data: The content.
     """
 
     def __init__(self, package: Package, path: str, place: str, module: str, data: bytes) -> None:
@@ -53,26 +53,26 @@ class Source:
         self.data = data
         self.digest = digest(data)
         self.imports = frozenset(name for name, _ in imported_names(data, module))
-        """Dotted names: modules, and what may be modules or names in them."""
+        """Dotted names of modules, or of names in modules."""
         self.roots = frozenset(name.partition(".")[0] for name in self.imports)
 
     @property
     def dotted(self) -> str:
-        """The name to import it by; empty if it cannot be imported."""
+        """The dotted module name; empty if it cannot be imported."""
         parts = self.place.removesuffix(".py").split("/")
         return ".".join(parts[1:]) if parts[0] == LIBRARY else ""
 
     @cached_property
     def with_callback_types(self) -> bytes:
-        """What is in it, with annotations for its callbacks."""
+        """The content with annotated callbacks."""
         return with_callback_types(self.data)
 
 
 def imported_names(data: bytes, module: str) -> Iterator[tuple[str, str]]:
-    """Yield all that may be imported, as absolute dotted names, and what each is called here.
+    """Yield all imports as absolute dotted names, each with its local name.
 
     Args:
-        data: What is in a file.
+        data: The content of a file.
         module: The package that its relative imports start from; empty if there is none.
     """
     if b"import" not in data:
@@ -129,9 +129,9 @@ class Sources:
         return self._of(package).source(path)
 
     def reached(self, source: Source) -> Mapping[str, Source]:
-        """Return a file and all that it imports, directly or not, by place.
+        """Return a file and everything that it imports, directly or not, by place.
 
-        What is looked up counts as used by the package of the file.
+        Everything that is looked up counts as used by the package of the file.
         """
         result = {source.place: source}
         pending = [source]
@@ -143,9 +143,9 @@ class Sources:
         return result
 
     def are_others(self, user: Package, reached: Mapping[str, Source]) -> bool:
-        """Tell whether code of a package means a package that is not importable here.
+        """Tell whether code of a package refers to a package that is not importable here.
 
-        That is one that has the name of another package, in another workspace of the repository.
+        Such a package has the name of another one in another workspace of the repository.
         """
         roots = frozenset[str]().union(*(item.roots for item in reached.values()))
         packages = [self._package(user, root) for root in roots]
@@ -170,7 +170,7 @@ class Sources:
             candidates = [user if user.name == name else user.workspace.get(name) for name in names]
             packages = [item for item in candidates if item is not None]
             if user not in packages and _has_module(user, root):
-                packages = []  # it is its own, whatever it has in common with the other one
+                packages = []  # the package itself, even if another workspace has one of this name
             importable = [item for item in packages if self._of(item).provides(root)]
             self._looked_up[key] = next(iter(importable or packages), None)
         return self._looked_up[key]
@@ -196,7 +196,7 @@ class _PackageSources:
         self._files = frozenset(package.tree.files)
         self._root = package.name.removesuffix(_OF_PYTHON)
         self._above = self._find_above()
-        # Nobody can import what is in a directory of this name.
+        # Files in a directory of this name cannot be imported.
         place = f"{package.name} {package.directory}".encode("utf-8", "surrogateescape")
         self._outside = f"files-{digest(place)[:16]}"
 
@@ -204,7 +204,7 @@ class _PackageSources:
         """Return the directory above the importable package, with its slash; ``None`` without."""
         name = self._package.name
         if not name.isidentifier() or self._package.workspace.is_hidden(self._package):
-            return None  # another package of the same name is the one that is imported
+            return None  # another package of the same name is imported instead
         for root in dict.fromkeys((name, self._root)):
             for above in ("", "src/"):
                 start = f"{above}{root}/"
@@ -240,11 +240,11 @@ class _PackageSources:
         if start is None or not path.startswith(start):
             return f"{self._outside}/{name}", ""
         place = name[len(self._above or "") :]
-        # A module and the __init__.py of a package start from the same one.
+        # Relative imports of a module and of __init__.py start from the same package.
         return f"{LIBRARY}/{place}", place.rpartition("/")[0].replace("/", ".")
 
     def modules(self, name: str) -> Iterator[Source]:
-        """Yield the files that importing a dotted name may look at."""
+        """Yield the files that importing a dotted name may read."""
         yield from self._interfaces(name)
         if self._above is None:
             return

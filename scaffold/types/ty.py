@@ -1,7 +1,7 @@
 """Runs ty, a type checker, in the background and parses its output.
 
 ty runs in a directory that contains only the files written for it, with its own configuration and
-environment: it reads nothing of the user's but the files to check.
+environment: of the user's files, it reads only those to check.
 """
 
 from __future__ import annotations
@@ -20,14 +20,14 @@ from scaffold.programs import bundled
 from scaffold.record import NamedTuple
 
 VERSION = "0.0.105"
-"""The one that the rules know the messages of; pinned in pyproject.toml as well."""
+"""The version whose messages the rules parse; pinned in pyproject.toml as well."""
 SECONDS = 60.0
-"""Of waiting for ty after everything else is done; it takes 8 for the largest workspaces."""
+"""The timeout for ty after everything else is done; the largest workspaces take 8 seconds."""
 MAX_OUTPUT = 64_000_000
 MOST_CRASHES = 40
-"""Of one run, while the file that causes them is searched for."""
+"""The maximum number of crashes in one run, while searching for the file that causes them."""
 MAX_ARGUMENTS = 100_000
-"""Bytes of file names for one process; the system's limit is at least 128 KiB for all arguments."""
+"""The maximum size of file names for one process; the system allows at least 128 KiB."""
 
 KINDS = (
     "import-not-found",
@@ -50,21 +50,21 @@ KINDS = (
     "invalid-raise",
     "redundant-condition",
 )
-"""The rules of ty that ours are made of; all others are off."""
+"""The rules of ty that our rules are based on; all others are off."""
 
 _NARROWED = re.compile(r" & ~Always(?:Falsy|Truthy)")
-"""Matches what a condition showed of a type, such as that a text is not empty."""
+"""Matches what a condition narrowed a type to, such as a non-empty string."""
 CONFIGURATION = "ty.toml"
 LIBRARY = "lib"
 """Where the importable packages of the workspace are, relative to the project."""
 
 
 class UnavailableError(ScaffoldError):
-    """Types cannot be checked; the text says why."""
+    """Types cannot be checked; the message says why."""
 
 
 class CrashError(UnavailableError):
-    """The type checker failed; one of the files may be the reason."""
+    """The type checker failed, possibly because of one of the files."""
 
 
 class TyDiagnostic(NamedTuple):
@@ -79,7 +79,7 @@ class TyDiagnostic(NamedTuple):
 
 
 class Run:
-    """A run over some files of a project, started when the object is made.
+    """A run over some files of a project, started on construction.
 
     Args:
         project: The directory with the files and the configuration.
@@ -87,7 +87,7 @@ class Run:
         files: Paths relative to the project.
 
     Raises:
-        UnavailableError: ty cannot be started, or is another version.
+        UnavailableError: ty cannot be started or has another version.
         OSError: the configuration cannot be written.
     """
 
@@ -106,7 +106,7 @@ class Run:
         self._start(self._chunks[0])
 
     def results(self) -> Mapping[str, list[TyDiagnostic]]:
-        """Wait, and return what was reported by file.
+        """Wait, and return the reports by file.
 
         Raises:
             UnavailableError: ty fails or hangs.
@@ -124,7 +124,7 @@ class Run:
         return result
 
     def _reported(self, files: Sequence[str]) -> list[tuple[str, TyDiagnostic]]:
-        """Return what is reported about files; one that ends ty costs no other its types."""
+        """Return the reports about files; a file that crashes ty does not affect the others."""
         assert self._running is not None  # noqa: S101  it was started for these files
         try:
             return list(_parse(self._running.output(SECONDS)))
@@ -165,11 +165,11 @@ class _Process:
 
     def __init__(self, arguments: Sequence[str], directory: str) -> None:
         program = executable()
-        # Nothing else of the user's environment: variables name configurations and environments.
+        # Nothing else of the user's environment: variables may name configurations.
         environment = {
             "HOME": directory,
             "XDG_CONFIG_HOME": directory,
-            # The workers of this tool need the others, and threads that wait cost time as well.
+            # The workers of this tool need the other cores, and waiting threads cost time as well.
             "TY_MAX_PARALLELISM": str(max(len(os.sched_getaffinity(0)) // 2, 1)),
         }
         reading, writing = os.pipe()
@@ -190,7 +190,7 @@ class _Process:
         self._pipe = reading
 
     def output(self, seconds: float) -> bytes:
-        """Wait for the end, and return what was written.
+        """Wait for the end, and return the output.
 
         Raises:
             UnavailableError: it fails, takes too long, or writes too much.
@@ -205,7 +205,7 @@ class _Process:
         return output
 
     def close(self) -> None:
-        """End it; nothing is left to do after it has ended."""
+        """Stop the process; does nothing if it has ended."""
         if self._id:
             os.kill(self._id, signal.SIGKILL)
             self._wait()
@@ -218,7 +218,7 @@ class _Process:
 
 
 def _read(pipe: int, seconds: float) -> bytes | None:
-    """Return all that is written to a pipe; ``None`` if it takes too long or is too much."""
+    """Return the whole output of a pipe; ``None`` if it takes too long or is too large."""
     parts: list[bytes] = []
     total = 0
     deadline = time.monotonic() + seconds
@@ -235,7 +235,7 @@ def _read(pipe: int, seconds: float) -> bytes | None:
 
 def _parse(output: bytes) -> Iterator[tuple[str, TyDiagnostic]]:
     if output.strip() == b"[]":
-        return  # most files are right, and json takes long to import
+        return  # most files have no reports, and json takes long to import
     import json
 
     try:
@@ -243,7 +243,7 @@ def _parse(output: bytes) -> Iterator[tuple[str, TyDiagnostic]]:
             place = entry["location"]["positions"]
             begin, end = place["begin"], place["end"]
             kind = entry["check_name"]
-            if kind == "panic":  # in some file, and the others were left out
+            if kind == "panic":  # in one file, and the others were skipped
                 raise CrashError(f"ty failed: {entry['description']}")
             yield (
                 entry["location"]["path"],
@@ -306,10 +306,10 @@ def executable() -> str:
 
 @lru_cache(maxsize=1)
 def _require_version(_identity: str) -> None:
-    """Make sure that the program is the one whose messages are known, once for each program.
+    """Check that the program has the expected version, once for each program.
 
     Raises:
-        UnavailableError: it is another one.
+        UnavailableError: it has another version.
     """
     output = _Process(["--version"], os.sep).output(SECONDS)
     version = (output.decode(errors="replace").split() or [""])[-1]
@@ -320,7 +320,7 @@ def _require_version(_identity: str) -> None:
 
 
 def identity() -> str:
-    """Return what changes when another ty is installed.
+    """Return a signature that changes when another ty is installed.
 
     Raises:
         UnavailableError: there is none.

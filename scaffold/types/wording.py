@@ -6,7 +6,7 @@ import re
 
 from scaffold.types.stubs.marks import MARK, MARKED, full_name, short_name
 
-# linear: a type in a message is cut off by the type checker
+# linear: the type checker truncates types in messages
 _TEXT = re.compile(r"""b?"(?:[^"\\]|\\.)*\"""")
 _IDENTIFIER = re.compile(rf"[^\W\d][\w{MARK}]*")
 _BUILTINS = frozenset(
@@ -19,19 +19,19 @@ _CONTAINER = re.compile(r"(?:list|dict|set|tuple)\[[^|]*\]")
 _CLASSES = re.compile(rf"(?:{MARKED}|bytes|None)(?: \| (?:{MARKED}|bytes|None))*")
 _ITERABLE = re.compile(r"\b(?:Iterable|Sequence)\[")
 _INNERMOST = re.compile(r"\([^()\[\]]*\)|\[[^()\[\]]*\]")
-"""Matches the arguments of a function or a type that have no such arguments themselves."""
+"""Matches innermost arguments of a function or a type."""
 _SEQUENCE = re.compile(r"(?:Sequence|list|tuple)\[.*\]")
 _NO_SEQUENCE = re.compile(r"(?:dict|set)\[.*\]|(?:int|float|bool)\*?|Literal\[-?\d+\]")
 _NUMBERS = re.compile(r"Supports(?:Float|Int|Index)(?: \| Supports(?:Float|Int|Index))*")
 _PLAIN = re.compile(r"Literal\[.*\]|(?:str|bytes|int|float|bool|list|tuple|dict)\b.*", re.DOTALL)
-"""Matches types of values that are no classes."""
+"""Matches types of values that are not classes."""
 _PLAIN_OR_CLASS = re.compile(r"(?:str|bytes|int|float|bool)\*?|Literal\[.*\]|<class '[^']+'>")
-"""Matches types of values that are nothing else: numbers, texts, and classes themselves."""
+"""Matches types of numbers, strings, and classes themselves."""
 _KINDS = {'"': "str", "b": "bytes", "T": "bool", "F": "bool"}
 
 
 def is_certain(type_: str) -> bool:
-    """Tell whether a type is one: of Python or of the stubs, no union, nothing unknown."""
+    """Tell whether a type is a single known one: of Python or of the stubs, not a union."""
     bare = _TEXT.sub("str", type_)
     if "|" in _without_arguments(bare) or _ANYTHING.search(bare):
         return False
@@ -39,10 +39,10 @@ def is_certain(type_: str) -> bool:
 
 
 def is_certain_misfit(expected: str, given: str) -> bool:
-    """Tell whether a value of one type certainly does not fit where another is expected.
+    """Tell whether a value of one type is certainly not accepted where another is expected.
 
     Args:
-        expected: The type, or several with ``|`` between them.
+        expected: The expected type, or several separated by ``|``.
         given: The type of the value, which the type checker has rejected.
     """
     if expected.startswith("type["):
@@ -50,11 +50,11 @@ def is_certain_misfit(expected: str, given: str) -> bool:
         return all(_PLAIN.fullmatch(part.strip()) for part in parts)
     is_sequence = _SEQUENCE.fullmatch(expected) and "|" not in _without_arguments(expected)
     if is_sequence and _NO_SEQUENCE.fullmatch(given):
-        return True  # whatever is in either
+        return True  # whatever their elements
     if not is_certain(_ITERABLE.sub("list[", expected).replace("|", ",")):
         return False
     if _CONTAINER.fullmatch(given) and _CLASSES.fullmatch(expected):
-        return True  # whatever is in it
+        return True  # whatever its elements
     if is_certain(given) or is_function(given):
         return True
     parts = [part.strip() for part in _alternatives(_TEXT.sub("str", given))]
@@ -63,9 +63,9 @@ def is_certain_misfit(expected: str, given: str) -> bool:
 
 
 def elements_misfit(expected: str, given: str) -> str:
-    """Return what the elements of a list must be and are, if they certainly do not fit.
+    """Return the expected and actual element types of a list, if they certainly do not fit.
 
-    Only messages, texts and containers are judged: numbers and ``None`` may be replaced one by one.
+    Only messages, strings and containers count: numbers and ``None`` may be replaced one by one.
     """
     wanted = re.fullmatch(r"Iterable\[(.+)\]", expected)
     listed = re.fullmatch(rf"list\[({MARKED}|str|(?:list|dict|tuple)\[.+\])\]", given)
@@ -79,7 +79,7 @@ def elements_misfit(expected: str, given: str) -> str:
 
 
 def _without_arguments(type_: str) -> str:
-    """Return a type without what is in brackets."""
+    """Return a type without its arguments in brackets."""
     before = ""
     while before != type_:
         before, type_ = type_, re.sub(r"\[[^\[\]]*\]", "", type_)
@@ -87,24 +87,24 @@ def _without_arguments(type_: str) -> str:
 
 
 def is_function(type_: str) -> bool:
-    """Tell whether a type is that of a function or a method."""
+    """Tell whether a type is a function or a method."""
     return re.match(r"(?:bound method|def) ", type_) is not None or type_.startswith("(")
 
 
 def class_in(type_: str) -> str:
-    """Return the marked name of the class that a type is an object of; empty for others."""
+    """Return the marked name of the class of an instance type; empty for others."""
     match = re.fullmatch(rf"({MARKED})(?:\[.*\])?", type_, re.DOTALL)
     return match[1] if match else ""
 
 
 def class_itself(type_: str) -> str:
-    """Return the marked name of a class where that is the value, not an object of it."""
+    """Return the marked name of a class if the value is the class itself, not an instance."""
     match = re.fullmatch(rf"(?:<class '({MARKED})'>|type\[({MARKED})\])", type_)
     return (match[1] or match[2]) if match else ""
 
 
 def in_words(type_: str) -> str:
-    """Return what a value of a type is, such as ``an int`` or ``the class 'String'``."""
+    """Return the description of a value of a type: ``an int``, ``the class 'String'``."""
     if type_ == "None":
         return "None"
     literal = re.fullmatch(r"Literal\[(.).*\]", type_, re.DOTALL)
@@ -140,7 +140,7 @@ def _alternatives(type_: str) -> list[str]:
 
 
 def _readable(name: str) -> str:
-    """Return the dotted name of a type, or the words that a protocol is: ``some_numbers_``."""
+    """Return the dotted name of a type, or the description of a protocol: ``some_numbers_``."""
     plain = name.strip("()")
     if MARK not in plain:
         return "list" if plain in {"Iterable", "Sequence"} else plain
@@ -149,7 +149,7 @@ def _readable(name: str) -> str:
 
 
 def unlike(expected: str, given: str) -> str:
-    """Return two types in words: ``an int, not a str``; of lists alike, what is in them."""
+    """Return two types in words: ``an int, not a str``; for two lists, their elements."""
     needed, got = with_article(name_of(expected)), in_words(given)
     if got in {with_article(name_of(part)) for part in _alternatives(expected)}:
         needed, got = _with_elements(expected), _with_elements(given)
@@ -157,7 +157,7 @@ def unlike(expected: str, given: str) -> str:
 
 
 def _with_elements(type_: str) -> str:
-    """Return what a list or the like has in it: ``a list of std_msgs.msg.String, or None``."""
+    """Return a container with its elements: ``a list of std_msgs.msg.String, or None``."""
     words: list[str] = []
     for part in _alternatives(type_):
         name, bracket, elements = part.strip().partition("[")
@@ -167,7 +167,7 @@ def _with_elements(type_: str) -> str:
 
 
 def with_article(noun: str) -> str:
-    """Return a noun with ``a`` or ``an``, bytes without; rcl begins with the sound of an R."""
+    """Return a noun with ``a`` or ``an``, bytes without; rcl is pronounced with a leading R."""
     if noun == "bytes":
         return noun
     is_vowel = noun[:1].lower() in "aeio" or noun.startswith("rcl")

@@ -16,10 +16,10 @@ class Extended(NamedTuple):
     added: Sequence[int]
     """The numbers of these lines, in order."""
     passed: Sequence[Passed] = ()
-    """What it gives functions of other modules."""
+    """The arguments that it passes to functions of other modules."""
 
     def original_line(self, line: int) -> int:
-        """Return the number that a line has in the user's file; 0 for one that is added."""
+        """Return the number of a line in the user's file; 0 for an added line."""
         place = bisect_left(self.added, line)
         is_added = place < len(self.added) and self.added[place] == line
         return 0 if is_added else line - place
@@ -28,12 +28,12 @@ class Extended(NamedTuple):
 def with_lines(
     text: str, lines: Mapping[int, Sequence[str]], stretches: Iterable[tuple[int, int, str]] = ()
 ) -> Extended:
-    """Return a text with more lines.
+    """Return a text with inserted lines.
 
     Args:
         text: The text.
-        lines: What to put before the line that starts at a place; of several lines, as it is.
-        stretches: Where something else is to be written, within a line, and what.
+        lines: The text to insert before the line that starts at a position.
+        stretches: The replacements within lines, by position.
     """
     parts: list[str] = []
     added: list[int] = []

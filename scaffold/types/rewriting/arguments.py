@@ -20,9 +20,9 @@ from scaffold.types.rewriting.statements import class_starts, definitions, state
 from scaffold.types.stubs import makers
 
 _EITHER = "_ros2_either"
-"""A condition that nothing is known about."""
+"""A condition of unknown value."""
 _MOST_CALLS = 12
-"""Of one function; what is called more often is used for anything."""
+"""The maximum number of calls of one function; one with more accepts ``Any``."""
 _FUNCTION = re.compile(
     r"^(?P<indent> *)(?:async )?def (?P<name>[^\W\d]\w*)"
     r"\((?P<parameters>(?:[^()]|\([^()]*\)){1,800}\)) *(?:->[^\n]{0,200})?: *"
@@ -31,35 +31,35 @@ _FUNCTION = re.compile(
 )
 _NAME = re.compile(r"\w+")
 _PARAMETER = re.compile(r"(\*{0,2}\w*|/)[ ]*(:[^=\"'\n#]*?)?[ ]*(?:=\s*(.*))?", re.DOTALL)
-"""Matches a parameter; not one with quotes in its annotation, as those of callbacks have."""
+"""Matches a parameter; not one with a quoted annotation, as callbacks get."""
 _CONSTANT = re.compile(r"-?\d[\w.]*|'[^'\\\n]*'|\"[^\"\\\n]*\"|True|False|None")
 _OTHER_SCOPE = re.compile(r"\b(?:lambda|yield)\b|:=|#|\bself\s*(?:$|[,)\]])")
-"""Matches what is something else on another line, and an object whose class may be a subclass."""
+"""Matches names that differ on another line, and objects that may be of a subclass."""
 
 
 class _Function(NamedTuple):
     name: str
-    """For other modules: ``to_pose``, ``Arm.move``, or ``Arm`` for its constructor."""
+    """The name for other modules: ``to_pose``, ``Arm.move``, or ``Arm`` for its constructor."""
     called: str
-    """What its calls begin with: ``self.name(`` or ``name(``."""
+    """The start of its calls: ``self.name(`` or ``name(``."""
     place: int
-    """Where its parameters begin."""
+    """The start of its parameters."""
     parameters: str
     is_method: bool
     start: int
     inner: str
-    """What its body is indented by."""
+    """The indentation of its body."""
     segment: tuple[int, int]
-    """Where it is called: in its class, or in the whole file."""
+    """The range in which it is called: its class, or the whole file."""
 
 
 def with_arguments(data: bytes, module: str = "", received: Sequence[Passed] = ()) -> Extended:
-    """Return a file with what its functions are given.
+    """Return a file with the argument types of its functions.
 
     Args:
-        data: What is in the file.
-        module: Its dotted name, for what it passes to other modules of its package.
-        received: What those pass to it.
+        data: The content of the file.
+        module: Its dotted name, for the calls of other modules of its package.
+        received: The arguments from other modules.
     """
     try:
         text = data.decode()
@@ -102,7 +102,7 @@ def _add(lines: dict[int, list[str]], more: Mapping[int, Sequence[str]]) -> None
 
 
 def _passed(text: str, data: bytes, module: str, lines: dict[int, list[str]]) -> Iterator[Passed]:
-    """Add the lines before calls of functions of other modules; yield what they keep."""
+    """Add the lines before calls of functions of other modules; yield the stored values."""
     for call in places(text, own_names(data, module)):
         words, end = _arguments(text, call.arguments)
         place = statement_around(text, call.start, end) if words else -1
@@ -120,7 +120,7 @@ def _passed(text: str, data: bytes, module: str, lines: dict[int, list[str]]) ->
 
 
 def _keep(text: str, place: int, values: Mapping[str, str], lines: dict[int, list[str]]) -> None:
-    """Add a line that keeps values under global names, before a statement."""
+    """Add a line before a statement that stores values in global names."""
     indent = text[place : place + len(text[place:]) - len(text[place:].lstrip(" "))]
     kept = "; ".join(f"{name} = [{value}]" for name, value in values.items())
     lines.setdefault(place, []).append(f"{indent}global {', '.join(values)}; {kept}")
@@ -132,7 +132,7 @@ def _follow(
     """Add the lines before the calls of a function, and the one at its start.
 
     Returns:
-        The parameters that are taken from there, and where their annotations are.
+        The parameters with inferred types, and the positions of their annotations.
     """
     sources: dict[str, list[str]] = {}
     calls = [*_calls(text, function)]
@@ -197,22 +197,22 @@ def _functions(text: str) -> Iterator[_Function]:
 
 
 def _is_unique(text: str, function: _Function) -> bool:
-    """Tell whether no other function or class has the name of a function."""
+    """Tell whether the name of a function is unique."""
     name = function.called.removeprefix("self.")
     class_ = name.removesuffix("(")
     return sum(map(text.count, (f"def {name}", f"class {name}", f"class {class_}:"))) == 1
 
 
 def _decorator(text: str, start: int) -> str:
-    """Return what is in the line before a definition if it is a decorator, or may be one."""
+    """Return the line before a definition if it is, or may be, a decorator."""
     line = text[text.rfind("\n", 0, max(start - 1, 0)) + 1 : max(start - 1, 0)].strip()
     return line[1:] if line.startswith("@") else line if line == ")" else ""
 
 
 def _calls(text: str, function: _Function) -> Iterator[tuple[int, Mapping[str, str], bool]]:
-    """Yield the calls of a function: where their statements begin, and their arguments.
+    """Yield the calls of a function: the start of the statement, and the arguments.
 
-    The third value tells that there will be more of these: ``partial(self.on_pose, name)``.
+    The third value tells whether more arguments follow later: ``partial(self.on_pose, name)``.
     """
     yield from _calls_as(text, function, function.called, is_partial=False)
     if "partial(" in text:
@@ -247,10 +247,10 @@ def _calls_as(
 
 
 def _arguments(text: str, start: int) -> tuple[Mapping[str, str], int]:
-    """Return the arguments of a call, and where it ends; ``self`` as an object of its class."""
+    """Return the arguments of a call, and its end; ``self`` as an instance of its class."""
     words, end = arguments_of(text, start)
     if any("#" in word for word in words.values()):
-        return {}, end  # the commas of a comment are none
+        return {}, end  # commas in a comment do not count
     if "self" not in words.values():
         return words, end
     return {
@@ -260,7 +260,7 @@ def _arguments(text: str, start: int) -> tuple[Mapping[str, str], int]:
 
 
 def _object(text: str, at: int) -> str:
-    """Return an object of the class around a place; ``self`` if the file makes no such object."""
+    """Return an instance of the class around a place; ``self`` if the file creates none."""
     start = text.rfind("\nclass ", 0, at) + 1
     class_ = _NAME.match(text, start + len("class ")) if text.startswith("class ", start) else None
     if class_ is None or re.search(r"\n[^\s#)]", text[start:at]):
@@ -280,7 +280,7 @@ class _Parameters:
         self._defaults: dict[str, str] = {}
         """Empty where there is none."""
         self.annotations: dict[str, tuple[int, int]] = {}
-        """Where the annotations are, by the name of the parameter."""
+        """The positions of the annotations, by parameter."""
         self._positional: list[str] = []
         is_by_keyword = False
         at = 0
@@ -300,9 +300,9 @@ class _Parameters:
             del self._positional[:1]
 
     def given(self, words: Mapping[str, str], *, is_partial: bool = False) -> Mapping[str, str]:
-        """Return what a call gives the parameters, by name; nothing if that is not sure.
+        """Return the arguments of a call by parameter; empty if uncertain.
 
-        One that is partial leaves the other parameters to a later call.
+        A partial call leaves the other parameters to a later call.
         """
         result: dict[str, str] = {}
         for key, value in words.items():

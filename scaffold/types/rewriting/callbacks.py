@@ -47,19 +47,19 @@ _REBOUND = (
     r"(?:^|[;:])[ \t]*{0}[ \t]*(?::[^=\n]*)?=(?!=)[^\n]*(?<!,)$"
     r"|\b(?:for|as)[ \t]+{0}\b|\b{0}[ \t]*:="
 )
-"""Matches what gives a name another value; not a keyword argument on a line of its own."""
+"""Matches code that rebinds a name; not a keyword argument on a line of its own."""
 _Registered = tuple[str, tuple[str, ...]]
 _GOAL_HANDLE = "_Ros2ServerGoalHandle"
 _FUTURE = "_Ros2Future"
 STATUS = "_Ros2DiagnosticStatus"
-"""The name of the class of what tasks of diagnostics fill in."""
+"""The name of the class of the argument of diagnostic tasks."""
 # linear: a line has 20 kB at most
 _TASK = re.compile(
     r"\.add\([^()\n]*,\s*(?:self\.)?(?P<added>\w+)\)"
     r"|^class \w+\((?:\w+\.)?DiagnosticTask\):",
     re.MULTILINE,
 )
-"""Matches a function that is made a task of diagnostics, or a class of tasks, which has ``run``."""
+"""Matches a function used as a diagnostic task, or a class of tasks, which has ``run``."""
 _ACCEPTED = "_Ros2ClientGoalHandle"
 _PARAMETER_OBJECT = "_Ros2Parameter"
 _IMPORTS = {
@@ -69,15 +69,15 @@ _IMPORTS = {
     STATUS: f"\nfrom diagnostic_updater import DiagnosticStatusWrapper as {STATUS}\n",
     _PARAMETER_OBJECT: f"\nfrom rclpy.parameter import Parameter as {_PARAMETER_OBJECT}\n",
 }
-"""What is imported at the end of a file, by the name that is used."""
+"""The imports to append to a file, by the name that is used."""
 # linear: up to 2 kB are searched
 _FUTURE_NAME = re.compile(r"(?:self\.)?\b\w+$")
 # linear: as above
 _SENT_HERE = re.compile(r"\.send_goal_async\([^()]*(?:\([^()]*\)[^()]*)*\)$")
 _SIGN = re.compile(r"[()\[\]{},'\"]|\\.", re.DOTALL)
-"""Matches what may end an argument or a string; with a backslash, what follows as well."""
+"""Matches a character that may end an argument or a string; escaped ones as a whole."""
 _LONGEST = 2_000
-"""Characters of a call that are looked at."""
+"""The maximum length of a call in characters; the rest is not inspected."""
 _CALLBACKS = {
     "create_subscription": (0, {"callback": 2}),
     "create_service": (0, {"callback": 2}),
@@ -91,13 +91,13 @@ _CALLBACKS = {
         },
     ),
 }
-"""Where each function takes the type, and where it takes callbacks besides by name."""
+"""The argument positions of the type and of the callbacks, by function."""
 _FUNCTIONS = frozenset({*_CALLBACKS, "add_done_callback"})
 _LINES_BACK = 40
 
 
 def with_callback_types(data: bytes) -> bytes:
-    """Return a file with annotations for its callbacks."""
+    """Return a file with annotated callbacks."""
     if not any(word in data for word in _WORDS):
         return data
     try:
@@ -120,7 +120,7 @@ def with_callback_types(data: bytes) -> bytes:
 def _add_indirect(
     text: str, segments: Sequence[str], registered: Sequence[list[_Registered | None]]
 ) -> None:
-    """Add what is registered in other ways than by its name, class by class."""
+    """Add the callbacks that are registered indirectly, class by class."""
     starts = [*accumulate((segment.count("\n") for segment in segments), initial=1)]
     lines = text.split("\n")
     for item in registrations(text, _FUNCTIONS):
@@ -137,7 +137,7 @@ def _add_indirect(
 def _types_given(
     function: str, arguments: Mapping[str, ast.expr], before: str
 ) -> Iterator[tuple[str, tuple[str, ...]]]:
-    """Yield the arguments that are callbacks, with the types of what these get."""
+    """Yield the arguments that are callbacks, with their argument types."""
     if function == "add_done_callback":
         text, dot, _ = before.rpartition(".")
         brings = f"[{_ACCEPTED}]" if _is_of_goal(text + dot, len(text + dot)) else ""
@@ -158,7 +158,7 @@ def _types_given(
 def _annotated(
     segment: str, registered: Sequence[_Registered | None], *, has_ros_futures: bool
 ) -> str:
-    """Return a class, or what is outside of classes, with what its callbacks get."""
+    """Return the code of a class, or outside of classes, with annotated callbacks."""
     types: dict[str, tuple[str, ...]] = {}
     for name, given in filter(None, registered):
         if any(item.startswith(_FUTURE) for item in given) and not has_ros_futures:
@@ -173,7 +173,7 @@ def _annotated(
 
 
 def _defined_once(segment: str) -> list[re.Match[str]]:
-    """Return the definitions whose names no other has, in their order."""
+    """Return the definitions with unique names, in order."""
     definitions = [*_DEFINITION.finditer(segment)]
     times = Counter(definition[2] for definition in definitions)
     return [definition for definition in definitions if times[definition[2]] == 1]
@@ -190,14 +190,14 @@ def _typed(definition: re.Match[str], given: tuple[str, ...], body: str) -> str:
 
 
 def _parameter(parameter: str, type_: str, body: str) -> str:
-    """Return a parameter with its type, or bare if the function gives the name another value."""
+    """Return a parameter with its type, or bare if the function rebinds it."""
     name = _name(parameter)
     is_rebound = re.search(_REBOUND.format(name), body, re.MULTILINE)
     return f'{name}: "{type_}"' if type_ and not is_rebound else name
 
 
 def function_body(segment: str, start: int, end: int) -> str:
-    """Return the lines of a function: those that are indented further than its ``def``."""
+    """Return the lines of a function that are indented further than its ``def``."""
     line = segment.rfind("\n", 0, start) + 1
     indent = re.match(r"[ \t]*", segment[line:start])
     after = re.compile(rf"\n(?!{indent[0] if indent else ''}[ \t]|[ \t]*(?:#|$))", re.MULTILINE)
@@ -213,9 +213,9 @@ def _name(parameter: str) -> str:
 
 
 def _registered(segment: str) -> Iterator[_Registered | None]:
-    """Yield the callbacks that are registered, with the types of their arguments.
+    """Yield the registered callbacks with their argument types.
 
-    ``None`` stands for one that is not named there.
+    ``None`` stands for a callback without a name.
     """
     if "registerCallback(" in segment:
         yield from _synchronized(segment)
@@ -241,7 +241,7 @@ def _registered(segment: str) -> Iterator[_Registered | None]:
 def _of_typed(
     segment: str, function: str, arguments: Mapping[str, str]
 ) -> Iterator[_Registered | None]:
-    """Yield the callbacks of a call with a type; ``None`` for one that is not named there."""
+    """Yield the callbacks of a call with a type; ``None`` for one without a name."""
     place, callbacks = _CALLBACKS[function]
     type_ = arguments.get(str(place), "")
     if not _TYPE.fullmatch(type_):
@@ -258,7 +258,7 @@ def _of_typed(
 
 
 def _synchronized(segment: str) -> Iterator[tuple[str, tuple[str, ...]]]:
-    """Yield the callbacks of synchronizers of message_filters, with what their topics are of."""
+    """Yield the callbacks of message_filters synchronizers, with the types of their topics."""
     topics: dict[str, str] = {}
     inputs: dict[str, str] = {}
     for made in _FILTER.finditer(segment):
@@ -278,7 +278,7 @@ def _synchronized(segment: str) -> Iterator[tuple[str, tuple[str, ...]]]:
 
 
 def _is_of_goal(segment: str, end: int) -> bool:
-    """Tell whether the future before a place is that of a goal that was sent."""
+    """Tell whether the future before a place is that of ``send_goal_async``."""
     if "def send_goal_async" in segment:
         return False
     before = segment[max(0, end - _LONGEST) : end].removesuffix(".").rstrip()
@@ -300,9 +300,9 @@ def _given(function: str, keyword: str, type_: str) -> tuple[str, ...]:
 
 
 def arguments_of(text: str, start: int) -> tuple[dict[str, str], int]:
-    """Return the arguments of a call by keyword or number, and where it ends.
+    """Return the arguments of a call by keyword or position, and the end of the call.
 
-    There are none if the end is not found; a call without arguments has an empty one.
+    Empty if the end is not found; a call without arguments has an empty one.
     """
     parts: list[str] = []
     depth, quote = 0, ""

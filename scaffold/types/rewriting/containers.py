@@ -32,7 +32,7 @@ def _ros2_list(*_: _Ros2Sequence[_Ros2Element]) -> list[_Ros2Element]: ...
 def _ros2_deque(*_: _Ros2Sequence[_Ros2Element]) -> _Ros2Deque[_Ros2Element]: ...
 """
 _ADDING = {"append": "0", "appendleft": "0", "setdefault": "1", "insert": "1"}
-"""Methods that put something into a container, and which argument that is."""
+"""Methods that add an element to a container, with the index of its argument."""
 _METHOD = re.compile(r"\.(\w+)\(")
 _READING = frozenset(
     {"get", "items", "values", "keys", "pop", "popitem", "popleft", "clear", "copy", "remove"}
@@ -46,9 +46,9 @@ _READ = re.compile(
     r"|\{)$"
 )
 _OF_MESSAGE = re.compile(r"(?!self\.\w{1,80}[ ]?=)(?:\w{1,80}\.){1,9}\w{1,80}[ ]?=[ ]?")
-"""Matches what is before a value that becomes a field of an object."""
+"""Matches the text before a value that is assigned to a field of an object."""
 _LINE_END = re.compile(r"[ ]{0,40}(?:#|\n|\Z)")
-"""Matches where only a comment is left of a line."""
+"""Matches the end of a line, with an optional comment."""
 # linear: names and defaults, without brackets
 _SIGNATURE = re.compile(r"^[ ]*(?:async[ ]+)?def[ ]+\w+\(([^()]*)\)", re.MULTILINE)
 _MOST_ADDED = 12
@@ -57,16 +57,16 @@ _OTHER_SCOPE = re.compile(r"\b(?:lambda|yield|for)\b|:=|#|\bself\s*(?:$|[,)\]])"
 
 
 class Kept(NamedTuple):
-    """A container, and the values put into it."""
+    """A container and the values that are added to it."""
 
     stretches: Sequence[tuple[int, int, str]]
-    """Where it is made, and what to write there."""
+    """Where it is created, and the replacement."""
     lines: Mapping[int, Sequence[str]]
-    """The lines to add, by the place that they go before."""
+    """The lines to insert, by position."""
 
 
 def kept_values(text: str) -> Iterator[Kept]:
-    """Yield the containers of a file that are made without what they are for."""
+    """Yield the containers of a file that are created empty."""
     found = [*_MADE.finditer(text)]
     if not found:
         return
@@ -91,7 +91,7 @@ def kept_values(text: str) -> Iterator[Kept]:
 
 
 def definitions() -> str:
-    """Return what is added at the end of a file with such containers."""
+    """Return the definitions to append to a file with such containers."""
     return _DEFINITIONS
 
 
@@ -126,9 +126,9 @@ def _kept(
 
 
 def _added(text: str, name: str, start: int, end: int) -> list[tuple[int, str]]:
-    """Return what is put into a container, and where the statements begin.
+    """Return the values added to a container, and the starts of the statements.
 
-    There is nothing if that is not sure, or if what is put into it has no name of its own.
+    Empty if that is uncertain, or if a value has no name of its own.
     """
     result: list[tuple[int, str]] = []
     for at in mentions(text, name, start, end):
@@ -148,14 +148,14 @@ def _added(text: str, name: str, start: int, end: int) -> list[tuple[int, str]]:
 
 
 def _addition(text: str, start: int, end: int) -> tuple[int, str] | None:
-    """Return where a value ends that is put into a container and the value, empty for a reading.
+    """Return the end of a value added to a container, and the value; empty for a mere access.
 
-    ``None`` for what may be anything.
+    ``None`` if it may be anything.
 
     Args:
         text: The file.
-        start: Where the container is named.
-        end: Where its name ends.
+        start: The start of the name of the container.
+        end: The end of its name.
     """
     method = _METHOD.match(text, end)
     if method is not None:
@@ -186,7 +186,7 @@ def _addition(text: str, start: int, end: int) -> tuple[int, str] | None:
 
 
 def _are_parameters(text: str, place: int, key: str, value: str) -> bool:
-    """Tell whether a function keeps a value under a key as its callers say: of any type, then."""
+    """Tell whether key and value are parameters of the function, so that any type is possible."""
     if not (key.isidentifier() and value.isidentifier()):
         return False
     signatures = _SIGNATURE.findall(text, 0, place)
@@ -194,7 +194,7 @@ def _are_parameters(text: str, place: int, key: str, value: str) -> bool:
 
 
 def _closed(text: str, start: int) -> int:
-    """Return where a bracket is closed; 0 if that is not in its line."""
+    """Return the position of a closing bracket; 0 if it is not on the same line."""
     depth = 0
     for at in range(start, min(len(text), start + 200)):
         character = text[at]
@@ -210,7 +210,7 @@ def _closed(text: str, start: int) -> int:
 
 
 def _function_around(text: str, place: int, indent: int) -> tuple[int, int]:
-    """Return where the function of a statement begins and ends; twice 0 if there is none."""
+    """Return the start and end of the function around a statement; ``(0, 0)`` if there is none."""
     heads = re.compile(r"^([ ]*)(?:async )?def \w+\(", re.MULTILINE)
     best: re.Match[str] | None = None
     line = text.rfind("\n", 0, place)

@@ -18,36 +18,36 @@ from scaffold.types.rewriting.statements import mentions
 from scaffold.types.sources import imported_names
 
 GIVEN = "_ros2_given"
-"""What the global names of values that are passed begin with."""
+"""The prefix of the global names of passed values."""
 _OPENED = re.compile(r"(\.\w+)?\(")
 _METHOD = re.compile(r"\.(\w+)\(")
 _KEPT = re.compile(r"[ ]*(self\.\w+|\w+)[ ]*(?::[^=]*)?=[ ]*")
-"""Matches what is before a call whose result is assigned."""
+"""Matches the text before a call whose result is assigned."""
 _SET = re.compile(r"[ ]*(?::[^=\n]*)?=(?!=)[ ]*(?!None\b)")
-"""Matches what is after a name that is given a value."""
+"""Matches the text after a name that is assigned."""
 _BOUND = re.compile(r"\b(?:def|lambda|for|as|global|nonlocal|del|import)\b")
 
 
 _CLASS = re.compile(r"^class \w+\((\w+(?:\.\w+)?)[ ]*(?:,[^()\n]*)?\):[^\n]*\n", re.MULTILINE)
-"""Matches the head of a class; its first base is what it inherits from."""
+"""Matches the head of a class with its first base."""
 _OF_SELF = re.compile(r"(?<![\w.])(?:(self)|super\(\))\.(\w+)\((?!\))")
-"""Matches the beginning of a call with arguments."""
+"""Matches the start of a method call of ``self`` with arguments."""
 _OF_NODES = frozenset(
     {"create_client", "create_publisher", "create_service", "create_subscription", "create_timer"}
     | {"declare_parameter", "declare_parameters", "get_parameter", "get_parameters"}
     | {"get_logger", "get_clock", "set_parameters", "create_rate", "has_parameter"}
 )
-"""Methods that are those of rclpy, whatever else a class inherits."""
+"""Methods that are assumed to be those of rclpy, whatever the class inherits from."""
 
 
 class Place(NamedTuple):
-    """A call of a function of another module, in a text."""
+    """The position of a call of a function of another module."""
 
     function: str
     """``talker.poses.to_pose``, ``talker.arm.Arm`` or ``talker.arm.Arm.move``."""
     start: int
     arguments: int
-    """Where its arguments begin."""
+    """The start of its arguments."""
 
 
 class Passed(NamedTuple):
@@ -56,16 +56,16 @@ class Passed(NamedTuple):
     function: str
     """See ``Place``."""
     module: str
-    """Where the call is."""
+    """The module of the call."""
     given: Mapping[str, str]
-    """By keyword or number: a constant, or the global name of a list with the value in it."""
+    """By keyword or position: a constant, or the global name of a list that holds the value."""
 
 
 def own_names(data: bytes, module: str) -> Mapping[str, str]:
-    """Return what a file imports from other modules of its package, by the name that it has there.
+    """Return what a file imports from other modules of its package, by local name.
 
     Args:
-        data: What is in the file.
+        data: The content of the file.
         module: Its own dotted name.
     """
     root = module.partition(".")[0]
@@ -84,7 +84,7 @@ def places(text: str, names: Mapping[str, str]) -> Iterator[Place]:
 
     Args:
         text: A file.
-        names: What it imports from there; see ``own_names``.
+        names: What it imports from other modules; see ``own_names``.
     """
     made: dict[str, set[str]] = {}
     for local, name in names.items():
@@ -104,7 +104,7 @@ def places(text: str, names: Mapping[str, str]) -> Iterator[Place]:
 
 
 def _inherited(text: str, names: Mapping[str, str]) -> Iterator[Place]:
-    """Yield the calls of methods that classes inherit from one of another module."""
+    """Yield the calls of methods that classes inherit from a class of another module."""
     for class_ in _CLASS.finditer(text) if names else ():
         imported, _, attribute = class_[1].partition(".")
         if imported not in names:
@@ -137,7 +137,7 @@ def _of_object(text: str, name: str, class_: str) -> Iterator[Place]:
 
 
 def module_of(package: Package, path: str) -> str:
-    """Return the dotted name of a module of a package; empty for what is no module of it."""
+    """Return the dotted name of a module of a package; empty for other files."""
     parts = path.removeprefix("src/").removesuffix(".py").split("/")
     names = {package.name, package.name.removesuffix("_py")}
     is_module = len(parts) > 1 and parts[0] in names and all(map(str.isidentifier, parts))
@@ -145,7 +145,7 @@ def module_of(package: Package, path: str) -> str:
 
 
 def first_call(package: Package, path: str, function: str) -> tuple[str, int] | None:
-    """Return the file and the line of a call of a function of a module in another module."""
+    """Return the file and line where another module calls a function of a module."""
     called = f"{module_of(package, path)}.{function}"
     for other in callers(package, path):
         data = package.data(other)
@@ -169,7 +169,7 @@ def callers(package: Package, path: str) -> tuple[str, ...]:
 
 @fact
 def _all_called(package: Package) -> Mapping[str, frozenset[str]]:
-    """Return what each module of a package calls of others; only those that call anything."""
+    """Return the functions of other modules that each module of a package calls, if any."""
     called = {path: _called(package, path) for path in package.python_files}
     return {path: names for path, names in called.items() if names}
 

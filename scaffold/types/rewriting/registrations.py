@@ -16,26 +16,26 @@ _FUNCTIONS = (ast.FunctionDef, ast.AsyncFunctionDef)
 
 
 class Registration(NamedTuple):
-    """A call that may register a callback, with the values of the loops around it."""
+    """A call that may register a callback, with the values of the surrounding loops."""
 
     line: int
     column: int
-    """Of its function, in bytes."""
+    """The column of its function, in bytes."""
     function: str
     arguments: Mapping[str, ast.expr]
-    """By keyword or number."""
+    """By keyword or position."""
 
 
 class Target(NamedTuple):
-    """A function or method that is called back."""
+    """A function or method used as a callback."""
 
     name: str
     order: Sequence[int]
-    """What it gets, by the place in what is passed; -1 for something else."""
+    """The index of the passed argument for each parameter; -1 for another value."""
 
 
 class _Place(NamedTuple):
-    """Where a node is: in which class and function, and in which loops."""
+    """The class, function and loops around a node."""
 
     node: ast.AST
     class_: ast.AST | None
@@ -44,7 +44,7 @@ class _Place(NamedTuple):
 
 
 def registrations(text: str, functions: Collection[str]) -> Iterator[Registration]:
-    """Yield the calls of some functions, once for each row of the tables that loops run over."""
+    """Yield the calls of some functions, once for each row of the tables in the loops."""
     try:
         tree = ast.parse(text)
     except (SyntaxError, ValueError, RecursionError, MemoryError):
@@ -70,10 +70,10 @@ def registrations(text: str, functions: Collection[str]) -> Iterator[Registratio
 
 
 def targets(value: ast.expr, count: int) -> Iterator[Target]:
-    """Yield what is called back with some arguments.
+    """Yield the callbacks that are called with some arguments.
 
     Args:
-        value: What is registered.
+        value: The registered expression.
         count: How many arguments are passed.
     """
     match value:
@@ -113,7 +113,7 @@ def _places(tree: ast.Module) -> Iterator[_Place]:
 
 
 def _key(place: _Place, target: ast.expr) -> tuple[ast.AST | None, str]:
-    """Return what a variable or an attribute of ``self`` is known by."""
+    """Return the key of a variable or an attribute of ``self``."""
     if isinstance(target, ast.Name):
         return place.function, target.id
     is_own = isinstance(target, ast.Attribute) and isinstance(target.value, ast.Name)
@@ -123,7 +123,7 @@ def _key(place: _Place, target: ast.expr) -> tuple[ast.AST | None, str]:
 def _rows(
     place: _Place, values: Mapping[tuple[ast.AST | None, str], list[ast.expr]]
 ) -> Iterator[Mapping[str, ast.expr]]:
-    """Yield what the variables of the loops around a place are, for each row."""
+    """Yield the values of the loop variables around a place, for each row."""
     rows: list[dict[str, ast.expr]] = [{}]
     for loop in place.loops:
         bound = [_bound(loop.target, row) for row in _table(loop.iter, place, values)]
@@ -138,7 +138,7 @@ def _table(
     place: _Place,
     values: Mapping[tuple[ast.AST | None, str], list[ast.expr]],
 ) -> list[ast.expr]:
-    """Return the rows that a loop runs over, as far as they are written down."""
+    """Return the rows that a loop runs over, if they are literals."""
     method = ""
     match iterated:
         case ast.Call(func=ast.Attribute(value=value, attr="items" | "values" as method), args=[]):
@@ -164,7 +164,7 @@ def _table(
 
 
 def _bound(target: ast.expr, value: ast.expr) -> dict[str, ast.expr]:
-    """Return what each variable of a loop is in one row."""
+    """Return the value of each loop variable in one row."""
     if isinstance(target, ast.Name):
         return {target.id: value}
     result: dict[str, ast.expr] = {}
@@ -184,7 +184,7 @@ def _replaced(
     place: _Place,
     values: Mapping[tuple[ast.AST | None, str], list[ast.expr]],
 ) -> ast.expr:
-    """Return an argument with the value of a variable in its place."""
+    """Return an argument, or the value of the variable that it is."""
     match value:
         case ast.Name(id=name) if name in row:
             return row[name]

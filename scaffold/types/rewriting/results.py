@@ -19,7 +19,7 @@ _FUNCTION = re.compile(
     r"(?P<parameters>\((?:[^()]|\([^()]*\)){0,800}\))(?P<end>[ \t]*):[ \t]*(?:#[^\n]*)?$",
     re.MULTILINE,
 )
-"""Matches the head of a function that has no annotation of its result."""
+"""Matches the head of a function without a return annotation."""
 _NAMED = re.compile(r"\bdef (\w+)\(")
 _OTHER_SCOPES = re.compile(r"^[ \t]*(?:(?:async )?def|class)\b|\byield\b", re.MULTILINE)
 _RETURN = re.compile(r"(?:^[ \t]*|[:;][ \t]*)return\b[ \t]*", re.MULTILINE)
@@ -41,13 +41,13 @@ _KNOWN = (
         "from builtin_interfaces.msg import Time as _Ros2Stamp",
     ),
 )
-"""Methods whose result is known by what they are called, its name, and how that is imported."""
+"""Methods whose name determines the return type, with that type and its import."""
 _CLOSING = {"(": ")", "[": "]", "{": "}"}
 _FEWEST = 2
 
 
 def imports(text: str) -> str:
-    """Return what is added at the end of a file whose functions have types of `plain_result`."""
+    """Return the imports for the types of `plain_result`, to append to the file."""
     lines = [line for _, name, line in _KNOWN if f'"{name}"' in text]
     if f"tuple[{_ANY}" in text:
         lines.append(f"from typing import Any as {_ANY}")
@@ -55,9 +55,9 @@ def imports(text: str) -> str:
 
 
 def functions(text: str) -> Iterator[re.Match[str]]:
-    """Yield the heads of functions without decorators and without annotations of their results.
+    """Yield the heads of functions without decorators and return annotations.
 
-    They have ``indent``, ``name`` and ``parameters``, these with their brackets.
+    The groups are ``indent``, ``name`` and ``parameters`` (with brackets).
     """
     count = Counter(_NAMED.findall(text))
     for match in definitions(_FUNCTION, text):
@@ -69,7 +69,7 @@ def functions(text: str) -> Iterator[re.Match[str]]:
 
 
 def body_of(text: str, function: re.Match[str]) -> str:
-    """Return what a function consists of besides its head."""
+    """Return the body of a function."""
     return function_body(text, function.start("name"), function.end())
 
 
@@ -79,15 +79,15 @@ def _is_decorated(text: str, start: int) -> bool:
 
 
 def plain_result(parameters: str, body: str) -> str:
-    """Return the type of all that a function returns; empty if it is not plain."""
+    """Return the type of all values that a function returns; empty if it is not plain."""
     types = {_type(value) for value in returned(parameters, body)}
     return types.pop() if len(types) == 1 else ""
 
 
 def returned(parameters: str, body: str) -> list[ast.expr | None]:
-    """Return what a function returns besides ``None``; a local variable as the value that it gets.
+    """Return what a function returns besides ``None``; local variables are resolved.
 
-    There is nothing for a generator and for a function with others inside, and ``None`` for what
+    Empty for a generator and for a function with nested scopes, and ``None`` for a value that
     is not plain.
     """
     if "return" not in body or _has_other_scopes(body):
@@ -101,14 +101,14 @@ def returned(parameters: str, body: str) -> list[ast.expr | None]:
 
 
 def _has_other_scopes(body: str) -> bool:
-    """Tell whether a function is a generator, or has functions or classes of its own."""
+    """Tell whether a function is a generator, or has nested functions or classes."""
     if not any(word in body for word in ("def", "class", "yield")):
         return False
     return _OTHER_SCOPES.search(body) is not None
 
 
 def expression_at(text: str, start: int) -> str:
-    """Return an expression up to the end of its line, or of its brackets."""
+    """Return an expression up to the end of its line or of its brackets."""
     open_: list[str] = []
     quote = ""
     at = start
@@ -120,7 +120,7 @@ def expression_at(text: str, start: int) -> str:
             elif character in {quote, "\n"}:
                 quote = ""
         elif character == "\\":
-            at += 1  # the line goes on
+            at += 1  # the expression continues
         elif character in "'\"":
             quote = character
         elif character in _CLOSING:
@@ -134,7 +134,7 @@ def expression_at(text: str, start: int) -> str:
 
 
 def _type(node: ast.expr | None) -> str:
-    """Return the type of an expression: of a tuple, or of what a class makes; else empty."""
+    """Return the type of an expression: of a tuple or of a constructor call; otherwise empty."""
     if isinstance(node, ast.Tuple):
         is_plain = not any(isinstance(item, ast.Starred) for item in node.elts)
         items = ", ".join([_ANY] * len(node.elts))
@@ -154,7 +154,7 @@ def _parsed(value: str) -> ast.expr | None:
 
 
 def _made(name: str, parameters: str, body: str) -> str:
-    """Return the only value that a local variable gets; empty if there are several."""
+    """Return the only value assigned to a local variable; empty if there are several."""
     if re.search(rf"\b{name}\b", parameters):
         return ""
     bound = rf"(?<![\w.]){name}\b[ \t]*(?:[,:][^=\n]*)?[-+*/|&%]?=(?!=)"

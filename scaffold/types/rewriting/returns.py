@@ -29,7 +29,7 @@ _FUNCTION = re.compile(
     r"(?=\n*(?P<inner> +)\S)",
     re.MULTILINE,
 )
-"""Matches the head of a function that has no annotation of its result."""
+"""Matches the head of a function without a return annotation."""
 _NAMED = re.compile(r"^[ ]*(?:async )?def (\w+)\(", re.MULTILINE)
 _ANY_WORD = re.compile(r"(?<![\w.'\"#])(?:return|yield)\b(?![\w'\"])")
 _OTHER_SCOPES = re.compile(r"^ *(?:(?:async )?def|class)\b", re.MULTILINE)
@@ -37,10 +37,10 @@ _DOCSTRING = re.compile(r"\s*[rRuU]?(\"\"\"|''').*?\1", re.DOTALL)
 _KEEPING = frozenset(
     {"property", "staticmethod", "classmethod", "cached_property", "contextmanager"}
 )
-"""Decorators of functions whose results are known by what these return."""
+"""Decorators whose effect on the return type is known."""
 _UNSUITED = re.compile(r"\b(?:lambda|await|yield)\b|:=|#|'''|\"\"\"|\\\n|^from\b")
 _EITHER = re.compile(r"\b(?:else|or|and)\b")
-"""Matches what makes a value one of several."""
+"""Matches expressions with alternatives, such as conditions."""
 _ITSELF = re.compile(r"\bself\s*(?:$|[,)\]}])")
 _CALL = re.compile(r"([^\W\d]\w*)(?:\.\w+)*\(")
 _GENERIC = frozenset(
@@ -48,38 +48,38 @@ _GENERIC = frozenset(
     | {"min", "next", "reversed", "round", "set", "sorted", "sum", "tuple", "vars", "zip", "type"}
     | {"copy", "deepcopy", "partial", "super"}
 )
-"""Functions whose results are of the type of what they are given."""
+"""Functions whose return type depends on their arguments."""
 _SET = re.compile(r"^([\w ,]+)(?::[^=\n]*)?[-+*/|&%]?=(?!=)([^\n]*)", re.MULTILINE)
-"""Matches assignments to names, and statements whose beginning looks like one."""
+"""Matches assignments to names, and statements that start like one."""
 _BOUND = re.compile(r"\bfor ([\w, ()]{1,200}?) in\b([^\n]*)|\bas (\w+)")
 _ATTRIBUTE = re.compile(r"(?<![\w.])self\.(\w+) *(?::[^=\n]*)?=(?!=)([^\n]*)")
 _OF_SELF = re.compile(r"self\.(\w+)")
 _WORD = re.compile(r"(?<![\w.])[^\W\d]\w*")
 _MOST = 8
-"""Statements of one function; one with more returns anything."""
+"""The maximum number of returned values; a function with more has an unknown type."""
 
 
 class Results(NamedTuple):
     """The return values of the functions of a file."""
 
     lines: Mapping[int, list[str]]
-    """The lines to add, by the place that they go before."""
+    """The lines to insert, by position."""
     heads: Sequence[tuple[int, int, str]]
-    """Where something is added to the head of a function, and what."""
+    """The insertions into the heads of functions, by position."""
     definitions: str
-    """What is added at the end of the file."""
+    """The code to append to the file."""
 
 
 def results(
     text: str, taken: Mapping[int, Collection[str]], others: Collection[int] = ()
 ) -> Results:
-    """Return what tells a type checker what the functions of a file give.
+    """Return the insertions that tell a type checker the return types of the functions of a file.
 
     Args:
         text: The file.
-        taken: The parameters whose types are those of what the functions are given in this file,
-            by where the bodies of the functions begin. Others may give them something else.
-        others: Where functions are that have another head already.
+        taken: The parameters whose types are inferred from the calls in this file,
+            by the start of the function body. Other files may pass other types.
+        others: Positions of functions whose head is rewritten already.
     """
     lines: dict[int, list[str]] = {}
     heads: list[tuple[int, int, str]] = []
@@ -113,7 +113,7 @@ def results(
 
 
 def _type(kept: Sequence[_Kept], *, is_async: bool) -> str:
-    """Return the type of the result of a function; empty if nothing is known about it."""
+    """Return the return type of a function; empty if unknown."""
     words = {item.word for item in kept}
     if len(words) != 1 or len(kept) > _MOST:
         return ""
@@ -134,7 +134,7 @@ class _Kept(NamedTuple):
 
 
 def _decorator(text: str, start: int) -> str | None:
-    """Return the decorator of a function, empty without; ``None`` if its result may be another."""
+    """Return the decorator of a function, or empty; ``None`` if it may change the result."""
     end = max(start - 1, 0)
     line = text[text.rfind("\n", 0, end) + 1 : end].strip()
     if not line.startswith("@"):
@@ -144,7 +144,7 @@ def _decorator(text: str, start: int) -> str | None:
 
 
 def _is_only_one(text: str, function: re.Match[str], count: Mapping[str, int]) -> bool:
-    """Tell whether no other class of the file has a method of this name."""
+    """Tell whether no other class in the file has a method of this name."""
     name = function["name"]
     if not function["indent"] or count[name] == 1:
         return True
@@ -153,11 +153,11 @@ def _is_only_one(text: str, function: re.Match[str], count: Mapping[str, int]) -
 
 
 def _kept(body: str, start: int, taken: Collection[str]) -> Iterator[_Kept]:
-    """Yield the values that a function returns or yields; nothing if one of them is not plain.
+    """Yield the values that a function returns or yields; none if one of them is not plain.
 
     Args:
-        body: The function without its head.
-        start: Where that begins in the file.
+        body: The body of the function.
+        start: The offset of the body in the file.
         taken: See `results`.
     """
     inner = [*_inner_functions(body)]
@@ -187,7 +187,7 @@ def _kept(body: str, start: int, taken: Collection[str]) -> Iterator[_Kept]:
 
 
 def _inner_functions(body: str) -> Iterator[tuple[int, int]]:
-    """Yield where the functions and classes in a function begin and end."""
+    """Yield the start and end of nested functions and classes."""
     for match in _OTHER_SCOPES.finditer(body):
         end = body.find("\n", match.end())
         if end >= 0:
@@ -199,14 +199,14 @@ def _is_within(place: int, stretches: Sequence[tuple[int, int]]) -> bool:
 
 
 def _is_plain(value: str) -> bool:
-    """Tell whether an expression is the same on another line, and not of a class of its own."""
+    """Tell whether an expression can be moved to another line, and has no type of its own."""
     if not value or _UNSUITED.search(value):
         return False
     return _ITSELF.search(value) is None or _CALL.match(value) is not None
 
 
 def _derived(body: str, names: Collection[str]) -> set[str]:
-    """Return names and the local variables whose values may be made of theirs."""
+    """Return the names and the local variables that may be derived from them."""
     result = {*names}
     for _ in range(2):
         for targets, value in _assignments(body):
@@ -220,7 +220,7 @@ def _derived(body: str, names: Collection[str]) -> set[str]:
 
 @lru_cache(maxsize=1)
 def _assignments(body: str) -> Sequence[tuple[Sequence[str], str]]:
-    """Return the names that lines give values, each time with what they give them."""
+    """Return the assignments in some lines, as pairs of name and value."""
     result: list[tuple[Sequence[str], str]] = []
     for match in _SET.finditer(body):
         targets = [target.strip() for target in match[1].split(",")]
@@ -247,13 +247,13 @@ class _Attributes:
         return values
 
     def is_of_one(self, name: str) -> bool:
-        """Tell whether all values that an attribute gets are made in the same way."""
+        """Tell whether all values of an attribute are created in the same way."""
         values = self._values.get(name, set()) - {"None"}
         return len(values) <= 1 and "" not in values
 
 
 def _shape(value: str, body: str, attributes: _Attributes) -> str:
-    """Return how a value is made; empty if that is in several ways, as by a factory."""
+    """Return how a value is created; empty if there are several ways, as with a factory."""
     form = _form(value)
     of_self = _OF_SELF.match(value)
     if of_self is not None:
@@ -270,7 +270,7 @@ def _shape(value: str, body: str, attributes: _Attributes) -> str:
 
 
 def _form(value: str) -> str:
-    """Return what makes a value, without what that is given; empty if a condition chooses."""
+    """Return the callee that creates a value, without arguments; empty for a conditional one."""
     if _EITHER.search(value):
         return ""
     called = _CALL.match(value)
@@ -278,7 +278,7 @@ def _form(value: str) -> str:
 
 
 def _is_independent(value: str, names: set[str]) -> bool:
-    """Tell whether the type of an expression does not come from those of some variables."""
+    """Tell whether the type of an expression does not depend on some variables."""
     if names.isdisjoint(_WORD.findall(value)):
         return True
     called = _CALL.match(value)

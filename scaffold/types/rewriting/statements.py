@@ -15,21 +15,21 @@ _INSIDE = frozenset(
     {"elif", "else", "except", "finally", "case", "while", "and", "or", "in", "is", "not"}
     | {"def", "class", "async", "lambda", "import", "from"}
 )
-"""Words that begin a line before which no other can be put."""
+"""Keywords at the start of a line before which no line can be inserted."""
 _SOMETIMES = re.compile(r"\b(?:lambda|for|if|else|and|or)\b|:=")
-"""Matches what makes a call happen elsewhere, or only sometimes."""
+"""Matches code that makes a call conditional or deferred."""
 _GOES_ON = re.compile(r"(?:[,(\[{\\=+\-*/%|&<>.]|\b(?:and|or|not|in|is|if|else|lambda|for))$")
 _HEAD = re.compile(
     r"[ \t]*(?:(?:if|elif|else|for|while|with|try|except|finally|def|class|async|match|case)\b"
     r"|[)\]])"
 )
 _IN_F_STRING = re.compile(r"""\bf(['"])[^'"\n{}]*\{$""")
-"""Matches what is before a call in a string with braces."""
+"""Matches the text before a call in an f-string."""
 _LINES_BACK = 6
 
 
 def statement_around(text: str, start: int, end: int) -> int:
-    """Return where the line of a call begins, if that line begins its statement; else -1."""
+    """Return the start of the line of a call if its statement starts there; otherwise -1."""
     line = text.rfind("\n", 0, start) + 1
     stop = text.find("\n", end)
     after = text[end : stop if stop >= 0 else len(text)]
@@ -47,7 +47,7 @@ def statement_around(text: str, start: int, end: int) -> int:
 
 
 def definitions(pattern: re.Pattern[str], text: str) -> Iterator[re.Match[str]]:
-    """Yield what an expression matches at the beginning of lines with a ``def``."""
+    """Yield the matches of an expression at the start of lines with a ``def``."""
     end = 0
     at = text.find("def ")
     while at >= 0:
@@ -60,7 +60,7 @@ def definitions(pattern: re.Pattern[str], text: str) -> Iterator[re.Match[str]]:
 
 
 def class_starts(text: str) -> Iterator[int]:
-    """Yield where the classes of a module begin."""
+    """Yield the positions of the classes of a module."""
     if text.startswith("class "):
         yield 0
     at = text.find("\nclass ")
@@ -70,7 +70,7 @@ def class_starts(text: str) -> Iterator[int]:
 
 
 def mentions(text: str, name: str, start: int = 0, end: int | None = None) -> Iterator[int]:
-    """Yield where a name is, alone and not as a part or an attribute of others."""
+    """Yield the positions of a name, not as a part or an attribute of others."""
     at = text.find(name, start, end)
     while at >= 0:
         before, after = text[at - 1 : at] if at else "", text[at + len(name) : at + len(name) + 1]
@@ -80,13 +80,13 @@ def mentions(text: str, name: str, start: int = 0, end: int | None = None) -> It
 
 
 def _is_closed(before: str, after: str) -> bool:
-    """Tell whether the brackets that are open before a call are closed in its line."""
+    """Tell whether the brackets that are open before a call are closed on its line."""
     opened = sum(map(before.count, "([{")) - sum(map(before.count, ")]}"))
     return opened <= 0 or opened <= sum(map(after.count, ")]}"))
 
 
 def _ends_statement(text: str, line: int) -> bool:
-    """Tell whether the code before a line does not go on in it."""
+    """Tell whether the statement before a line does not continue on it."""
     for _ in range(_LINES_BACK):
         if not line:
             return True

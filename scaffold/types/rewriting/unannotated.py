@@ -18,7 +18,7 @@ from scaffold.model.python.syntax_tree import MAX_DEPTH
 from scaffold.types.rewriting.callbacks import STATUS
 
 _UNKNOWN = "_"
-"""A name that tells a type checker nothing."""
+"""A name of unknown type for the type checker."""
 _REGISTERING = frozenset(
     {"create_subscription", "create_service", "create_timer", "ActionServer", "partial"}
     | {"add_done_callback", "registerCallback"}
@@ -26,18 +26,18 @@ _REGISTERING = frozenset(
 )
 """Functions that take callbacks."""
 _ACCEPTING = {bool: {"bool", "int", "float"}, int: {"int", "float"}}
-"""The annotations that fit to a constant besides that of its own class."""
+"""The annotations that fit a constant besides its own class."""
 _AROUND = {
     # linear: a line has 20 kB at most
     "variable": (re.compile(r"[ \t]*:[ \t]*$"), re.compile(r"[ \t]*=")),
     # linear: a line has 20 kB at most here too
     "result": (re.compile(r"[ \t]*->[ \t]*$"), re.compile(r"[ \t]*:")),
 }
-"""What is before and after an annotation that can be left out as a whole."""
+"""The text around an annotation that can be removed as a whole."""
 
 
 def without_annotations(data: bytes) -> bytes | None:
-    """Return a file without annotations, ``None`` if it does not parse."""
+    """Return a file without annotations; ``None`` if it does not parse."""
     try:
         encoding, _ = tokenize.detect_encoding(io.BytesIO(data).readline)
         text = data.decode(encoding)
@@ -53,7 +53,7 @@ def without_annotations(data: bytes) -> bytes | None:
 
 
 def _annotations(index: ScopeIndex) -> Iterator[tuple[str, ast.expr]]:
-    """Yield the annotations to replace, each with what it is of."""
+    """Yield the annotations to replace, each with its owner."""
     handed_over, referred_to = _handed_over(index), _referred_to(index)
     functions: list[ast.FunctionDef | ast.AsyncFunctionDef] = [
         *index.all_of(ast.FunctionDef),
@@ -77,10 +77,10 @@ def _annotations(index: ScopeIndex) -> Iterator[tuple[str, ast.expr]]:
 
 
 def _handed_over(index: ScopeIndex) -> set[str]:
-    """Return the names of functions that are arguments of calls: callbacks.
+    """Return the names of functions that are passed as arguments: callbacks.
 
-    Those that the file itself calls, or hands to functions such as ``map``, are only among them
-    where rclpy gets them: they may be given something else than their annotations say.
+    Those that the file itself calls, or passes to functions such as ``map``, are only included
+    if they are passed to rclpy: other arguments may contradict their annotations.
     """
     registered: set[str] = set()
     others: set[str] = set()
@@ -107,7 +107,7 @@ def _name(node: ast.expr) -> str:
 def _referred_to(index: ScopeIndex) -> set[str]:
     """Return the names of functions in tables, lambdas and the like.
 
-    These keep what is written as callbacks are annotated by this tool: in quotes.
+    These keep annotations in quotes, which is how this tool annotates callbacks.
     """
     callees = {
         id(call.func)
@@ -123,7 +123,7 @@ def _referred_to(index: ScopeIndex) -> set[str]:
 
 
 def _is_made_so(variable: ast.AnnAssign) -> bool:
-    """Tell whether a field of a dataclass is made by the class that its annotation names."""
+    """Tell whether the default of a dataclass field is created by the annotated class."""
     match variable.value:
         case ast.Call(keywords=[ast.keyword(arg="default_factory", value=factory)]):
             return ast.unparse(factory) == ast.unparse(variable.annotation)
@@ -131,7 +131,7 @@ def _is_made_so(variable: ast.AnnAssign) -> bool:
 
 
 def _is_of_record(index: ScopeIndex, variable: ast.AnnAssign) -> bool:
-    """Tell whether a variable is a field that all objects of a dataclass or tuple are made with."""
+    """Tell whether a variable is a field that the constructor of a dataclass or tuple sets."""
     class_ = index.parent(variable)
     if variable.value is not None or not isinstance(class_, ast.ClassDef):
         return False
@@ -145,7 +145,7 @@ def _is_of_record(index: ScopeIndex, variable: ast.AnnAssign) -> bool:
 
 
 def _given(index: ScopeIndex, class_: ast.ClassDef, field: ast.AnnAssign) -> Iterator[ast.expr]:
-    """Yield what objects of a class are made with for a field."""
+    """Yield the constructor arguments for a field of a class."""
     fields = [line.target for line in class_.body if isinstance(line, ast.AnnAssign)]
     name, position = ast.unparse(field.target), fields.index(field.target)
     for call in index.all_of(ast.Call):
@@ -155,7 +155,7 @@ def _given(index: ScopeIndex, class_: ast.ClassDef, field: ast.AnnAssign) -> Ite
 
 
 def _is_other(value: ast.expr, annotation: ast.expr) -> bool:
-    """Tell whether a constant is of another class than an annotation names."""
+    """Tell whether a constant is not of the annotated class."""
     match value, annotation:
         case ast.Constant(value=constant), ast.Name(id=name) if constant is not None:
             return name not in _ACCEPTING.get(type(constant), {type(constant).__name__})
@@ -163,9 +163,9 @@ def _is_other(value: ast.expr, annotation: ast.expr) -> bool:
 
 
 def _is_of_base(argument: ast.arg) -> bool:
-    """Tell whether a method gets an argument from its base class: this tool has written the type.
+    """Tell whether the base class calls a method with an argument whose type this tool added.
 
-    No name in the file refers to such a method.
+    No code in the file refers to such a method.
     """
     return ast.unparse(argument.annotation or argument).startswith(f"'{STATUS}")
 
@@ -175,7 +175,7 @@ def _is_text(annotation: ast.expr) -> bool:
 
 
 def _never_rebound(function: ast.FunctionDef | ast.AsyncFunctionDef) -> set[str]:
-    """Return the parameters that keep the value that they come with."""
+    """Return the parameters that are never rebound."""
     rebound = {
         node.id
         for node in ast.walk(function)
@@ -222,7 +222,7 @@ class _Edits:
         result: list[str] = []
         at = 0
         for start, end, new in sorted(self._parts):
-            if start >= at:  # else inside another one
+            if start >= at:  # otherwise nested in another one
                 result += self._text[at:start], new
                 at = end
         return "".join([*result, self._text[at:]])

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from scaffold.model.interfaces.definitions import Definitions, Interface
 
 BASE_MODULE = "_ros_interfaces"
-"""The stub that holds what all interfaces share; a program cannot import it."""
+"""The stub with the definitions that all interfaces share; a program cannot import it."""
 _KINDS = ("msg", "srv", "action")
 _CODES = {
     "float32": "float32",
@@ -28,7 +28,7 @@ _CODES = {
     "char": "uint8",
     **{name: name for name in INTEGER_RANGES if name not in {"byte", "char"}},
 }
-"""The numeric types that arrays of Python and of NumPy hold, by the types of definitions."""
+"""The element types of Python and NumPy arrays, by field type."""
 _TIME = FieldType("Time", "builtin_interfaces")
 _UUID = FieldType("UUID", "unique_identifier_msgs")
 _EVENT_INFO = FieldType("ServiceEventInfo", "service_msgs")
@@ -39,14 +39,14 @@ def package_stubs(
 ) -> dict[str, str]:
     """Return the stubs of all interfaces of a package, by relative path.
 
-    An interface that cannot be read, or a package that may have more interfaces than can be
-    seen, gets stubs that promise nothing: any name, of any type.
+    An interface that cannot be read, or a package that may have more interfaces than are
+    visible, gets stubs that allow any name, of any type.
 
     Args:
-        definitions: Where the definitions are looked up.
+        definitions: The known interface definitions.
         package: The name of the package.
-        others: Whether messages that are not known are taken for those of another package,
-            which has its own stubs; else fields of such a type may hold anything.
+        others: Whether unknown messages are assumed to belong to another package,
+            which has its own stubs; otherwise fields of such a type are ``Any``.
     """
     files: dict[str, str] = {}
     for kind in _KINDS:
@@ -104,9 +104,9 @@ class _Class(NamedTuple):
     constants: Sequence[Constant]
     fields: Sequence[tuple[str, FieldType]]
     inside: Mapping[str, str]
-    """Its attributes that are classes."""
+    """The nested classes."""
     implementation: Mapping[str, str] = {}
-    """Those of its class ``Impl``."""
+    """The nested classes of its class ``Impl``."""
 
 
 class _Renderer:
@@ -122,7 +122,7 @@ class _Renderer:
 
     @property
     def exports(self) -> list[str]:
-        """The names that the module of its kind exports; of parts, only those of services."""
+        """The names that the public module exports; the parts are exported for services only."""
         name, kind = self._interface.name, self._interface.kind
         services = [f"{name}_SendGoal", f"{name}_GetResult"] if kind == "action" else []
         services += [name] if kind == "srv" else []
@@ -195,7 +195,7 @@ class _Renderer:
         yield _Class(name, base, (), (), inside, self._implementation(name))
 
     def _implementation(self, name: str) -> dict[str, str]:
-        """Return the classes that carry an action, as ``Impl`` of generated code has them."""
+        """Return the classes of the protocol of an action, as in ``Impl`` of generated code."""
         self._imports.add("from action_msgs.srv._cancel_goal import CancelGoal")
         self._imports.add("from action_msgs.msg._goal_status_array import GoalStatusArray")
         return {
@@ -274,7 +274,7 @@ class _Renderer:
         return self._builtin({"bool": "bool", "byte": "bytes"}.get(type_.name, "int"))
 
     def _class_name(self, type_: FieldType) -> str:
-        """Return how the class of a message is called here."""
+        """Return the name of the class of a message in this module."""
         assert type_.package is not None  # noqa: S101  asked of interfaces alone
         if type_.package == self._interface.package and "_" in type_.name:
             return type_.name  # a part of this interface

@@ -35,18 +35,18 @@ INCOMPLETE = frozenset(
         "tf2_kdl",
     }
 )
-"""The libraries whose stubs leave modules or names out."""
+"""The libraries whose stubs omit modules or names."""
 
 
 def library_stubs(distribution: Distribution, library: str = "") -> dict[str, str]:
     """Return the stubs of the libraries of a distribution, by relative path.
 
-    Those of Jazzy are complete; of others there are those that differ, and a list of those that
-    are gone.
+    Those of Jazzy are complete; other distributions have the differing ones, and a list of those
+    that are gone.
 
     Args:
-        distribution: The one.
-        library: The importable package to which they are limited.
+        distribution: The distribution.
+        library: The importable package to return the stubs of.
     """
     files = _stubs_below(distributions.JAZZY.path(_STUBS), library)
     if distribution.place != distributions.JAZZY.place:
@@ -64,10 +64,10 @@ def partial_libraries() -> frozenset[str]:
 
 
 def partial_stubs() -> dict[str, str]:
-    """Return the stubs of libraries of Python that programs use next to ROS, by relative path.
+    """Return the stubs of Python libraries that programs use besides ROS, by relative path.
 
-    They hold the few things of a library that are certain for all of its versions, and let all
-    others pass. They are for our own type checker: an editor has those of the library itself.
+    They declare the few names of a library that all of its versions share, and accept all
+    others. They are for our own type checker: an editor has those of the library itself.
     """
     return _stubs_below(os.path.join(distributions.DATA, _PARTIAL), "")
 
@@ -90,9 +90,9 @@ def stub_files(
     """Return the stubs of the libraries and of all interfaces, by relative path.
 
     Args:
-        distribution: The one whose libraries are wanted.
+        distribution: The distribution of the libraries.
         definitions: The interfaces: those of the workspace, of installed packages, of the bundle;
-            ``None``: of the bundle alone.
+            ``None`` for the bundle alone.
     """
     from scaffold.model.interfaces.definitions import Definitions
 
@@ -107,7 +107,7 @@ def stub_files(
 
 
 def stubs_of(distribution: Distribution, name: str) -> dict[str, str]:
-    """Return those of `stub_files` that are of one importable package."""
+    """Return the `stub_files` of one importable package."""
     from scaffold.model.interfaces.definitions import Definitions
 
     with distributions.targeting(distribution):
@@ -121,7 +121,7 @@ def stubs_of(distribution: Distribution, name: str) -> dict[str, str]:
 def interface_stub_files(package: Package) -> dict[str, str]:
     """Return the stubs of the interfaces that a package defines, by relative path.
 
-    They depend on the files of this package alone: what its messages hold of other packages is
+    They depend on the files of this package alone: message types of other packages are
     imported from the stubs of those.
     """
     from scaffold.model.interfaces.definitions import Definitions
@@ -135,7 +135,7 @@ def interface_stub_files(package: Package) -> dict[str, str]:
 
 
 def write_stubs(directory: str, files: dict[str, str]) -> None:
-    """Write stubs below a directory, which is made if it is not there."""
+    """Write stubs below a directory, which is created if necessary."""
     for path, text in files.items():
         target = os.path.join(directory, path)
         os.makedirs(os.path.dirname(target), exist_ok=True)

@@ -28,7 +28,7 @@ _CALLED = r"\breturn[ \t]+{0}\(|=[ \t]*{0}\("
 
 
 def generic_heads(text: str) -> Mapping[int, list[str]]:
-    """Return the heads to add, by the place that they go before."""
+    """Return the overloads to insert, by position."""
     result: dict[int, list[str]] = {}
     if "return" not in text or not _has_called_parameter(text):
         return result
@@ -45,18 +45,18 @@ def generic_heads(text: str) -> Mapping[int, list[str]]:
 
 
 def _has_called_parameter(text: str) -> bool:
-    """Tell whether the name of a parameter is called anywhere: in most files none is."""
+    """Tell whether any parameter is called: a quick check that most files fail."""
     names = {name for head in _HEAD.findall(text) for name in _PARAMETERS.findall(head)}
     return not names.isdisjoint(_MAKING.findall(text))
 
 
 def definitions() -> str:
-    """Return what is added at the end of a file with such heads."""
+    """Return the definitions to append to a file with overloads."""
     return _DEFINITIONS
 
 
 def _makes(name: str, function: re.Match[str], body: str) -> bool:
-    """Tell whether all that a function returns is what a parameter makes when it is called."""
+    """Tell whether all values that a function returns are results of calling a parameter."""
     if re.search(rf"(?<![\w.]){name}[ \t]*(?::[^=\n]*)?=(?!=)|\b(?:for|as)[ \t]+{name}\b", body):
         return False
     values = results.returned(function["parameters"], body)

@@ -11,19 +11,19 @@ from __future__ import annotations
 import re
 
 MARK = "\u00b7"
-"""Part of identifiers in Python, and of no name that people use."""
+"""Valid in Python identifiers, but not used in practice."""
 MARKED = rf"[^\W\d]\w*(?:{MARK}\w+)+"
 """Matches a marked name."""
 
 
 def mark(text: str, module: str) -> str:
-    """Return a stub with its classes and the functions of its module marked.
+    """Return a stub with marked classes and module-level functions.
 
     Fields of messages become properties, which they are at run time: a message about a property
-    names the class. Lines are read one by one, as nothing else is fast enough for all stubs.
+    names the class. The text is processed line by line, because parsing all stubs is too slow.
 
     Args:
-        text: The stub, laid out as scripts/make_stubs.py and the interfaces' renderer do.
+        text: The stub, formatted as by scripts/make_stubs.py and the interface renderer.
         module: The dotted name of the module.
     """
     where = module.split(".")
@@ -70,17 +70,17 @@ def _alias(indent: int, name: str, marked: str) -> str:
 
 
 def full_name(marked: str) -> str:
-    """Return the dotted name of a marked one, as code has it.
+    """Return the dotted name of a marked name, as used in code.
 
-    That is without private modules, ``std_msgs.msg.String``, and with the parts of services and
-    actions as what they are attributes of: ``std_srvs.srv.Trigger.Request``.
+    Private modules are left out, ``std_msgs.msg.String``, and the parts of services and
+    actions are attributes: ``std_srvs.srv.Trigger.Request``.
     """
     _, *where = marked.split(MARK)
     return ".".join([*(part for part in where if not part.startswith("_")), short_name(marked)])
 
 
 def short_name(marked: str) -> str:
-    """Return a marked name as code has it that has imported it: ``String``, ``Trigger.Request``."""
+    """Return a marked name as used after its import: ``String``, ``Trigger.Request``."""
     name, *where = marked.split(MARK)
     return _PART.sub(r".\1", name) if where[1:2] in (["srv"], ["action"]) else name
 

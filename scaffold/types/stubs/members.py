@@ -15,21 +15,21 @@ from scaffold.types.stubs.marks import MARK
 
 _KINDS = frozenset({"msg", "srv", "action"})
 _DEEPEST = 12
-"""Classes above a class."""
+"""The maximum depth of base classes that is followed."""
 
 
 def members(package: Package, marked: str) -> frozenset[str]:
     """Return the names of the public members of a class, those of its bases included.
 
     Args:
-        package: Whose code uses it; its workspace may define interfaces.
+        package: The package that uses it; its workspace may define interfaces.
         marked: The marked name of the class.
     """
     return frozenset(name for name in _all_names(package, marked) if not name.startswith("_"))
 
 
 def own_members(package: Package, name: str) -> frozenset[str]:
-    """Return the public names that a class of a package defines, or that its methods set."""
+    """Return the public names that a class of a package defines or that its methods assign."""
     result: set[str] = set()
     for module in package.modules(mentioning=[f"class {name}"]):
         for node in module.walk(ast.ClassDef):
@@ -45,12 +45,12 @@ def own_members(package: Package, name: str) -> frozenset[str]:
 
 
 def has_call(package: Package, marked: str) -> bool:
-    """Tell whether objects of a class can be called."""
+    """Tell whether instances of a class are callable."""
     return "__call__" in _all_names(package, marked)
 
 
 def is_kind_of(package: Package, marked: str, wanted: str) -> bool:
-    """Tell whether a class is another one, or derives from it."""
+    """Tell whether a class is the same as another one or derives from it."""
     return marked == wanted or any(
         wanted in _resolved(tree, module, base)
         for node, module, tree in _with_bases(package, marked)
@@ -63,7 +63,7 @@ def _all_names(package: Package, marked: str) -> set[str]:
 
 
 def _with_bases(package: Package, marked: str) -> Iterator[tuple[ast.ClassDef, str, ast.Module]]:
-    """Yield a class and those that it derives from, each with its module and the tree of that."""
+    """Yield a class and its bases, each with its module and the tree of the module."""
     pending = [marked]
     for _ in range(_DEEPEST):
         class_ = _class(package, pending.pop()) if pending else None
@@ -85,7 +85,7 @@ def module_names(package: Package, module: str) -> frozenset[str]:
 
 
 def modules_with(package: Package, name: str, instead_of: str) -> Sequence[str]:
-    """Return the modules that have a name which another one lacks, as far as they are likely.
+    """Return the modules that have a name which another module lacks, if they are plausible.
 
     These are the modules below it; ``std_srvs.srv`` for ``std_msgs.srv``; and
     ``launch_ros.actions`` for ``launch.actions``.
@@ -111,8 +111,8 @@ def parameters(package: Package, callee: str) -> Sequence[str]:
     """Return the names of the positional parameters of a function, without ``self``.
 
     Args:
-        package: Whose code calls it.
-        callee: Its name in a message: of a function, or of a method after that of its class.
+        package: The package that calls it.
+        callee: Its name in a message: ``function`` or ``Class.method``.
     """
     function = _function(package, callee)
     if function is None:
@@ -124,7 +124,7 @@ def overload_problem(package: Package, callee: str, call: ast.Call) -> str:
     """Return why no overload of a function can take the arguments of a call, whatever their types.
 
     Returns:
-        What is wrong with regard to the overload that comes nearest; empty if one takes them.
+        The problem with the closest overload; empty if one takes them.
     """
     if any(isinstance(item, ast.Starred) for item in call.args):
         return ""
@@ -141,7 +141,7 @@ def overload_problem(package: Package, callee: str, call: ast.Call) -> str:
 def _problem(
     function: ast.FunctionDef | ast.AsyncFunctionDef, names: Sequence[str], call: ast.Call
 ) -> str | None:
-    """Return what a call lacks or has too much; ``None`` where a signature takes anything."""
+    """Return the missing or surplus arguments of a call; ``None`` if a signature takes anything."""
     arguments = function.args
     if arguments.vararg is not None or arguments.kwarg is not None:
         return None
@@ -165,7 +165,7 @@ def _positional(function: ast.FunctionDef | ast.AsyncFunctionDef, callee: str) -
 
 
 def keywords(package: Package, callee: str) -> Sequence[str]:
-    """Return the names of the parameters that a function takes as keywords alone."""
+    """Return the names of the keyword-only parameters of a function."""
     function = _function(package, callee)
     return [item.arg for item in function.args.kwonlyargs] if function is not None else ()
 
@@ -195,7 +195,7 @@ def _functions(package: Package, callee: str) -> Sequence[ast.FunctionDef | ast.
 
 
 def _class(package: Package, marked: str) -> tuple[ast.ClassDef, str, ast.Module] | None:
-    """Return the class of a marked name, its module, and the tree of that."""
+    """Return the class of a marked name, its module, and the tree of the module."""
     name, *where = marked.split(MARK)
     for depth in range(len(where), 0, -1):
         module = ".".join(where[:depth])
@@ -213,7 +213,7 @@ def _class(package: Package, marked: str) -> tuple[ast.ClassDef, str, ast.Module
 
 
 def _resolved(tree: ast.Module, module: str, base: ast.expr) -> list[str]:
-    """Return the marked name of a base class, as far as the imports of its module show it."""
+    """Return the marked name of a base class if the imports of its module determine it."""
     if isinstance(base, ast.Subscript):
         base = base.value
     if not isinstance(base, ast.Name):
@@ -250,7 +250,7 @@ def _tree(package: Package, module: str) -> ast.Module | None:
 
 
 def _stubs_of(package: Package, module: str) -> Mapping[str, str]:
-    """Return the stubs among which a module is: of a package of the workspace, or ours."""
+    """Return the stubs that contain a module: those of a workspace package, or the bundled ones."""
     root = module.partition(".")[0]
     other = package if package.name == root else package.workspace.get(root)
     if other is not None:
