@@ -89,7 +89,7 @@ def judge(
     again, changes, _ = run_add(what, directory, "--diff")
     built = before
     if before == "builds" and ros is not None and code in {exit_codes.CLEAN, exit_codes.FINDINGS}:
-        # What is left to the user may be what installs the program.
+        # Edits left to the user may be needed to install the program.
         program = NODE if code == exit_codes.CLEAN and NODE in what else ""
         built = "builds" if builds(root, package, ros, program) == "builds" else "broken"
     added, removed = counts(diff)

@@ -191,7 +191,7 @@ def _print_large(copy: Path, packages: int, linters: Mapping[str, Path], repeat:
         commands = [[str(program), str(copy)] for program in of_python.values()]
         new: list[Cost] = []
         theirs: list[Cost] = []
-        for _ in range(repeat):  # by turns, as other programs disturb both
+        for _ in range(repeat):  # alternating, as other programs disturb both
             new.append(cost(_check([copy]), before=_forget_everything))
             theirs.append(cost(*commands))
         together = min(theirs).seconds

@@ -43,7 +43,7 @@ def main() -> None:
         for number in range(options.repeat + 1):
             for name, command in commands.items():
                 cost = _run([*command, f"package_{number}"], Path(scratch), name)
-                if number:  # the first one fills caches, of the system and of ours
+                if number:  # the first one fills the caches of the system and ours
                     costs[name].append(cost)
     least = {name: _least(measured) for name, measured in costs.items()}
     base = least["ros2 pkg create" if options.ros2 else "new"]

@@ -60,7 +60,7 @@ CASES: dict[str, tuple[str, Reader]] = {
 
 def _seconds(reader: Reader, text: str) -> float:
     start = time.process_time()
-    with suppress(Exception):  # that a text is refused is as good
+    with suppress(Exception):  # rejecting a text is as good
         reader(text)
     return time.process_time() - start
 

@@ -170,7 +170,7 @@ def own(args: argparse.Namespace, directories: Iterable[Path]) -> int:
         theirs = union(*(own_findings(args, package, linter) for linter in ("flake8", "pep257")))
         nested = tuple(f"{path}/" for path in package.tree.nested)
         theirs = {item for item in theirs if not item[0].startswith(nested)}
-        # The findings of a linter that is not run are ours alone.
+        # The findings of a linter that is not run count as ours only.
         mine = {
             (diagnostic.location.path, diagnostic.location.line, diagnostic.code)
             for diagnostic in StyleCheck([package]).diagnostics(package)
@@ -312,7 +312,7 @@ def main() -> int:
     parser.add_argument("--mutants", type=int, metavar="N")
     parser.add_argument("--seed", type=int, default=1)
     args = parser.parse_args()
-    # The bound on findings is for one package, and here a tree of many stands for one.
+    # The limit of findings is for one package, but here a tree of many is checked as one.
     vars(backend)["MOST_FINDINGS"] = sys.maxsize
     if args.own:
         return own(args, args.directories)

@@ -11,7 +11,7 @@ def main() -> int:
         from scaffold.cli.main import main as run
 
         return _ended(run()) if sys.argv[1:2] == ["new"] else run()
-    except KeyboardInterrupt:  # before the verbs' own handling began, or after it ended
+    except KeyboardInterrupt:  # outside of the handling by verbs
         return _interrupted()
 
 
@@ -34,7 +34,7 @@ def _ended(code: int) -> int:
 def _interrupted() -> int:
     import signal
 
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # it ends already: of somebody impatient
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # a second Ctrl-C while it is ending
     from scaffold.cli import terminal
     from scaffold.cli.exit_codes import INTERRUPTED
 

@@ -51,6 +51,6 @@ def write_lines(text: str, out: TextIO) -> None:
 
 def _spelled(character: str) -> str:
     if "\udc80" <= character <= "\udcff":
-        # A byte of a file name that is not a text.
+        # An undecodable byte of a file name.
         return f"\\x{ord(character) - 0xDC00:02x}"
     return character.encode("unicode_escape").decode("ascii")

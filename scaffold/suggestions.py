@@ -45,7 +45,7 @@ def closest_name(package: Package, word: str, names: Collection[str], cutoff: fl
     budget.left -= len(names)
     if budget.left < 0 or len(word) > LONGEST:
         return ""
-    if f"{word}_" in names:  # as Python has the word itself for something else
+    if f"{word}_" in names:  # as the word itself is a Python keyword
         return f"{word}_"
     matches = get_close_matches(word, names, CANDIDATES, cutoff)
     if len(matches) <= 1:

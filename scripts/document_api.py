@@ -69,7 +69,7 @@ def _example(module: str, name: str) -> tuple[str, str] | None:
     """Return the shortest rule that imports a name from a module, and the line that uses it."""
     statement = rf"from {re.escape(module)} import (\([^)]*\b{name}\b|[^\n(]*\b{name}\b)"
     files = sorted((ROOT / "rules").glob("*/**/*.py"), key=lambda path: path.stat().st_size)
-    cut = None  # a use that goes on in the next line
+    cut = None  # a use that continues on the next line
     for path in files:
         text = path.read_text(encoding="utf-8")
         if not re.search(statement, text):

@@ -377,7 +377,7 @@ def _name(node: Statement) -> str:
     return _target(node)
 
 
-# -- the imports that remain
+# -- remaining imports
 
 
 def _used(body: Sequence[Statement]) -> list[Statement]:

@@ -23,8 +23,8 @@ REPOSITORY_FILES = (CONTRIBUTING, "LICENSE")
 _DATA = os.path.join(os.path.dirname(os.path.dirname(__file__)), "data", "licences.tsv")
 _YEARS = r"\d{4}(?:-\d{4})?(?:,\s*\d{4}(?:-\d{4})?)*"
 _NOTICE = rf"Copyright(?:\s+\(c\))?\s+({_YEARS}),?\s+([^\n]+)$"
-_NEAR = 12  # words that a header must share with a known one to be called a variant of it
-_HOLDER = 12  # words that the name of a copyright holder has at most
+_NEAR = 12  # common words from which a header is a variant of a known one
+_HOLDER = 12  # maximum number of words of a copyright holder
 
 
 class Header(NamedTuple):
@@ -82,7 +82,7 @@ def _read(package: Package, path: str) -> Header | None:
         data = package.bytes_of(path)
     except LargeFileError:
         with suppress(ViewError):
-            package.data(path)  # which makes it known as too large
+            package.data(path)  # which reports it as too large
         return None
     except OSError:
         return None  # SC001, if a rule needs the file
@@ -161,7 +161,7 @@ def _block_comment(text: str, start: int) -> str:
     mark = "\ufeff" if start == 0 and text[0] == "\ufeff" else ""
     for opening, closing in (("/*", "*/"), ("<!--", "-->")):
         if text.find(opening, start) < 0:
-            continue  # as in most files: the expressions look at each line
+            continue  # the usual case: the patterns below are slow
         first = re.compile(rf"^{mark}({re.escape(opening)})", re.MULTILINE).search(text, start)
         last = re.compile(rf"{re.escape(closing)}$", re.MULTILINE).search(text, start)
         if first is None or last is None:
@@ -244,7 +244,7 @@ class KnownText(NamedTuple):
 def contributing(licence: str) -> str | None:
     """Return the CONTRIBUTING.md of a license, as written by `new`; ``None`` without one."""
     directory = os.path.join(content.built_in(), "templates", "_licenses")
-    if licence not in os.listdir(directory):  # it is the user's word, and may be a path
+    if licence not in os.listdir(directory):  # the name is from the user, and may be a path
         return None
     path = os.path.join(directory, licence)
     try:

@@ -161,7 +161,7 @@ class Scan:
             yield self._whole("convention/filename", "CMakeLists.txt")
 
     def _each_line(self) -> Iterator[Finding]:
-        above = ""  # the command that the strings of a long line may belong to
+        above = ""  # the command of strings in a long line
         first_is_upper: bool | None = None
         for line in self.lines:
             raw = line.raw

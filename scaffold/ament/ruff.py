@@ -187,7 +187,7 @@ def _collect(process: int, pipe: int) -> bytes | None:
 
 def _parse(output: bytes) -> Iterator[tuple[str, RuffDiagnostic]]:
     if output.strip() == b"[]":
-        # Most files are clean, and json takes as long to import as ruff to run.
+        # Most files are clean, and importing json takes as long as running ruff.
         return
     import json
 

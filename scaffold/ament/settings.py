@@ -152,7 +152,7 @@ class PackageSettings:
         )
         codes = dict.fromkeys(item for item in asked[PEP257] if isinstance(item, frozenset))
         if not self._runs[PEP257] and options and codes:
-            # What flake8 is told to ignore, the linter that is not run does not bring up.
+            # A linter that is not run does not report codes that flake8 ignores.
             ignored = [code for code in _OF_BOTH if not any(item.reports(code) for item in options)]
             codes = {pep257.AMENT.difference(ignored): None}
         return [
@@ -191,7 +191,7 @@ class PackageSettings:
         given = parser.parse(call.arguments)
         paths = self._without_unknown(given.paths)
         if not paths:
-            return None  # it looks at files that are made by the build
+            return None  # it checks generated files
         options = flake8.AMENT if given.config is None else self._configured(call, given.config)
         if given.linelength == _UNKNOWN_NUMBER:
             self._note(call, "the maximum line length cannot be determined: ament's is used")

@@ -97,7 +97,7 @@ def _called(cmake: CMakeLists, calls: Sequence[Command]) -> Use:
     for call in calls:
         sections = call.sections(_KEYWORDS)
         excluded += sections.get("EXCLUDE", ())
-        # Of the keywords, TESTNAME and TIMEOUT have one value; what follows it is a path as well.
+        # The keywords TESTNAME and TIMEOUT have one value; arguments after it are paths as well.
         single = (name for name in ("TESTNAME", "TIMEOUT") if name in sections)
         paths = [
             *sections.get("", ()),

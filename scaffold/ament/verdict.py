@@ -130,7 +130,7 @@ def _reported(findings: Iterable[Finding], settings: Sequence[Settings]) -> list
 
 
 def _own(text: PythonText, settings: Settings) -> Iterator[Finding]:
-    # Without a tree a newer Python may still parse the file: ruff speaks for the other rules.
+    # Without a tree, a newer Python may still parse the file: ruff covers the other rules.
     counts: dict[tuple[str, int], int] = {}
     for finding in _all_own(text, settings):
         key = finding.code, finding.line
@@ -167,12 +167,12 @@ def _broken(
         (item.line, item.column, worded(item.message)) for item in diagnostics if not item.code
     ]
     if not errors and isinstance(own, IndentationError):
-        errors = [(1, 1, own.msg)]  # ruff takes tabs for another width
+        errors = [(1, 1, own.msg)]  # ruff uses another tab width
     if not errors:
         return None
     line, column, message = min(errors)
     if own is not None and own.lineno:
-        # It names the line that flake8 names.
+        # It reports the same line as flake8.
         line, column = own.lineno, max(own.offset or 1, 1)
     return Finding(
         "E999",

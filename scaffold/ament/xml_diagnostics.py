@@ -43,7 +43,7 @@ from scaffold.source import Location
 _Problem = tuple[Location, str] | tuple[Location, str, Fix | None]
 _IN_EXPORT = frozenset({"architecture_independent", "build_type", "deprecated", "metapackage"})
 
-# linear: a declaration and comments each end at their first end mark
+# linear: a declaration and comments end at their first end mark
 _PROLOGUE = re.compile(rb"\s*(?:<\?xml[^>]*\?>)?\s*(?:<!--.*?-->\s*)*", re.DOTALL)
 """Matches the text before the first element."""
 
@@ -107,7 +107,7 @@ def _unreadable(package: Package) -> Iterator[_Problem]:
         if path != MANIFEST and (use.is_excluded or (use.runs and not use.covers(path))):
             continue
         if not use.runs and is_in_tests(path) and "launch" not in path:
-            continue  # what a test reads may be broken on purpose
+            continue  # test data may be broken on purpose
         problem = xmllint.mistake(package, path) if path != MANIFEST else None
         if problem is not None and (use.runs or not _is_read_anyway(package, path, problem[1])):
             yield problem

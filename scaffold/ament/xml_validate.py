@@ -48,7 +48,7 @@ def validate(kind: str, schema: bytes, document: bytes) -> Complaint | None:
 def main() -> None:
     """Run the jobs from standard input."""
     sys.path.append(sys.argv[1])
-    signal.signal(signal.SIGINT, signal.SIG_DFL)  # Python's own handler waits for libxml2
+    signal.signal(signal.SIGINT, signal.SIG_DFL)  # Python's own handler would wait for libxml2
     resource.setrlimit(resource.RLIMIT_AS, (MOST_MEMORY, MOST_MEMORY))
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
     resource.setrlimit(resource.RLIMIT_CPU, (MOST_SECONDS, MOST_SECONDS))

@@ -173,7 +173,7 @@ def _verdicts(package: Package) -> list[Verdict]:
             verdict_of[use] = verdict
     validated = dict(_validated(jobs))
     if any(verdict and not verdict.is_checked for verdict in validated.values()):
-        package.is_repeatable = False  # another time there may be time
+        package.is_repeatable = False  # the next run may have more time
     verdict_of.update(validated)
     result: list[Verdict] = []
     complained: set[str] = set()
@@ -194,7 +194,7 @@ def _uses(package: Package, path: str) -> Iterator[_Use]:
     except OSError:
         return
     if b"xml-model" not in data and b"noNamespaceSchemaLocation" not in data:
-        return  # nearly all files: nothing to import for
+        return  # nearly all files: avoids imports
     root = _parse(data)
     for kind, href in _named(root) if root is not None else ():
         yield _Use(path, data, kind, href)

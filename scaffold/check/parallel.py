@@ -197,9 +197,9 @@ def _start_pool(workers: int) -> Iterator[Pool]:
     A killed worker could hold the lock of the queue, for which the first process waits.
     Processes and threads inherit blocked signals when they are started.
     """
-    import multiprocessing  # slow to import, and not needed for little work
+    import multiprocessing  # slow to import, and not needed for small checks
 
-    gc.freeze()  # so that workers look for garbage among their own objects only
+    gc.freeze()  # so that workers only collect their own objects
     with _no_interruption():
         pool = multiprocessing.get_context("fork").Pool(workers)
     try:

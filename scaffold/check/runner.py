@@ -116,9 +116,9 @@ class Check:
         """
         exhausted_here = any(item.message in EXHAUSTION for item in self._unparsable)
         if exhausted_here or not self._is_whole:
-            return None  # files may have been refused because of others
+            return None  # files may have been marked unparsable because of others
         parts = dict(self._kept)
-        # What files there are to check may depend on any fact that was asked for.
+        # The set of files to check may depend on any requested fact.
         facts: set[Fact] = {*self._package.facts}
         taken_over = {wanted for part in self._kept.values() for wanted in part.facts}
         for key, reads in self._reads.items():
@@ -152,7 +152,7 @@ class Check:
 
     def _collect(self, rule: Rule, parts: dict[str, list[Diagnostic]]) -> None:
         """Add the diagnostics of a rule to ``parts``."""
-        # One more than is shown, so that the session knows of it.
+        # One more than is shown, so that the session notices it.
         most = MAX_FINDINGS + 1
         for key, say in self._steps(rule):
             diagnostics = parts.setdefault(key, [])
@@ -160,9 +160,9 @@ class Check:
                 with recorded(self._reads_of(key)):
                     diagnostics.extend(islice(say(), most))
             except ViewError:
-                continue  # what the rule needs is not there
+                continue  # a required view is missing
             most -= len(diagnostics)
-            self._is_whole &= most > 0  # else other files decide what is omitted
+            self._is_whole &= most > 0  # otherwise other files decide what is omitted
 
     def _reads_of(self, key: str) -> Reads:
         """Return the recorded accesses of a part."""

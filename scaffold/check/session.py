@@ -141,7 +141,7 @@ class Session:
             previous = earlier.get(package.directory)
             rules = self.check_rules(package, previous)
             results.append(self.result(target, rules, style.by_file(package) if style else {}))
-            # The next packages may ask about the files that were edited, and know of all others.
+            # The next packages may read the edited files, and have cached data of all others.
             package.forget_views(previous.edited if previous else ())
         return results
 
@@ -257,11 +257,11 @@ class Session:
     def check_rules(self, package: Package, earlier: Earlier | None = None) -> Ruled:
         """Run the rules over a package."""
         if package.parse_errors:
-            # They were met for other packages: the verdict must not depend on who came first.
+            # They were found for other packages: findings must not depend on the order.
             package.forget()
             if earlier is not None:
-                earlier.settled.clear()  # to meet them again
-            _ = package.name  # which everybody asks for: a malformed manifest is told of
+                earlier.settled.clear()  # to find them again
+            _ = package.name  # which all rules need: a malformed manifest is reported
         check = runner.Check(package, earlier)
         of_ros1 = [*_of_ros1(package)]
         diagnostics = of_ros1 or check.run(self._rules)
@@ -294,7 +294,7 @@ class Session:
 
     def _report(self, target: Target, diagnostics: list[Diagnostic]) -> list[Diagnostic]:
         """Return the selected findings in reading order, without duplicates."""
-        # flake8 has its own code for a Python file that does not parse.
+        # flake8 has its own code for an unparsable Python file.
         reported = {d.location.path for d in diagnostics if d.code.startswith("E9")}
         unreadable = (UnparsableFile.code, FileTooLarge.code)
         wanted = [

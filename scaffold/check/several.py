@@ -129,7 +129,7 @@ def _merged(
     for key, item in by_key.items():
         if item.code not in fixed_for_all and (item.location.path, item.code) not in has_fix:
             by_key[key] = item._replace(fix=None)
-    # A suppression that one of them needs is not unused.
+    # A suppression needed for one of them is not unused.
     result = [
         item._replace(
             message=_for_all([holding[key][name] for name in names[key]]),

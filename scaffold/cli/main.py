@@ -39,7 +39,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     if arguments is None:
         leave_out_current_directory()
     gc.set_threshold(COLLECT_FROM)
-    atexit.register(gc.freeze)  # else Python looks through everything once more
+    atexit.register(gc.freeze)  # skips a final garbage collection
     try:
         terminal.prepare()
         if "_ARGCOMPLETE" in os.environ:
@@ -62,7 +62,7 @@ def _run(given: list[str]) -> int:
     entry = runs.ReportEntry.of(given) if verb == "check" else None
     last = entry.current() if entry is not None else None
     if last is not None:
-        # Before argparse: laying out the flags takes longer than looking at a small package.
+        # Before argparse: defining the flags takes longer than checking a small package.
         for warning in last.warnings:
             terminal.warn(warning)
         terminal.write_report(last.output)
@@ -76,7 +76,7 @@ def _run(given: list[str]) -> int:
         options = parser.parse_args(given)
         options.entry = entry
         options.rule_process = process
-        os.getcwd()  # if it was removed, each verb would report something else
+        os.getcwd()  # if it was removed, each verb would report a different error
         return int(import_module(f"scaffold.cli.verbs.{options.verb}").run(options))
 
 
@@ -97,7 +97,7 @@ def _failed(error: Exception | KeyboardInterrupt) -> int:
     if isinstance(error, KeyboardInterrupt):
         import signal
 
-        signal.signal(signal.SIGINT, signal.SIG_IGN)  # it ends already: of somebody impatient
+        signal.signal(signal.SIGINT, signal.SIG_IGN)  # a second Ctrl-C while it is ending
     terminal.settle()
     match error:
         case ScaffoldError():
@@ -155,7 +155,7 @@ def _complete() -> None:
 
     try:
         parser = build_parser(words=words_before(os.environ))
-    except ScaffoldError:  # content that cannot be used: what is there without it is offered
+    except ScaffoldError:  # unusable content: complete without it
         parser = build_parser()
     complete(parser)
 

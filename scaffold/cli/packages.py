@@ -30,7 +30,7 @@ def find_targets(options: argparse.Namespace, session: Session, disk: Disk | Non
 
     adjustments = session.adjustments
     if adjustments.foreign is not None:
-        adjustments.foreign.packages.clear()  # of an earlier look, for another distribution
+        adjustments.foreign.packages.clear()  # of an earlier search, for another distribution
     excluded: set[str] = set()
     targets = discovery.find(
         options.paths,

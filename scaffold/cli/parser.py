@@ -84,7 +84,7 @@ def build_parser(
         description="Generate, lint, fix, build and smoke-test ROS 2 Python packages.",
     )
     parser.add_argument("--version", action="version", version=f"ros2-scaffold {__version__}")
-    # Without the name argparse would lay out a usage text to find it.
+    # Without the name argparse would format the usage to find it.
     verbs = parser.add_subparsers(dest="verb", metavar="VERB", required=True, prog="ros2-scaffold")
     listed = {verb: VERBS[verb]} if comes_first and verb in VERBS else VERBS
     for name, text in listed.items():

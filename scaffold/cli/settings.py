@@ -43,7 +43,7 @@ def validate_answers(settings: Config, *, of_user: bool = True) -> None:
     excluded = None if of_user else config.user_file(Disk())
     origins = {item.origin for key, item in settings.values.items() if key.startswith(_ANSWERS)}
     if not origins - {excluded} or settings.warnings:
-        return  # what was ignored may hold templates that ask for more
+        return  # ignored content may have templates with this question
     from scaffold.generate.questions import defaults, questions
     from scaffold.generate.templates import loading
 
@@ -58,6 +58,6 @@ def validate_answers(settings: Config, *, of_user: bool = True) -> None:
 
 def warn(warnings: Iterable[str]) -> None:
     """Warn on standard error of ignored parts."""
-    if "_ARGCOMPLETE" not in os.environ:  # there it would be written between the user's words
+    if "_ARGCOMPLETE" not in os.environ:  # the shell would print it within the command line
         for warning in warnings:
             terminal.warn(warning)

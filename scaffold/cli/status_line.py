@@ -22,7 +22,7 @@ class StatusLine:
         self._is_shown = sys.stderr.isatty()
         self._text = ""
         self._begun = time.monotonic()
-        self._lock = threading.RLock()  # a signal may end what the same thread does with it
+        self._lock = threading.RLock()  # reentrant, as a signal may interrupt this thread
         self._is_done = threading.Event()
         self._clock = threading.Thread(target=self._tick, daemon=True)
 
@@ -65,7 +65,7 @@ class StatusLine:
         if self._text:
             passed = _clock(time.monotonic() - self._begun)
             width = columns.of_terminal(sys.stderr) or columns.USUAL
-            # The last column stays free: some terminals go to the next line there.
+            # The last column stays free: some terminals wrap there.
             line = f"{columns.cut(self._text, width - 1 - _LONGEST_TIME)} {passed}"
         terminal.write_error(_ERASE + line)
 

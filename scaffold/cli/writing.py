@@ -67,7 +67,7 @@ def hold_all(stack: ExitStack, roots: Sequence[str], *, is_dry: bool) -> Held:
         notes.append(line)
 
     got: set[str] = set()
-    # In the same order in every process: two that wait for each other would wait forever.
+    # In the same order in every process, to avoid deadlocks.
     for root in sorted(roots, key=os.path.realpath):
         try:
             stack.enter_context(transaction.exclusive(root, note))
@@ -98,7 +98,7 @@ def note_unfinished(directory: str) -> bool:
     except OSError:
         return False
     if not any(map(temporary.is_temporary, names)):
-        return False  # without the imports of the next line: so it nearly always is
+        return False  # the usual case, without the imports of the next line
     from scaffold.writing import transaction
 
     is_unfinished = transaction.is_unfinished(directory)

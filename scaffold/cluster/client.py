@@ -77,9 +77,9 @@ class Cluster:
         """
         run = uuid.uuid4().hex
         with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # that they are large
+            warnings.simplefilter("ignore")  # a warning about large arguments
             given = [
-                # As results of tasks they outlive the worker that has them.
+                # As results of tasks they survive the death of a worker.
                 self._client.submit(worker.same, item, key=f"ros2-scaffold-{run}-shared-{number}")
                 for number, item in enumerate(shared)
             ]
@@ -158,7 +158,7 @@ def connected(address: str, tell: Callable[[str], None]) -> Iterator[Cluster]:
     _silence()
     try:
         client = dask.Client(address, timeout=TIMEOUT, set_as_default=False)
-    except Exception as error:  # whatever a wrong address, a wrong port or TLS raises
+    except Exception as error:  # any error of a wrong address, a wrong port or TLS
         raise EnvironmentMissingError(_refused(address, error)) from error
     try:
         _validate(client, address)
@@ -170,7 +170,7 @@ def connected(address: str, tell: Callable[[str], None]) -> Iterator[Cluster]:
 
 def _silence() -> None:
     """Keep Dask from logging, as this tool reports errors itself."""
-    names = [*logging.root.manager.loggerDict, "distributed"]  # it sets levels of many
+    names = [*logging.root.manager.loggerDict, "distributed"]  # it sets the levels of many loggers
     for name in names:
         if name.partition(".")[0] in {"distributed", "tornado", "asyncio"}:
             logging.getLogger(name).setLevel(logging.CRITICAL + 1)

@@ -143,7 +143,7 @@ class Packer:
         place = os.path.join(top, _GIT)
         if not os.path.exists(place):
             return
-        if os.path.isfile(place):  # of a submodule or another working tree
+        if os.path.isfile(place):  # of a submodule or another worktree
             with open(place, encoding="utf-8", errors="surrogateescape") as file:
                 place = os.path.join(top, file.read().partition("gitdir:")[2].strip())
         try:
@@ -160,7 +160,7 @@ def unpack(mirror: Mirror, directory: str) -> None:
         OSError: it cannot be written.
     """
     with tarfile.open(fileobj=io.BytesIO(mirror.archive), mode="r:gz") as archive:
-        # Only this tool packs archives, and who sends them may run code here anyway.
+        # Only this tool packs archives, and their sender may run code here anyway.
         archive.extractall(directory, filter="tar")
     for path, size in mirror.sizes.items():
         place = os.path.join(directory, path)

@@ -37,7 +37,7 @@ class Silence:
         except (TimeoutError, asyncio.TimeoutError):
             return True
         except OSError:
-            answer = {}  # the connection is closed: Dask itself ends what waits for results
+            answer = {}  # the connection is closed: Dask itself ends waiting for results
         self._next = time.monotonic() + PERIOD
         self._look_at(answer.get("workers", {}))
         return False

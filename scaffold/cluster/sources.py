@@ -35,7 +35,7 @@ def unpack(data: bytes, directory: Path) -> Package:
     """
     directory.mkdir(parents=True)
     with tarfile.open(fileobj=io.BytesIO(data), mode="r:gz") as archive:
-        # Only this tool packs archives, and who sends them may run code here anyway; the filter
+        # Only this tool packs archives, and their sender may run code here anyway; the filter
         # keeps links and names from leaving the directory by mistake.
         archive.extractall(directory, filter="data")
     return Package.at(str(directory))

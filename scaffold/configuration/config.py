@@ -329,7 +329,7 @@ def _read(disk: Disk, path: str, most: int = MAX_BYTES) -> dict[str, Any]:
         raise ConfigError(f"{path}: invalid TOML: {error}") from error
     except RecursionError:
         raise ConfigError(f"{path}: nested too deeply") from None
-    except ValueError as error:  # Python refuses numbers of thousands of digits
+    except ValueError as error:  # Python rejects numbers with thousands of digits
         raise ConfigError(f"{path}: invalid TOML: a number is too large") from error
     return entries
 

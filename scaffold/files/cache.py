@@ -36,7 +36,7 @@ def directory(kind: str) -> str | None:
     if os.environ.get(SWITCH):
         return None
     kept = home.cache()
-    # The default place is the user's own, even for those who have a repository in their home.
+    # The default directory is the user's own, even if the home directory is a repository.
     if kept is None or ("XDG_CACHE_HOME" in os.environ and _is_in_repository(kept)):
         return None
     return os.path.join(kept, kind)
@@ -89,7 +89,7 @@ def write_plain(path: str, data: bytes) -> bool:
             if file.read(MAX_BYTES) == data:
                 return True
     except OSError:
-        pass  # it is written
+        pass  # just written
     return _write(path, data)
 
 
@@ -145,7 +145,7 @@ def trim(kept: str, most: int) -> None:
             if count > 1 and (count > most // 4 * 3 or total > MAX_BYTES // 4 * 3):
                 os.unlink(path)
     except OSError:
-        return  # another process tidies up
+        return  # another process cleans up
 
 
 def size(top: str) -> tuple[int, int]:
@@ -155,7 +155,7 @@ def size(top: str) -> tuple[int, int]:
         try:
             total += os.lstat(path).st_size
         except OSError:
-            continue  # another process tidies up
+            continue  # another process cleans up
         count += 1
     return count, total
 
@@ -168,7 +168,7 @@ def clean(top: str) -> None:
     """
     import shutil  # every start of the program imports this module
 
-    for tree in TREES:  # as a whole: of half of one, nobody would know
+    for tree in TREES:  # atomically, as partial directories would go unnoticed
         shutil.rmtree(os.path.join(top, tree), ignore_errors=True)
     for path in _files(top):
         try:

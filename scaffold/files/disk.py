@@ -13,7 +13,7 @@ import errno
 import os
 import stat
 
-TYPE_CHECKING = False  # the one of typing would take longer to import than a package to check
+TYPE_CHECKING = False  # importing that of typing would take longer than checking a package
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
 
@@ -194,7 +194,7 @@ def read_file(path: str, most: int = MAX_BYTES) -> bytes:
         LargeFileError: it is too large.
         OSError: it cannot be read, or is not a regular file.
     """
-    # Opening a device may do something; what takes the file's place meanwhile must not block.
+    # Opening a device may have effects; a pipe that replaces the file meanwhile must not block.
     if not os.path.isfile(path):
         raise FileNotFoundError(errno.ENOENT, "no such file", path)
     descriptor = os.open(path, os.O_RDONLY | os.O_CLOEXEC | os.O_NONBLOCK | os.O_NOCTTY)
@@ -301,7 +301,7 @@ def _is_own(path: str) -> bool:
 
 
 def _is_shared(path: str) -> bool:
-    # Without the sticky bit it is a mount that knows no owners, as those of virtual machines.
+    # Without the sticky bit it is a mount without owners, as in virtual machines.
     try:
         return os.stat(path).st_mode & _SHARED == _SHARED
     except OSError:

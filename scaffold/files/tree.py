@@ -154,7 +154,7 @@ class DiskTree:
         if name.startswith(".") or name == "__pycache__" or name.endswith(".egg-info"):
             return True
         if name in BUILD_DIRECTORIES:
-            # What colcon makes inside a package carries its marker; a folder of that name may not.
+            # Build products of colcon have its marker; other directories of that name do not.
             return self.disk.exists(os.path.join(self.root, path, "COLCON_IGNORE"))
         return False
 

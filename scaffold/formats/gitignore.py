@@ -44,7 +44,7 @@ class IgnoreFile:
     @cached_property
     def _compiled(self) -> tuple[list[_Pattern], re.Pattern[str], re.Pattern[str]]:
         patterns = [*_read(self._text)]
-        # The last pattern that fits decides.
+        # The last matching pattern decides.
         groups = [(f"(?P<p{at}>{pattern.regex})", pattern) for at, pattern in enumerate(patterns)][
             ::-1
         ]

@@ -86,7 +86,7 @@ class Element:
     def __repr__(self) -> str:
         return f"<{self.tag}> at {self.location}"
 
-    # -- what it holds
+    # -- content
 
     @property
     def children(self) -> list[Element]:
@@ -147,7 +147,7 @@ class Element:
             else:
                 pending.pop()
 
-    # -- where it is
+    # -- locations
 
     @property
     def open_end(self) -> int:

@@ -11,7 +11,7 @@ from scaffold.source import ParseError, Source
 
 _REFERENCE = re.compile(r"&(?:#[0-9]+|#x[0-9A-Fa-f]+|[A-Za-z_:][\w:.\-]*);")
 _NAME = re.compile(r"[^\s<>/=\"'&]+")
-_NEAR = 4096  # characters; further away is not an explanation
+_NEAR = 4096  # characters; errors further away are unrelated
 _TYPOGRAPHIC_QUOTES = "\u201c\u201d\u2018\u2019"
 
 

@@ -90,7 +90,7 @@ class _Reader:
         self.source = source
         self.data = source.text.encode("utf-8", "surrogatepass")
         self.offset = _same if source.text.isascii() else _Offsets(self.data)
-        # The text is decoded already: what the declaration says does not matter to expat.
+        # The text is decoded already, so expat ignores the declared encoding.
         self.parser = expat.ParserCreate("utf-8")
         self.root: Element | None = None
         self.current: Element | None = None
@@ -127,7 +127,7 @@ class _Reader:
             at = self.offset(parser.ErrorByteIndex)
             raise explain(self.source, error.code, at, self.current) from None
         finally:
-            # The handlers hold the reader, which holds the parser.
+            # Breaks the reference cycle of handlers, reader and parser.
             parser.StartElementHandler = None
             parser.EndElementHandler = None
             parser.CharacterDataHandler = None

@@ -223,7 +223,7 @@ def _serve(requests: int, back: int) -> NoReturn:
         import pickle
         import signal
 
-        signal.signal(signal.SIGINT, signal.SIG_IGN)  # the first process says what is interrupted
+        signal.signal(signal.SIGINT, signal.SIG_IGN)  # the first process reports the interruption
         with open(requests, "rb") as source, open(back, "wb") as sink:
             session = _session(_built_in())
             _prepare()

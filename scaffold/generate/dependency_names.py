@@ -82,7 +82,7 @@ def _names() -> set[str]:
 def _is_slip(name: str, other: str) -> bool:
     """Tell whether a name differs from another one by a typo only."""
     if name.startswith(_PYTHON) and other.startswith(_PYTHON):
-        # Two short names of Python modules resemble each other by chance: pip, pil.
+        # Short names of Python modules are similar by chance: pip, pil.
         return catalog.is_near(name.removeprefix(_PYTHON), other.removeprefix(_PYTHON))
     if catalog.is_near(name, other):
         return True

@@ -212,7 +212,7 @@ def compose(
         values, order.layers, made, renderer, day or today(), subdirectory, target.of(given)
     )
     for clash in clashes(uses(context["nodes"], templates)):
-        if clash.first.kind != "topic":  # `new` refuses it, `update` has to live with it
+        if clash.first.kind != "topic":  # `new` rejects it, `update` cannot
             raise InputError(str(clash))
     return Composed(
         order.layers,

@@ -283,7 +283,7 @@ def keys_brought(keys: Iterable[str]) -> set[str]:
     """
     result: set[str] = set()
     pending = [*keys]
-    for key in pending:  # grows on the way
+    for key in pending:  # extended during the loop
         brought = {*_BROUGHT.get(key, "").split()} - result
         result |= brought
         pending += sorted(brought)
@@ -366,7 +366,7 @@ def similar_package(name: str) -> str | None:
     plain = name.replace("-", "").replace("_", "").lower()
     candidates = set(_alike()[len(plain), plain])
     for length in range(len(name) - 1, len(name) + 2):
-        # Wherever the slip is, one end of the name is as it should be.
+        # Wherever the typo is, one end of the name is right.
         for end in (name[:1] + "*", "*" + name[-1:]):
             candidates.update(_alike()[length, end])
     return next((candidate for candidate in sorted(candidates) if is_near(name, candidate)), None)

@@ -322,7 +322,7 @@ def is_mentioned_once(package: Package, word: str, path: str) -> bool:
     """Tell whether a word of a Python file occurs nowhere else: in no call, import or text."""
     searched = word.encode()
     if package.data(path).count(searched) != 1:
-        return False  # without a look at other files, so that edits of those do not matter
+        return False  # without reading other files, so that edits of those do not matter
     for other in package.python_files:
         with suppress(ViewError):
             if other != path and searched in package.data(other):

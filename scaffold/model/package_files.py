@@ -155,7 +155,7 @@ class PackageFiles(FactStore):
         Args:
             kept: The files, by ``full_path``, to keep parsed.
         """
-        if self._refused:  # which the facts know of
+        if self._refused:  # whose facts are recorded
             self._facts.clear()
             self._refused.clear()
             kept = ()

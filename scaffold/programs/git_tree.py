@@ -126,7 +126,7 @@ class Objects:
             with open(os.open(place, flags, bits), "wb") as file:
                 file.write(data)
         for place, target in links if with_links else ():
-            # The last ones: nothing is written through a link.
+            # Symlinks are created last, so that nothing is written through them.
             os.makedirs(os.path.dirname(place), exist_ok=True)
             os.symlink(target, os.fsencode(place))
 

@@ -143,7 +143,7 @@ def _rank(entry: Entry, rules: Mapping[str, type[Rule]]) -> tuple[int, bool, boo
 def _effect(first: Diagnostic, rules: Mapping[str, type[Rule]]) -> Effect:
     """Return the effect of a finding, as declared by its rule."""
     code = first.code
-    if code in STYLE:  # errors among them: the class E9 of pycodestyle is of what no parser reads
+    if code in STYLE:  # errors among them: E9 of pycodestyle is for unparsable files
         return Effect.STOPS_BUILD if code.startswith("E9") else Effect.STOPS_PROGRAM
     rule = rules.get(code)
     effect = rule.usual_effect() if rule else Effect.STOPS_PROGRAM

@@ -37,7 +37,7 @@ def report(results: Sequence[Result], out: TextIO, options: ReportOptions) -> No
             "title": f"{diagnostic.code} {diagnostic.name}",
         }
         if at.line != at.end_line:
-            del properties["col"], properties["endColumn"]  # GitHub knows them for one line only
+            del properties["col"], properties["endColumn"]  # only supported within one line
         message = f"{path}:{at.line}:{at.column}: {diagnostic.code} {printable(diagnostic.text)}"
         out.write(command(_COMMANDS[diagnostic.severity], properties, message))
 

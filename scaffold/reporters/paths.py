@@ -61,7 +61,7 @@ def _in_repository(package: Package, path: str) -> str:
 
 
 def _repository_around(package: Package, directory: str) -> str | None:
-    disk = package.outside  # a remembered report is shown again while the disk gives these answers
+    disk = package.outside  # a cached report is valid while the disk gives these answers
     while not disk.exists(os.path.join(directory, ".git")):
         parent = os.path.dirname(directory)
         if parent == directory:

@@ -96,7 +96,7 @@ async def build(
             build_output += f"\nthe build did not finish within {timeout:g} s\n"
         log = _Log.read(latest, build_output, succeeded=exit_code == 0)
         log = replace(log, left_running=tuple(left_running))
-        # A package that makes colcon itself fail ends the build also of those that come later.
+        # A package that makes colcon itself fail also ends the build of later ones.
         later = [item for item in left if log.had_no_turn(item.name)] if in_time else []
         if len(later) == len(left):
             later = []
@@ -162,7 +162,7 @@ def variables(environment: Environment, scratch: Path) -> dict[str, str]:
     """Return the variables of the build."""
     made = {
         **environment.variables,
-        # Defaults and mixins of the user would make it another build.
+        # Defaults and mixins of the user would change the build.
         "COLCON_HOME": str(scratch / "colcon"),
         # setup.py may import modules next to it: nothing is written to the sources.
         "PYTHONDONTWRITEBYTECODE": "1",
@@ -175,7 +175,7 @@ def variables(environment: Environment, scratch: Path) -> dict[str, str]:
 
 def _cmake_arguments(environment: Environment, packages: Sequence[Source]) -> Iterator[str]:
     if environment.kind == "wheels":
-        # Their CMake is newer than Jazzy's and would warn of what Jazzy's accepts.
+        # Their CMake is newer than that of Jazzy and has more warnings.
         yield "-DCMAKE_WARN_DEPRECATED=OFF"
     if any(path.endswith(_COMPILED) for package in packages for path in package.files):
         if environment.kind == "wheels":
@@ -188,7 +188,7 @@ def _cmake_arguments(environment: Environment, packages: Sequence[Source]) -> It
         ("CXX", "CXX", ("c++", "g++", "clang++")),
     ):
         if not _has_compiler(environment.variables, variable, names):
-            # With `project(name NONE)` both are unused, which is nothing to warn about.
+            # With `project(name NONE)` both are unused, which needs no warning.
             yield "--no-warn-unused-cli"
             yield f"-DCMAKE_{language}_COMPILER={stand_in}"
             yield f"-DCMAKE_{language}_COMPILER_FORCED=1"
@@ -284,7 +284,7 @@ class _Log:
             return Build(ok=self.succeeded, errors=errors, warnings=warnings)
         job = self.jobs.get(name)
         if job is None:
-            # Also when colcon has given up before it began: then it says why.
+            # Also if colcon failed before it started: then it reports the reason.
             why = [] if self.succeeded else output.errors(self.console)
             return Build(ok=False, errors=("not built: colcon does not find the package", *why))
         seconds = 0.0 if job.ended is None else job.ended - job.started
@@ -295,7 +295,7 @@ class _Log:
         failed = self._failed_dependencies(job)
         if failed:
             return [f"not built: it depends on {', '.join(failed)}, which failed"]
-        # A setup.py that cannot be run fails in colcon itself, which then has the reason.
+        # A broken setup.py makes colcon itself fail, which then has the reason.
         has_reason = written.strip() and job.ended and output.PASSED_ON not in written
         return output.errors(written if has_reason else self.console)
 

@@ -31,7 +31,7 @@ def expectations(package: Package) -> dict[str, Expectation]:
     return result
 
 
-# -- what one of them does
+# -- executables
 
 
 def _expectation(package: Package, start: EntryPoint) -> Expectation | None:
@@ -64,7 +64,7 @@ def _is_node(package: Package, file: RclpyFile) -> bool | None:
     return None if roots & (own | {"", package.name}) else False
 
 
-# -- what a node publishes
+# -- nodes
 
 
 def _publications(

@@ -289,7 +289,7 @@ def _wheels(variables: Mapping[str, str], prefix: str) -> Environment:
         "ROS_DISTRO": distribution,
         "ROS_VERSION": "2",
         "ROS_PYTHON_VERSION": "3",
-        # What the wheels would set themselves, by starting every Python twice; programs that are
+        # The wheels would set these themselves by starting every Python twice; programs that are
         # not Python need it as well.
         "LD_LIBRARY_PATH": os.pathsep.join((f"{prefix}/lib", *sorted(glob(libraries)))),
         _BOOTSTRAPPED: "1",
@@ -327,7 +327,7 @@ def _from_variables(
         )
     prefixes = [part for part in variables.get("AMENT_PREFIX_PATH", "").split(os.pathsep) if part]
     rmw = _rmw(prefixes, variables.get("RMW_IMPLEMENTATION"))
-    # One that is not installed would keep rclpy from being imported.
+    # With a missing one, rclpy could not be imported.
     usable = {**variables, "RMW_IMPLEMENTATION": rmw}
     imported = process.capture([python, "-c", "import rclpy"], usable, origin, TIMEOUT)
     if imported.exit_code:

@@ -87,7 +87,7 @@ class Lifecycles:
         if error or before not in _STARTS[name]:
             if error:
                 self.transitions.append(Transition(node, name, before, "", 0.0, error))
-            return  # one that starts up by itself is active already
+            return  # a node that activates itself is active already
         begun = time.monotonic()
         number = _SHUTDOWN[before] if name == "shutdown" else _NUMBERS[name]
         request = {"transition": {"id": number}}

@@ -310,7 +310,7 @@ class Observer:
                 previous[key] = max(previous[key], topic[key])
             previous["types"] = sorted({*previous["types"], *topic["types"]})
             if len(topic["endpoints"]) >= len(previous["endpoints"]):
-                previous["endpoints"] = topic["endpoints"]  # the later, the more is known of them
+                previous["endpoints"] = topic["endpoints"]  # later entries are more complete
 
     def _as_observation(self, report: Mapping[str, Any]) -> Observation:
         received, until = report["topics"], report["now"]

@@ -108,7 +108,7 @@ class Transaction:
     def _slot(self, change: Change) -> str:
         """Return the path in the stage that a change exchanges with its file."""
         slot = self.stage.file(str(self._numbers[change.path]))
-        # Without an exchange the kernel needs two steps, and the old file another name.
+        # Without an atomic exchange, two steps are needed, and another name for the old file.
         spare = f"{slot}{SPARE}"
         return spare if os.path.lexists(spare) and not os.path.lexists(slot) else slot
 
@@ -124,7 +124,7 @@ class Transaction:
         """Tell whether another process has changed the file."""
         return self._now(change) not in {change.before, change.after}
 
-    # -- forward and back
+    # -- doing and undoing
 
     def refuse_changed(self) -> None:
         """Raise ConflictError if a file has changed since it was read."""

@@ -81,7 +81,7 @@ def _take_owner(descriptor: int, old: os.stat_result) -> int:
                 os.fchown(descriptor, -1, old.st_gid)
     mode = stat.S_IMODE(old.st_mode)
     if os.fstat(descriptor).st_uid != old.st_uid:
-        mode &= ~(stat.S_ISUID | stat.S_ISGID)  # not to be run as another user
+        mode &= ~(stat.S_ISUID | stat.S_ISGID)  # setuid bits are not copied to another owner
     return mode
 
 
@@ -90,7 +90,7 @@ def _copy_attributes(source: str, descriptor: int) -> None:
         return
     with suppress(OSError):
         for name in os.listxattr(source):
-            with suppress(OSError):  # the system keeps some for itself
+            with suppress(OSError):  # some are reserved for the system
                 os.setxattr(descriptor, name, os.getxattr(source, name))
 
 

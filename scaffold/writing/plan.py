@@ -198,7 +198,7 @@ def _read(target: str, path: str) -> tuple[bytes | None, int]:
     if os.path.isdir(target):
         raise ConflictError(f"{path} should be a file, but is a directory")
     try:
-        # A pipe would be waited for.
+        # Opening a pipe would block.
         with open(os.open(target, os.O_RDONLY | os.O_NONBLOCK | os.O_CLOEXEC), "rb") as file:
             mode = os.fstat(file.fileno()).st_mode
             if not stat.S_ISREG(mode):
@@ -253,6 +253,6 @@ def _make_directories(directory: str) -> None:
         missing.append(directory)
         directory = os.path.dirname(directory)
     for path in reversed(missing):
-        # Another process may make a package in the same new directory.
+        # Another process may create a package in the same new directory.
         with suppress(FileExistsError):
             new_files.make_directory(path)

@@ -32,7 +32,7 @@ def move(source: str, target: str) -> None:
     except FileExistsError:
         if not os.path.samefile(source, target):
             raise
-        os.unlink(source)  # an earlier attempt was cut off between its two steps
+        os.unlink(source)  # an earlier attempt was interrupted between its two steps
 
 
 def _link_and_unlink(source: str, target: str) -> None:
@@ -77,7 +77,7 @@ def exchange(first: str, second: str, spare: str) -> None:
 
 def try_rename(source: str, target: str, flags: int) -> bool:
     """Rename with the Linux system call; return whether it is supported."""
-    import ctypes  # only for those who write into an existing directory
+    import ctypes  # only needed to write into an existing directory
 
     call = getattr(ctypes.CDLL(None, use_errno=True), "renameat2", None)
     if call is None:

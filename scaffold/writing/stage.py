@@ -39,7 +39,7 @@ class Stage:
         except OSError:
             lock = None  # no locks on this file system: no cleanup there
         else:
-            if lock is None:  # swept before it was locked
+            if lock is None:  # removed before it was locked
                 with cls.made(parent) as another:
                     yield another
                 return
@@ -80,7 +80,7 @@ def sweep(parent: str) -> None:
     for name in temporary_names(parent):
         path = os.path.join(parent, name)
         if has_journal(parent, name):
-            continue  # a package's own, not for anybody but its next writer
+            continue  # the stage of a package, which only its next writer may recover
         with suppress(OSError):
             descriptor = try_lock(path)
             if descriptor is not None:

@@ -161,7 +161,7 @@ def _staged(
                 like=join(root, file.path),
                 is_durable=True,
             )
-        # Some file systems have no executable bits: the actual mode is the result.
+        # Some file systems have no executable bits, so the actual mode is used.
         changes.append(Change(file.path, file.before, state(slot)))
     directories = _missing_directories(root, changes)
     return Transaction(root, stage, changes, directories, is_forward=is_forward)

@@ -43,7 +43,7 @@ _STYLE_LINTERS = {"flake8": FLAKE8, "pep257": PEP257, "both": BOTH}
 
 def _style_codes() -> Iterator[AmentCode]:
     with open(_STYLE_FILE, encoding="utf-8") as file:
-        next(file)  # says what the columns are
+        next(file)  # describes the columns
         for line in file:
             code, name, linters, severity, fix, summary = line.rstrip("\n").split(None, 5)
             safety = None if fix == "-" else Safety(fix)

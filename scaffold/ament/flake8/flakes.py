@@ -82,7 +82,7 @@ def check(
     if text.index is None:
         return
     is_before_3 = not linters.of_target().since("pyflakes", 3)
-    # From Python 3.14 on annotations are evaluated when asked for, which ruff knows of the target.
+    # From Python 3.14 on, annotations are evaluated lazily, which ruff handles for the target.
     is_deferred = distributions.target().python >= (3, 14)
     ends = {(item.code, item.line, item.column): item for item in diagnostics}
     for message in messages(text.index, text.path, builtins):
@@ -146,7 +146,7 @@ def _handler_lines(text: PythonText) -> dict[int, int]:
 def _is_made_when_run(text: PythonText, code: str, arguments: Sequence[object]) -> bool:
     """Tell whether the module may have names that are not defined in its text."""
     if code == "F821":
-        # A configuration such as .cmake-format.py is run by its program, with names from there.
+        # A configuration such as .cmake-format.py is run by its program, which defines names.
         is_given = not _GIVEN.get(text.name, frozenset()).isdisjoint(arguments)
         return text.name.startswith(".") or is_given or _executes_text(text) or _is_stub(text)
     return code == "F822" and _has_getattr(text)

@@ -58,7 +58,7 @@ class _Silenced:
         self._text = text
         self._groups = _groups(text)
         self._codes: dict[int, tuple[str, ...]] = {}
-        # flake8-quotes skips the lines of all comments that end with the word.
+        # flake8-quotes skips lines with a comment that ends with the word.
         self._quotes = {
             token.start[0]
             for token in text.tokens

@@ -102,7 +102,7 @@ class Options(NamedTuple):
         """
         patterns = [(normal(name, directory), codes) for name, codes in self.per_file_ignores]
         fitting = [item for item in patterns if matches(path, [item[0]])]
-        # flake8 takes the longest pattern, and of equal ones the first.
+        # flake8 uses the longest pattern, and the first of equal ones.
         ignored = max(fitting, key=lambda item: len(item[0]))[1] if fitting else ()
         return self._replace(extend_ignore=(*self.extend_ignore, *ignored), per_file_ignores=())
 
@@ -189,7 +189,7 @@ def _values(section: SectionProxy, directory: str) -> Iterator[tuple[str, Any]]:
         name = written.replace("-", "_")
         convert = _CONVERSIONS.get("inline_quotes" if name == "quotes" else name)
         if convert is None or ("-" in written and "_" in written):
-            continue  # flake8 passes over options that it does not know
+            continue  # flake8 ignores unknown options
         try:
             value = convert(section, written)
         except ValueError as error:
@@ -253,7 +253,7 @@ def _by_file(section: SectionProxy, key: str) -> tuple[tuple[str, Names], ...]:
     files: list[str] = []
     codes: list[str] = []
     after_colon, is_separated = False, True
-    # linear: what is not of a code, a file or white space is matched by itself
+    # linear: other characters are matched one by one
     for token in re.finditer(_TOKENS, text):
         kind = token.lastgroup
         if kind is None:

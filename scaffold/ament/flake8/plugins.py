@@ -59,7 +59,7 @@ def _tight_classes(text: PythonText) -> Iterator[Finding]:
         if logical.is_comment:
             continue
         line = logical.text
-        # It takes any statement for a class that begins with these letters.
+        # It treats any statement that starts with these letters as a class.
         if line.startswith("class"):
             after_class.add(logical.end_row + 1)
         if logical.end_row in after_class and line.startswith(("def ", "@")):

@@ -95,7 +95,7 @@ def _may_fail(text: str) -> bool:
     if '"' in rest or "\\'" in rest or "''" in rest:
         return True
     for piece in re.findall(r"[fF][rR]?'([^'\n]*)'", rest):
-        if piece.rfind("{") > piece.rfind("}"):  # its own quotes inside of an f-string
+        if piece.rfind("{") > piece.rfind("}"):  # quotes inside of an f-string
             return True
     # Strings where a docstring is allowed.
     return re.search(r"^[ \t]*[rRuUbB]{0,2}'|:[ \t]*[rRuUbB]{0,2}'", rest, re.MULTILINE) is not None

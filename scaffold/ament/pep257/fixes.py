@@ -30,7 +30,7 @@ def fix(definition: Definition, code: str) -> tuple[tuple[Replacement, ...], str
     if "\\" in definition.docstring and not (code in _LOOKS_AT_ESCAPES or _is_raw(definition)):
         return (), ""
     splices = tuple(make_splices(definition))
-    # A summary that moves to the second line was too long before.
+    # A summary that moves to the second line was too long already.
     if not splices or (code != "D213" and _is_too_long(definition, splices)):
         return (), ""
     return tuple(_placed(definition, splice) for splice in splices), title
@@ -169,7 +169,7 @@ def _blank_after_summary(definition: Definition) -> Iterator[Splice]:
             break
         following = line_end + 1
     summary = literal[start:summary_end].rstrip()
-    # A sentence that goes on in the second line is a matter of words.
+    # A sentence that continues in the second line must be reworded.
     is_whole = summary.endswith(".") and re.match(_NEXT_SENTENCE, literal[following:])
     if following > summary_end + 1 or is_whole:
         yield summary_end + 1, following, "\n"
@@ -192,7 +192,7 @@ def _indentation(definition: Definition) -> Iterator[Splice]:
         if closes and number == len(rows) - 1:
             width = len(indent)
         moved.append(" " * width + row.lstrip() if row.strip() else row)
-    # All of it is replaced: no other fix must add lines that are not moved along.
+    # The whole literal is replaced: no other fix may add lines that are not shifted.
     yield 0, len(literal), "\n".join(moved)
 
 
@@ -211,7 +211,7 @@ def _raw(definition: Definition) -> Iterator[Splice]:
         return
     first, last = _quotes(definition)
     if definition.value == literal[first:last]:
-        # All of it is replaced: other fixes of its backslashes must not meet this one.
+        # The whole literal is replaced: other fixes of its backslashes must not overlap.
         yield 0, len(literal), f"r{literal}"
 
 

@@ -19,9 +19,7 @@ def correct(word: str) -> str | None:
     lowered = word.lower()
     if lowered in _blacklist():
         return ""
-    if (
-        lowered in _imperative_words()
-    ):  # as most words are: without the stems of all words of the list
+    if lowered in _imperative_words():  # the usual case, without the stems of all words of the list
         return None
     forms = _imperatives().get(_stem(lowered))
     if not forms or lowered in forms:

@@ -71,7 +71,7 @@ def _literal(text: str, _: object) -> object:
 def load() -> Any:  # noqa: ANN401  it has no types
     """Return the module pydocstyle, patched to be safe and silent."""
     pydocstyle = import_module("pydocstyle")
-    # It evaluates what `__all__` is set to, and an f-string there may call anything.
+    # It evaluates the value of `__all__`, where an f-string may call anything.
     vars(import_module("pydocstyle.parser"))["eval"] = _literal
     logging.getLogger("pydocstyle").setLevel(logging.CRITICAL)
     return pydocstyle

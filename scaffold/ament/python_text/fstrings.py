@@ -78,7 +78,7 @@ class _Opened:
         while at < end:
             character = text[at]
             if character in "{}" and text[at + 1 : at + 2] == character and not in_spec:
-                # A doubled brace ends a stretch of text with one brace.
+                # A doubled brace ends a part of text with one brace.
                 yield self._token(FSTRING_MIDDLE, start, at + 1)
                 at = start = at + 2
             elif character == "{":

@@ -45,7 +45,7 @@ _PATTERNS = {
 }
 _KINDS = (0, *_PATTERNS)
 """The token types by group number."""
-# linear: the last of the groups takes any character, so there is a match wherever one is sought
+# linear: the last group matches any character
 _TOKEN = re.compile(
     rf"[ \f\t]*(?:{'|'.join(f'({pattern})' for pattern in _PATTERNS.values())})", re.DOTALL
 )
@@ -120,7 +120,7 @@ def _indent(tokens: list[Token], indents: list[int], line: str, place: tuple[int
     if width == indents[-1] and line.startswith(" " * width):
         return True
     if line[:width].strip(" "):
-        return False  # tabs have a width of their own
+        return False  # tabs are special
     if width > indents[-1]:
         indents.append(width)
         tokens.append(Token(INDENT, line[:width], (row, 0), place, line))

@@ -50,7 +50,7 @@ def decode(data: bytes) -> Decoded:
     try:
         encoding, _ = tokenize.detect_encoding(io.BytesIO(data).readline)
         text = data.decode(encoding)
-        # A codec that is not a charset, such as idna, does not give the bytes back.
+        # A codec that is not a charset, such as idna, does not round-trip.
         is_exact = encoding in _EXACT or text.encode(encoding) == data
     except (SyntaxError, UnicodeError, LookupError):
         is_exact = False

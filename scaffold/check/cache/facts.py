@@ -72,7 +72,7 @@ class EarlierFacts:
         if isinstance(stored, StoredFact):
             self._settled[wanted] = stored
             fact = Fact(*wanted, stored)
-            # Views of this package may be used for another, which does not know what it is made of.
+            # Views of this package may be used by another, which does not know their dependencies.
             fact.reads.facts.update(item for item in map(self.recall, stored.facts) if item)
             return fact
         return stored
@@ -93,7 +93,7 @@ class EarlierFacts:
             with time_limit.limited():
                 ask_again(package, key)
         except ViewError:
-            pass  # the fact says so
+            pass  # the fact raises the error
         except Exception:  # noqa: BLE001  whoever asks for it fails in the same way
             return None
         result = package.known_fact(key)

@@ -105,7 +105,7 @@ class ResultCache:
         edited: set[str] = set()
         for kind, path in changed:
             full = package.full_path(path[start:])
-            # A former file is missing from its directory, or is of another kind there.
+            # A removed file is missing from its directory, or has another type there.
             if kind != "content" or path != full or not is_followed(path):
                 return None
             edited.add(full)
@@ -240,7 +240,7 @@ def _seen(package: Package, before: Seen, result: Result) -> Seen | None:
     crashed = any(diagnostic.code == RuleCrashed.code for diagnostic in result.diagnostics)
     if crashed or not (disk.is_settled and package.is_repeatable):
         return None
-    # Ruff reads the files by itself, a little later.
+    # Ruff reads the files itself, slightly later.
     return disk.seen if holds(disk.seen) else None
 
 
@@ -294,7 +294,7 @@ class _Coder:
         return diagnostic
 
     def _note(self, diagnostic: Diagnostic, stored: tuple[Any, ...]) -> tuple[Any, ...]:
-        self._kept.append(diagnostic)  # so that no other gets its number
+        self._kept.append(diagnostic)  # so that no other object gets its id
         self._stored[id(diagnostic)] = stored
         return stored
 

@@ -222,7 +222,7 @@ def tool() -> str:
         parts += _stamps(top)
     for entry in sys.path:
         if entry.endswith(("site-packages", "dist-packages")):
-            # Installing, removing or renewing anything touches the directory.
+            # Installing, removing or updating a package touches the directory.
             parts.append(f"{entry} {stamp(entry)}")
     return digest("\n".join(parts).encode("utf-8", "surrogateescape"))
 

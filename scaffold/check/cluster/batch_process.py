@@ -25,7 +25,7 @@ def check(work: batch.Batch, files: Mirror) -> batch.Answer:
         [sys.executable, "-m", __name__],
         input=pickle.dumps((work, files)),
         capture_output=True,
-        cwd=os.sep,  # nothing there is imported by mistake
+        cwd=os.sep,  # not on the import path
         check=False,
     )
     if done.returncode:
@@ -36,6 +36,6 @@ def check(work: batch.Batch, files: Mirror) -> batch.Answer:
 
 
 if __name__ == "__main__":
-    # Whoever sends work to a cluster may run code there.
+    # The sender of work may run code on the cluster anyway.
     sent = pickle.load(sys.stdin.buffer)  # noqa: S301
     sys.stdout.buffer.write(pickle.dumps(batch.check(*sent)))

@@ -211,7 +211,7 @@ def _inside(fix: Fix, overlay: Overlay) -> Fix | None:
     return fix._replace(changes=tuple(changes))
 
 
-# -- which fixes go together
+# -- compatible fixes
 
 
 def _compatible(package: Package, fixes: Iterable[Fix]) -> list[Fix]:
@@ -303,7 +303,7 @@ def _order(edit: Edit) -> tuple[int, int, tuple[int, str]]:
     return edit.start, edit.end, (inserted.rank, inserted.name) if inserted else (0, "")
 
 
-# -- no file breaks
+# -- soundness
 
 
 def _sound(package: Package, fixes: list[Fix]) -> tuple[list[Fix], Mapping[str, bytes]]:

@@ -101,7 +101,7 @@ def _candidates(package: Package, source: Source, diagnostic: Diagnostic) -> Ite
 
 def _python_rows(package: Package, diagnostic: Diagnostic) -> Iterator[int]:
     path, row = diagnostic.location.path, diagnostic.location.line
-    # Read inside of the functions: what is remembered goes when the file changes.
+    # Read inside of the functions, as cached data is dropped when the file changes.
     ends = package.remember(("rows with comments", path), lambda: _ends(package.editable(path)))
     if diagnostic.code not in STYLE:
         if ends.get(row) == row:

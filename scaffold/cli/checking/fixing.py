@@ -49,7 +49,7 @@ def write(
 
     with ExitStack() as stack:
         held = writing.hold_all(stack, _roots(targets), is_dry=options.diff)
-        if held.has_waited:  # what was found before may have changed
+        if held.has_waited:  # packages found before may have changed
             targets = find_again()
         targets = [item for item in targets if item.package.root in held.roots]
         trees = [target.package.tree for target in targets]

@@ -143,7 +143,7 @@ class Since:
         with TemporaryDirectory(prefix="ros2-scaffold-") as made:
             top = os.path.realpath(made)
             self._commit.export(top)
-            os.mkdir(os.path.join(top, ".git"))  # the top of a repository, for who looks for it
+            os.mkdir(os.path.join(top, ".git"))  # marks the top of a repository
             places = [os.path.join(top, self._path(checked.package, "")) for checked in self._all]
             packages = [place for place in places if _is_package(place)]
             wanted = {self._path(result.package, "") for result in results}

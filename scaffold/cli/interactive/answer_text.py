@@ -57,7 +57,7 @@ def _flag(name: str, value: object) -> list[str]:
     flag = questions.flag(name)
     if isinstance(value, list):
         return [flag, *map(str, value)]
-    # With a dash in front it would be taken for a flag.
+    # A leading dash would look like a flag.
     return [f"{flag}={value}"] if str(value).startswith("-") else [flag, str(value)]
 
 

@@ -120,7 +120,7 @@ class Mover:
                 consequences = self._checked(checking, move)
             by_distribution[distribution] = [item.without_fixes() for item in consequences]
             session.types_failure = session.types_failure or checking.types_failure
-        # Where packages move, fixes write what all of them have.
+        # Fixes must be valid for the target and the kept distributions.
         return merged(
             by_distribution,
             {item.code for distribution in results for item in distribution.diagnostics},

@@ -122,6 +122,6 @@ def with_answer(text: str, names: Sequence[str]) -> str:
     """Return a record with another answer and all other lines unchanged."""
     line = f"    {json.dumps(distro.ANSWER)}: {json.dumps([*names])},\n"
     old = _ANSWER.search(text)
-    if old is None:  # of a version that did not ask
+    if old is None:  # of a version without this question
         return _ANSWERS.sub(lambda matched: matched[0] + line, text, count=1)
     return text[: old.start()] + line + _ANSWER.sub("", text[old.end() :])

@@ -95,7 +95,7 @@ def _targets(options: argparse.Namespace, directory: str, settings: Config) -> l
     from scaffold.errors import InputError
 
     recorded = distro.recorded(directory)
-    flag = getattr(options, distro.ANSWER, None)  # templates of others may not ask for it
+    flag = getattr(options, distro.ANSWER, None)  # user templates may not have this question
     if recorded is None:
         return distro.chosen(flag, settings)
     if flag is not None and distro.wanted(flag, settings) != recorded:
@@ -167,7 +167,7 @@ def _order(
     from scaffold.model.package import Package
     from scaffold.writing.transaction import RECORD
 
-    # The package that is edited is read anew once it is locked: another run may be writing it.
+    # The package is read again once it is locked, as another run may be writing it.
     before = Package.at(directory)
     recorded = update.recorded_content(before.tree, directory, settings.content)
     roots = content.roots("templates", (*recorded, *settings.content))

@@ -148,7 +148,7 @@ def _run(
     if options.reference:
         return _reference(targets)
     is_unfinished = note_unfinished(targets)
-    # Nobody knows what else a rule of the user's own looks at; and a note is for every run.
+    # User rules may access anything, and notes must appear in every run.
     is_forgotten = settings.content or is_unfinished or options.write_baseline or options.since
     is_forgotten = is_forgotten or options.cluster is not None or options.refused
     entry = None if is_forgotten else outcome.run_entry(options, targets, options.distributions[0])

@@ -44,7 +44,7 @@ def run(options: argparse.Namespace) -> int:
     warn(settings.warnings)
     validate_answers(settings)
     choices = Choices(settings, registry.load(content.roots("rules", settings.content)))
-    choices.selection()  # refuses words that mean no rule
+    choices.selection()  # rejects words that match no rule
     choices.adjustments()
     rows = _rows(settings)
     if options.format == "json":

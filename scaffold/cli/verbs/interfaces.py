@@ -66,7 +66,7 @@ def _definitions(directory: str) -> Definitions:
         raise InputError(f"{directory}: no such directory")
     try:
         targets = discovery.find([directory])
-    except InputError:  # a directory without packages is fine: there is the rest of the world
+    except InputError:  # a directory without packages is fine: there are other interfaces
         targets = []
     return Definitions.around(Workspace(target.package for target in targets))
 

@@ -272,7 +272,7 @@ def _write(
         plan.write(force=options.force, around=above)
         return plan
     with writing.held(plan.root, is_dry=False):
-        # So that nothing else changes the existing files.
+        # Locks the existing files.
         plan = _plan(options, made, left)
         plan.write(force=options.force, around=above)
     return plan
@@ -303,7 +303,7 @@ def _refuse_existing(options: argparse.Namespace, name: str) -> str:
     if os.path.islink(directory):
         raise ConflictError(f"{directory} is a link to {os.path.realpath(directory)}")
     if os.path.lexists(directory) and not options.force:
-        # A killed run may have got this far, or further.
+        # It may be left by a killed run.
         sweep(options.destination_directory)
         sweep(directory)
         if is_unfinished(directory):

@@ -144,7 +144,7 @@ def _test(
     from scaffold.generate.templates.template import BASE
 
     rules = registry.load(content.roots("rules"))
-    if BASE in names:  # it has no examples of its own: it is in all packages
+    if BASE in names:  # it has no examples, as it is in all packages
         usual = next(item for item in templates[BASE].questions if item.name == "node_kind")
         names = [*dict.fromkeys([*names, str(usual.default)])]
     tried: list[Tried] = []

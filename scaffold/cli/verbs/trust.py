@@ -52,7 +52,7 @@ def _add(directory: str) -> None:
     from scaffold.configuration import config, content, trust
     from scaffold.files.disk import Disk
 
-    # Before anything is trusted: the file may be broken.
+    # Before anything is trusted, as the file may be broken.
     has_file = config.file_in(Disk(), os.path.realpath(directory)) is not None
     names = config.named_content(os.path.realpath(directory))
     real = trust.add(directory)

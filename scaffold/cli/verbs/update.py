@@ -126,7 +126,7 @@ def _next(directory: str, moved: Sequence[Distribution]) -> str:
 
     from scaffold import distributions
 
-    names = ",".join(item.name for item in moved)  # the configuration may name others
+    names = ",".join(item.name for item in moved)  # the configuration may set other ones
     return (
         f"The package is now for {distributions.titles(moved)}. To see what your own code "
         "needs:\n"

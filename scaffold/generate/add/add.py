@@ -204,7 +204,7 @@ def _content(target: Target, path: str) -> bytes | None:
             return package.tree.read(path)
     except OSError:
         return None
-    # A tree leaves hidden directories out.
+    # A tree has no hidden directories.
     return repository.read(repository.place_of_files(package.root), path)
 
 

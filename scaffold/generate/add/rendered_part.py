@@ -226,7 +226,7 @@ def _compose(target: Target, given: Mapping[str, Given], day: date | None) -> Co
     )
     composed.context["has_license"] = "license" in settled
     if not composed.context["has_license"]:
-        # Better the header of the author's other files, or none, than one with another license.
+        # The header of the author's other files, or none, is better than another license.
         composed.context["header"] = existing_answers.own_header(package)
     elif not {"copyright_holder", "maintainer_name"} & {*settled}:
         composed.context["header"] = ""  # the user need not be the copyright holder

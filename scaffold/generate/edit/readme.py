@@ -130,7 +130,7 @@ def _join(source: Source, title: str, new: Section) -> Source:
         block_of_title = blocks[0]
     if block_of_title is not None:
         return _extend(source, block_of_title, new)
-    if _says(source.lines, new):  # the README of a single node says it in several sections
+    if _says(source.lines, new):  # the README of a single node has it in several sections
         return source
     lines = [f"{_BELOW}{new.title}", "", *new.lines]
     behind = [block for block in blocks[1:] if any(map(_is_row, block.lines))]
@@ -146,7 +146,7 @@ def _extend(source: Source, old: Section, new: Section) -> Source:
     """Add text missing in a block, above its table."""
     if _says(old.lines, new):
         return source
-    # What both begin with applies to all parts, and rows of tables are added one by one.
+    # The common beginning applies to all parts, and rows of tables are added one by one.
     shared = 0
     for old_line, new_line in zip(old.lines, new.lines, strict=False):
         if old_line != new_line or old_line.startswith(_FENCE):

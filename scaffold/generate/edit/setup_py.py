@@ -59,7 +59,7 @@ def installs_package(setup: SetupPy, name: str) -> bool | None:
     if isinstance(packages, list | tuple) and name in packages:
         return True
     if any(point.module.rpartition(".")[0] == name for point in setup.console_scripts):
-        return True  # the author's programs of that package are installed somehow
+        return True  # programs of that package are installed already, in some way
     return False if isinstance(packages, list | tuple) else None
 
 

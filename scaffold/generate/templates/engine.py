@@ -211,7 +211,7 @@ class _TemplateErrors:
             return
         at = _line_of(error)
         message = f"template {self._where!r}{at}: {type(error).__name__}: {error}"
-        if isinstance(error, UndefinedError | TemplateSyntaxError):  # which speak for themselves
+        if isinstance(error, UndefinedError | TemplateSyntaxError):  # messages are clear
             message = f"template {self._where!r}{at}: {error}"
         if isinstance(error, TemplateNotFound):
             message = f"template {self._where!r}{at}: no template has the file '{error}'"

@@ -75,7 +75,7 @@ class ForeignEngine:
         entry = json.loads(answer)
         if "error" in entry:
             task, name = map(str, request[:2])
-            own = f"template {name!r}"  # which names no file, if it is a short text
+            own = f"template {name!r}"  # a short text has no file name
             message = entry["error"]
             if task == "text" and message.startswith(own):
                 message = self._place(name) + message.removeprefix(own)
@@ -168,4 +168,4 @@ def _end(process: subprocess.Popen[bytes]) -> None:
             try:
                 pipe.close()
             except BrokenPipeError:
-                continue  # of a request that it died of
+                continue  # the request that killed it

@@ -19,7 +19,7 @@ def serve() -> None:
     setup = receive(source)
     if setup is None:
         return
-    # What comes in is made by the parent, never by a template: pickle is as safe as a call.
+    # Requests come from the parent process, never from a template, so pickle is safe.
     roots, directories, is_tutorial, bounds = pickle.loads(setup)  # noqa: S301  see above
     memory, seconds, characters = bounds
     engine = LocalEngine(roots, directories, is_tutorial=is_tutorial)

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 
 from scaffold.errors import ContentError
 
-TYPE_CHECKING = False  # the one of typing is slow to import
+TYPE_CHECKING = False  # that of typing is slow to import
 if TYPE_CHECKING:
     from scaffold.generate.templates.template import Template
 

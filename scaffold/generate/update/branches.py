@@ -37,7 +37,7 @@ def joined(old: Provenance, drafted: Drafted) -> Provenance:
             common = {path: now[path] for path in old.merged if path in now}
             lost = {path: hashes for path, hashes in old.lost.items() if path not in common}
             return old._replace(rendered={**old.rendered, **common}, lost=lost)
-    except InputError:  # the parts of one branch alone are not accepted
+    except InputError:  # the parts of a single branch are invalid
         pass
     return old
 

@@ -46,7 +46,7 @@ def merge(yours: bytes, before: bytes, now: bytes) -> Merged:
                 file.write(content)
         labels = [word for label in LABELS for word in ("-L", label)]
         try:
-            # Not in the user's repository, whose configuration has no say in this.
+            # Outside of the user's repository, so that its configuration does not matter.
             words = ("merge-file", "--stdout", "--diff3", *labels, *names)
             done = git.run(*words, directory=directory)
         except FileNotFoundError:

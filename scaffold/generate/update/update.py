@@ -205,7 +205,7 @@ def _present(tree: Tree, where: str, place: Place, paths: Iterable[str]) -> dict
             content = tree.read(path)
         elif path.startswith(MARK):
             content = read_file(place, path.removeprefix(MARK))
-        else:  # a tree leaves hidden directories out
+        else:  # a tree has no hidden directories
             content = read_file(place_of_files(where), path)
         if content is not None:
             result[path] = content

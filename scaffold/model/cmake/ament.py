@@ -116,7 +116,7 @@ def _named_file(
     if command.name == "add_subdirectory":
         places = [posixpath.join(directory, value, "CMakeLists.txt")]
     else:
-        # An expanded path begins at the root of the package, another one at the directory.
+        # An expanded path is relative to the root of the package, others to the directory.
         places = [posixpath.join(directory, value), value]
         places += [posixpath.join(module, f"{value}.cmake") for module in modules]
     paths = map(posixpath.normpath, places)
@@ -138,7 +138,7 @@ def is_only_imported(package: Package, path: str) -> bool:
     except ViewError:
         return False
     if module.has_main_guard or "main" in module.functions:
-        return False  # a main that nothing calls is there to be started
+        return False  # an uncalled main is meant to be started
     if not module.functions and not module.classes:
         return False
     return all(_only_defines(statement) for statement in module.tree.body)

@@ -243,7 +243,7 @@ def _version(left: str, operator: str, words: Sequence[Word], scope: Scope) -> D
     ours, theirs = _numbers(released), _numbers(wanted)
     if ours[:_FIXED_PARTS] == theirs[:_FIXED_PARTS]:
         return _between_releases(operator, theirs)
-    if ours < theirs and target().name in ALIASES:  # which may be later than what is known of it
+    if ours < theirs and target().name in ALIASES:  # which may be later than the known version
         return UNDECIDED
     order = (ours > theirs) - (ours < theirs)
     return Decision(_TEXTS[operator](chr(1 + order), chr(1)), is_asked=True)

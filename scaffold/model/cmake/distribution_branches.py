@@ -36,7 +36,7 @@ def lines_not_run(lists: CMakeLists) -> Iterator[Lines]:
     """Yield the first and last lines of code that does not run on the target distribution."""
     dead = [*_Walk(lists).run()]
     pending = {name: body for name, body in _bodies(lists) if _calls(lists, name)}
-    for _ in range(len(pending)):  # a function may be called by one that is not called
+    for _ in range(len(pending)):  # a function may only be called by an uncalled one
         unused = [
             name
             for name in pending

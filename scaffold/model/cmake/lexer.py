@@ -29,7 +29,7 @@ _EQUALS = re.compile("=*")
 _SPECIAL = re.compile(r'["\\]')
 _CALL = re.compile(r"\n[ \t]*([A-Za-z_]\w*)[ \t]*\(")
 MOST_ERRORS = 100
-_ATTEMPTS = 16  # at guessing which quote is missing
+_ATTEMPTS = 16  # at guessing the missing quote
 
 
 class Token(NamedTuple):

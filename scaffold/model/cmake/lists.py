@@ -42,8 +42,8 @@ _INSTALL_KEYWORDS = frozenset(
 _FOR_BUILDING = ("ARCHIVE", "LIBRARY", "RUNTIME", "OBJECTS", "FRAMEWORK", "BUNDLE")
 _FOR_USERS = ("INCLUDES", "PUBLIC_HEADER", "PRIVATE_HEADER", "RESOURCE", "FILE_SET")
 _ARTIFACTS = frozenset({*_FOR_BUILDING, *_FOR_USERS})
-_MOST_ITEMS = 20_000  # that are installed; lists and loops multiply
-_DEEPEST = 200  # blocks around a command; what is deeper counts as not guarded
+_MOST_ITEMS = 20_000  # installed items; lists and loops multiply
+_DEEPEST = 200  # blocks around a command; deeper ones count as not guarded
 _PREFIX = "${CMAKE_INSTALL_PREFIX}/"
 _NO_BINDINGS: Mapping[str, str] = {}
 
@@ -330,7 +330,7 @@ class CMakeLists:
         for command in self.find("install", *LAST_CALLS[1:]):
             if self.is_for_ros1(command):
                 continue
-            # A loop over something unknown still tells what is written down.
+            # A loop over unknown values still has literal arguments.
             for bindings in self._variables.combinations(command) or ({},):
                 if items > _MOST_ITEMS:
                     return result

@@ -22,7 +22,7 @@ _BRANCHES = frozenset({"elseif", "else"})
 _BLANK = frozenset({"space", "newline", "comment"})
 _WORDS = frozenset({"identifier", "unquoted", "quoted"})
 _ARGUMENT_KINDS = _WORDS | {"bracket", "open", "close"}
-# What the next argument is joined to without a blank: to a word CMake warns, to a bracket it stops.
+# Adjacent arguments without a space: CMake warns after a word, and fails after a bracket.
 _JOINED = {
     "space": "",
     "newline": "",
@@ -347,7 +347,7 @@ class _Parser:
     def _unclosed(self, command: Command, first: int, end: int) -> None:
         """Report a missing ``)``, and continue with a command inside of the arguments."""
         kinds = self.kinds
-        if end < len(kinds) or kinds[-1] != "bad":  # else it is in what is not closed itself
+        if end < len(kinds) or kinds[-1] != "bad":  # otherwise it is inside of the unclosed part
             message = f'")" expected: {command.written_name}( is not closed'
             self._note(command.start, command.open_end, message)
         for number in range(first, end):

@@ -85,7 +85,7 @@ def _generation(cmake: CMakeLists, command: Command) -> Generation:
                 collecting = str(value) if value in _WITH_VALUES else ""
             elif collecting == "DEPENDENCIES":
                 knows_dependencies = knows_dependencies and value is not None
-                # A quoted list falls apart where rosidl takes it.
+                # rosidl splits a quoted list.
                 dependencies += str(value).split(";")
             elif collecting:
                 collecting = ""

@@ -63,7 +63,7 @@ def targets_named_once(cmake: CMakeLists) -> list[tuple[str, Argument]]:
     return [
         (name, argument)
         for name, argument in used
-        # Those of interfaces, such as my_msgs__rosidl_typesupport_cpp, are made by one command.
+        # Those of interfaces, such as my_msgs__rosidl_typesupport_cpp, are defined by one command.
         if name and name not in named and "__" not in name and not set("$:<;") & set(name)
     ]
 

@@ -15,10 +15,10 @@ ROOT = "\0"
 _PIECE = re.compile(r"\\([\s\S])|\$\{|\}|[^\\$}]+|\$")
 _SPLIT = re.compile(r"(?:[^;\\]|\\[\s\S]?)+")
 _ESCAPES = {"t": "\t", "n": "\n", "r": "\r", ";": "\\;"}
-_MOST_TURNS = 20_000  # of loops that are followed in a file
+_MOST_TURNS = 20_000  # turns of loops followed in a file
 _LONGEST_VALUE = 20_000
-_MOST_ENTRIES = 16  # that are examined for one value
-_DEEPEST = 200  # blocks around a command; a deeper one is taken for unknown
+_MOST_ENTRIES = 16  # commands examined for one value
+_DEEPEST = 200  # blocks around a command; deeper ones make values unknown
 
 HARMLESS = frozenset(
     """
@@ -233,7 +233,7 @@ class Variables:
         name, *rest = command.arguments
         written = [argument.value for argument in rest]
         if "CACHE" in written:
-            # The user may have given it another value.
+            # The user may have set it.
             self._note(command, name.value, None)
         elif written and written[-1] == "PARENT_SCOPE":
             if command.depth:
@@ -270,7 +270,7 @@ class Variables:
         if command.depth > _DEEPEST or (
             value is not None and any(block.name in _LOOPS for block in command.blocks)
         ):
-            value = None  # every turn of the loop may set another one
+            value = None  # each turn of the loop may set another value
         if value is not None and len(value) > _LONGEST_VALUE:
             value = None
         self._history.setdefault(name, []).append(_Entry(command, value))

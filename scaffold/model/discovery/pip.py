@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 _PLACES = ("", "docker", ".devcontainer")
 """Directories of a repository with requirements files."""
 _NAME = re.compile(r"^[ \t]*([A-Za-z0-9][\w.-]*)", re.MULTILINE)
-# linear: few lines of a file begin with the key
+# linear: few lines of a file start with the key
 _PROJECT = re.compile(r"^dependencies\s*=\s*\[(.*?)\][ \t]*$", re.MULTILINE | re.DOTALL)
 _QUOTED = re.compile(r"""["']([A-Za-z0-9][\w.-]*)""")
 _MAX_BYTES = 100_000

@@ -127,7 +127,7 @@ def _set_apart(
     """Move foreign packages to the excluded ones."""
     kinds = {real: foreign.kind_of(disk, real, is_directory=True) for real in whole}
     if all(kinds.values()):
-        foreign.name(kinds)  # if there is nothing else, the user means these
+        foreign.name(kinds)  # if there are no others, the user means these
         return
     for real, kind in kinds.items():
         if kind:
@@ -214,7 +214,7 @@ def _sort_files(
 
 def _package_directories(disk: Disk, path: str) -> list[str]:
     result = colcon.package_directories(disk, path)
-    # If there is nothing else, the user means these; a rule says that colcon does not see them.
+    # If there are no others, the user means these; a rule reports that colcon ignores them.
     result = result or colcon.package_directories(disk, path, ignored=True)
     if result:
         return result

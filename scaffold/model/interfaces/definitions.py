@@ -186,7 +186,7 @@ class Definitions:
             self._packages[name] = next((item for item in packages if item is not None), None)
         return self._packages[name]
 
-    # -- what users write
+    # -- spellings of users
 
     def matches(self, spelling: str) -> list[str]:
         """Return the full names that match a spelling, sorted.

@@ -60,7 +60,7 @@ def escape_problem(text: str) -> str:
     if "\\" not in text:
         return ""
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # of \d, which stays what it is
+        warnings.simplefilter("ignore")  # of \d, which is kept
         try:
             read = text.encode().decode("unicode_escape")
         except UnicodeDecodeError as error:

@@ -25,7 +25,7 @@ _PROCESSES = ("ExecuteProcess", "ExecuteLocal")
 _RUN = ["ros2", "run"]
 _WORD = re.compile(r"(?:\$\([^()]*(?:\([^()]*\)[^()]*)*\)|[^\s$]|\$)+")
 """Matches a word of a command line; a substitution is a part of one."""
-_FOUND = re.compile(r"\$\(find-exec\s+([^\s()$]+)\s*\)")  # linear: spaces, and what is none
+_FOUND = re.compile(r"\$\(find-exec\s+([^\s()$]+)\s*\)")  # linear: spaces and non-spaces alternate
 
 
 class Word(NamedTuple):

@@ -47,7 +47,7 @@ class LaunchEvaluator(Evaluator):
                 value = self._join(launch.given.get("substitutions"))
             case "TextSubstitution":
                 value = self.text(launch.given.get("text"))
-            case "FindExecutable":  # a path that ends in the name, and is started like it
+            case "FindExecutable":  # a path that ends in the name, and is used like it
                 value = self.joined_text(launch.given.get("name"))
             case "ThisLaunchFileDir":
                 directory = self.module.path.rpartition("/")[0]

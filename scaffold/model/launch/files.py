@@ -40,7 +40,7 @@ def is_named(package: Package, directory: str) -> bool:
     names = _names(data_files(package, directory)) - _names(elsewhere)
     for other in package.workspace:
         wanted = names
-        if other.name != package.name:  # which may mean its own of the same name
+        if other.name != package.name:  # which may refer to its own file of this name
             wanted = names.difference(
                 *(_names(data_files(other, item)) for item in DATA_DIRECTORIES)
             )

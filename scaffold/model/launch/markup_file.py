@@ -110,7 +110,7 @@ def _read(package: Package, path: str) -> MarkupFile | None:
     try:
         elements = _elements(package, path)
     except ViewError:
-        return None  # another rule reports what is not well-formed
+        return None  # another rule reports malformed files
     for element in elements:
         attributes.extend(element.attributes.values())
         if element.tag == "node":
@@ -216,7 +216,7 @@ def _paths(attribute: Attribute) -> Iterator[MarkupPath]:
     at = attribute.location
     for item in re.finditer(_FIND, attribute.value):
         place = at
-        if at.end_column - at.column == len(attribute.value):  # no references, on one line
+        if at.end_column - at.column == len(attribute.value):  # without references, on one line
             start = at.column + item.start()
             place = Location(at.path, at.line, start, at.line, at.column + item.end(2))
         path = "" if item[3] else item[2].strip("/")

@@ -52,7 +52,7 @@ def _list_given(value: list[object] | tuple[object, ...]) -> GivenValue | None:
     if not value or not all(type(item) in {int, float, bool, str} for item in value):
         return None
     if {type(item) for item in value} == {int, float}:
-        return GivenValue("double_array", repr(value))  # launch makes all of them doubles
+        return GivenValue("double_array", repr(value))  # launch converts all of them to doubles
     kind = parameter_type(value)
     return GivenValue(kind, repr(value)) if kind and kind != "string_array" else None
 

@@ -170,7 +170,7 @@ class LaunchFile:
             return self.text(declared, "default_value") or UNKNOWN
         return self.text(call, "default") or UNKNOWN
 
-    # -- what it names
+    # -- references
 
     @cached_property
     def package_uses(self) -> Sequence[PackageUse]:

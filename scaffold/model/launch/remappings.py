@@ -81,7 +81,7 @@ def names_of(node: Remapped, package: Package) -> set[str] | None:
     """
     owner = node.owner
     if not owner.is_class:
-        return None  # a program that makes a node in passing may make another
+        return None  # a program that creates nodes inline may create others
     try:
         names = _names_at(owner.home(package), owner.path, owner.number)
     except ViewError:

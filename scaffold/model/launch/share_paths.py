@@ -270,11 +270,11 @@ def why_missing(package: Package, named: NamedPath) -> str | None:
     if share.has(named.path) or not share.complete:
         return None
     if any(named.path.startswith(f"{nested}/") for nested in owner.tree.nested):
-        return None  # the files of a package inside of this one are its own
+        return None  # the files of a nested package are its own
     if named.path.startswith(tuple(share.unread)):
         return None
     if "{" in named.path and any(map(_before_field(named.path), share.files)):
-        return None  # the text is filled in later
+        return None  # a format string
     return _reason(owner, named.path, share.files)
 
 
@@ -310,14 +310,14 @@ def _reason(owner: Package, path: str, files: dict[str, str]) -> str | None:
     if where:
         first = path if path in where else where[0]
         if _nothing_of(first, files):
-            return None  # another rule says that the whole directory is not installed
+            return None  # another rule reports that the whole directory is not installed
         build = "setup.py" if owner.build_type == "ament_python" else "CMakeLists.txt"
         return f"{build} of {owner.name} does not install {first}"
     made_of = [file for file in owner.files if _name(file).startswith(f"{_name(path)}.")]
     if any(not file.endswith(".xacro") or _is_converted(owner, file) for file in made_of):
-        return None  # made from a template
+        return None  # generated from a template
     if is_untracked(owner, path) or path.endswith(_DATABASES):
-        return None  # made on each machine, a database by whoever opens it
+        return None  # created on each machine, a database when opened
     closest = get_close_matches(path, files, 1, 0.6)
     hint = f"; closest: {closest[0]}" if closest else ""
     return f"{owner.name} has no such file{hint}"

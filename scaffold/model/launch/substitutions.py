@@ -210,7 +210,7 @@ def never_equal(launch: LaunchFile, node: ast.expr | None) -> tuple[str, bool]:
                 part = parts[int(left[len(_HOLE) :])]
                 problem = _argument_never_is(launch, part, right)
                 problems.setdefault(launch.module.text(part), []).append(problem)
-    # Who compares with several spellings means all of them.
+    # Comparisons with several spellings are meant as alternatives.
     wrong = [uses[0] for uses in problems.values() if all(why for why, _ in uses)]
     return wrong[0] if wrong else ("", False)
 

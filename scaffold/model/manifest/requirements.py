@@ -99,7 +99,7 @@ def declared(package: Package, *, for_tests: bool) -> Declared:
 def _declared(package: Package, for_tests: bool) -> Declared:  # noqa: FBT001  as declared() says
     manifest = package.manifest
     direct = set(manifest.run_names)
-    # What generates code while the package is built is among its modules, too.
+    # Code generators are build dependencies with modules as well.
     direct |= {
         dependency.name
         for dependency in manifest.dependencies
@@ -139,11 +139,11 @@ def is_shipped(package: Package, path: str) -> bool:
     if is_in_tests(path) and (_is_collected(name) or _is_imported_by_tests(package, name)):
         return True
     if directory and package.has(f"{directory}/requirements.txt"):
-        return False  # a tool for itself
+        return False  # a separate tool
     if directory and package.has(f"{directory}/__init__.py"):
-        # "talker copy" is not a package: nothing can import it.
+        # "talker copy" cannot be imported.
         return directory.replace("/", "").replace("-", "").isidentifier()
-    # The directory as a whole, not ``console_scripts`` and not another file of it.
+    # The directory itself, not ``console_scripts`` or one of its files.
     whole = rf"(?<!\w){re.escape(directory)}/?(?![\w/.-])"
     return any(
         name in text or (directory and re.search(whole, _COMPILING.sub("", text)) is not None)
@@ -198,7 +198,7 @@ def _is_for_tests(package: Package, path: str) -> bool:
     """Tell whether only tests run a file; ``tf_test.py`` may be a program."""
     directory, _, name = path.rpartition("/")
     if name.endswith(".launch.py") and not is_in_tests(f"{directory}/"):
-        return False  # such as launch/test_arm.launch.py, which people start
+        return False  # such as launch/test_arm.launch.py, started by users
     if is_in_tests(path):
         return path not in package.remember("programs named like tests", lambda: _programs(package))
     return _is_named_for_tests(package, path)

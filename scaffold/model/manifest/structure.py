@@ -21,7 +21,7 @@ from scaffold.source import Location
 if TYPE_CHECKING:
     from scaffold.model.package import Package
 
-_MOST_UNKNOWN = 1000  # elements that are named; each is compared with all known ones
+_MOST_UNKNOWN = 1000  # reported elements; each is compared with all known ones
 FORMATS = (1, 2, 3)
 PLAIN = ("name", "version", "description", "maintainer", "license", "url", "author")
 REQUIRED = PLAIN[:5]
@@ -119,7 +119,7 @@ class Structure:
         order = [numbers[index] for index in kept]
         misplaceds: list[Misplaced] = []
         stays = frozenset(kept)
-        # Side by side and of one section: one mistake.
+        # Adjacent and of one section: one error.
         keyed = groupby(range(len(row)), lambda i: (i in stays, numbers[i]))
         for (stay, number), indices in keyed:
             if not stay:

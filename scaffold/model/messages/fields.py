@@ -68,7 +68,7 @@ class TypeMismatches:
     def is_zero(self, item: Assigned) -> bool:
         """Tell whether a float field gets the int 0, which is sent as zero."""
         if not target().fact("messages.has_check_fields"):
-            return False  # setters always look at values
+            return False  # setters always check values
         value = self._types.file.evaluator.evaluate(item.value)
         return item.field.type.name in {"float32", "float64"} and type(value) is int and value == 0
 
@@ -129,7 +129,7 @@ class TypeMismatches:
         if size is None or not isinstance(value, list | tuple):
             return None
         if any(note.startswith(NOTE) for note in notes):
-            return None  # who sets the parameter sets the length as well
+            return None  # the parameter also sets the length
         count = len(value)
         if count > size or (count < size and not type_.is_upper_bound):
             most = "at most " if type_.is_upper_bound else ""
@@ -203,7 +203,7 @@ class TypeMismatches:
 
     def _instead_of_message(self, node: ast.expr) -> str | None:
         if rclpy_time(self._types, node):
-            return None  # that has a rule of its own
+            return None  # which has its own rule
         kind = self._kinds.of(node)
         shown = f"{self._shown(node)} is {_NAMES[kind]}" if kind else None
         return shown or self._object_of_rclpy(node)

@@ -36,7 +36,7 @@ PARTS = {
 _NOT_FIELDS = frozenset({"get_fields_and_field_types", "SLOT_TYPES", "check_fields"})
 _PARAMETER_VALUE = "rcl_interfaces.msg.ParameterValue"
 _DEPTH = 12
-_MOST_BINDINGS = 200  # of one name or attribute; with more its type is unknown
+_MOST_BINDINGS = 200  # assignments of one name or attribute; with more its type is unknown
 _EXPECTED = frozenset({"AttributeError", "TypeError", "AssertionError", "ValueError"})
 _RAISES = frozenset({"raises", "assertRaises", "assertRaisesRegex"})
 _ASKS_TYPE = frozenset({"isinstance", "type", "hasattr", "getattr", "setattr", "issubclass"})
@@ -186,7 +186,7 @@ class MessageTypes:
         if key not in self._types:
             if self._depth > _DEPTH:
                 return None
-            self._types[key] = None  # ends the recursion of what is assigned to itself
+            self._types[key] = None  # ends the recursion of values assigned to themselves
             self._depth += 1
             self._types[key] = self._infer(node)
             self._depth -= 1

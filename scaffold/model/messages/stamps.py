@@ -267,7 +267,7 @@ def _uses(types: MessageTypes, made: ast.Call, sent: ast.expr) -> Sequence[ast.e
     if module.parent(made) is None or not isinstance(sent, ast.Name | ast.Attribute):
         raise _Doubt
     if isinstance(sent, ast.Attribute):
-        # An attribute of this name may belong to the same object wherever it is.
+        # An attribute of this name may be of the same object anywhere.
         return [node for node in module.index.attributes(sent.attr) if _is_read(node)]
     scope = module.index.lookup(sent.id, sent)
     result = [

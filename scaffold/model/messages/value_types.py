@@ -98,7 +98,7 @@ class ValueTypes:
         """Return ``bool``, ``int``, ``float``, ``str`` ...; ``None`` if uncertain."""
         value = self._evaluator.evaluate(node)
         if value is None:
-            # None stands for "nothing assigned yet" as soon as it is not written right here.
+            # None elsewhere means "not assigned yet".
             return "none" if isinstance(node, ast.Constant) else None
         if value is not UNKNOWN:
             return _kind_of_value(value)

@@ -114,7 +114,7 @@ def _place(parameter: Parameter, package: Package, *, divides: bool) -> Declared
 
 def home_of(owner: NodeDefinition, package: Package) -> Package:
     """Return the package with the code of a node, which may be another one."""
-    from scaffold.model.package import Package as _Package  # which imports what this imports
+    from scaffold.model.package import Package as _Package  # which re-exports the name
 
     modules = owner.file.modules
     return modules if isinstance(modules, _Package) else package

@@ -71,7 +71,7 @@ def paths_of(package: Package, path: str) -> Sequence[str]:
     return package.remember(("program_paths", path), lambda: _paths(package, path))
 
 
-# -- where programs begin
+# -- entry points
 
 
 def _starts(package: Package) -> Iterator[EntryPoint]:
@@ -115,7 +115,7 @@ def _makes_nodes(package: Package, path: str) -> bool:
     return bool(rclpy_file(package, path).nodes)
 
 
-# -- what they run
+# -- executed code
 
 
 def _run(package: Package, path: str, entry: str | None) -> Execution:

@@ -144,7 +144,7 @@ def _runs_once(file: RclpyFile, function: FunctionNode | None) -> bool:
     return False
 
 
-# -- who uses what
+# -- uses
 
 
 def _uses(file: RclpyFile, entity: Entity, method: str) -> Iterator[ast.Call]:

@@ -36,7 +36,7 @@ def spins_in_one_thread(file: RclpyFile) -> bool:
     """Tell whether a file spins its nodes, and runs one callback at a time."""
     if not file.spin_calls or not names_other_executor(file):
         return bool(file.spin_calls)
-    # An executor that is made, but not spun, is of no use.
+    # An executor that is not spun does not matter.
     return all(
         call.name == "spin" and len(call.call.args) == 1 and not call.call.keywords
         for call in file.spin_calls

@@ -28,7 +28,7 @@ def stretches_not_run(module: PythonModule) -> Iterator[Stretch]:
         if isinstance(first, ast.expr):
             yield start.line, start.column, end.end_line, end.end_column
             continue
-        # With what is around the statements of a block, for findings of style.
+        # With the whitespace around the statements of a block, for style findings.
         before = module.source.lines[start.line - 1][: start.column - 1]
         yield start.line, start.column if before.strip() else 0, end.end_line + 1, 0
 

@@ -153,7 +153,7 @@ class _DistributionEvaluator(Evaluator):
             ):
                 return self._asked(VARIABLE)
         for argument in node.args:
-            self.evaluate(argument)  # for its notes
+            self.evaluate(argument)  # evaluated for its notes
         return UNKNOWN
 
     def _is_substitution(self, node: ast.expr) -> bool:
@@ -194,7 +194,7 @@ class _DistributionEvaluator(Evaluator):
             if not isinstance(store.ctx, ast.Load):
                 above = index.parent(store)
                 values.append(above.value if isinstance(above, ast.Assign) else None)
-        evaluated = [self.evaluate(value) for value in values]  # each has notes
+        evaluated = [self.evaluate(value) for value in values]  # evaluated for their notes
         return evaluated[0] if len(evaluated) == 1 else UNKNOWN
 
     def _imported(self, node: ast.expr) -> object:
@@ -232,7 +232,7 @@ class _DistributionEvaluator(Evaluator):
             case ast.Subscript(value=holder, slice=ast.UnaryOp()) if isinstance(
                 self.evaluate(holder), RunningVersion
             ):
-                return UNKNOWN  # the end of it is not known
+                return UNKNOWN  # its end is unknown
         return super()._subscript(node)
 
     def _comparison(self, node: ast.Compare) -> object:

@@ -139,7 +139,7 @@ def parse_tree(source: Source, positions: Positions) -> ast.Module:
     if null >= 0:
         raise ParseError(source.location(null, null + 1), "a NUL character in the source")
     try:
-        # A warning about an escape is for the linter; under -W error it would end the parsing.
+        # A warning about an escape is for the linter; under -W error it would be raised.
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
             return ast.parse(text.removeprefix(BOM), feature_version=_feature_version())
@@ -204,7 +204,7 @@ def _in_our_words(message: str) -> str:
     return message[:1].lower() + message[1:].rstrip(".?")
 
 
-# -- syntax that came later
+# -- newer syntax
 
 _NEWER = (
     (r"^\s*except\s*\*", (3, 11)),

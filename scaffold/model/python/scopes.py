@@ -95,7 +95,7 @@ class ScopeIndex:
                 if not levels:
                     return False
                 inner = type(item)
-                if not _FIELDS[inner]:  # as half of all nodes: spare them a call
+                if not _FIELDS[inner]:  # half of all nodes: avoid a call for each
                     numbers[inner].append(len(nodes))
                     nodes.append(item)
                 elif not self._visit(item, levels - 1):
@@ -251,7 +251,7 @@ class ScopeIndex:
     def _look_up(self, name: str, scope: ast.AST) -> tuple[ast.AST, Sequence[Binding]] | None:
         first = True
         while True:
-            # A class body's names are seen by the body alone, not by the functions in it.
+            # Names of a class body are only visible in the body, not in its functions.
             if first or not isinstance(scope, ast.ClassDef):
                 bindings = self.bindings(scope).get(name)
                 if bindings:

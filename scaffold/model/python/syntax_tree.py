@@ -191,7 +191,7 @@ class SyntaxTree:
         at = self.source.text.find(node.name, self.source.text.find(" ", start))
         if isinstance(node, ast.AsyncFunctionDef):
             at = self.source.text.find(node.name, self.source.text.find("def", start + 5) + 3)
-        if at < 0:  # the parser normalizes names, so the text may spell it otherwise
+        if at < 0:  # the parser normalizes names, so the text may differ
             return self.source.location(start, start)
         return self.source.location(at, at + len(node.name))
 
@@ -274,7 +274,7 @@ class SyntaxTree:
     def _imported_as(self, node: ast.Name) -> frozenset[str]:
         lookup = self.index.lookup(node.id, node)
         if lookup is None:
-            # A star import may bring a function called open or sum, but no new KeyboardInterrupt.
+            # A star import may bind open or sum, but not KeyboardInterrupt.
             is_star = "*" in self.index.bindings(self.tree) and node.id.islower()
             is_builtin = hasattr(builtins, node.id) and not is_star
             return frozenset({node.id} if is_builtin else ())

@@ -64,7 +64,7 @@ def defined_by(node: NodeClass) -> set[str]:
             if isinstance(attribute.ctx, ast.Load):
                 continue
             parent = owner.file.module.parent(attribute)
-            if not isinstance(parent, ast.AugAssign):  # which needs a value to begin with
+            if not isinstance(parent, ast.AugAssign):  # which needs an initial value
                 result.add(attribute.attr)
         owner = owner.base
     return result

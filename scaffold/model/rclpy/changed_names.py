@@ -234,7 +234,7 @@ class _Search:
     ) -> Iterator[ChangedUse]:
         """Yield a use, unless the code handles it."""
         change, written = matched
-        # `except Exception` around much code is not there for the name: the rest is skipped.
+        # `except Exception` around much code is no handler for the name.
         is_broad = error in _OF_IMPORT
         errors = {error, _ABOVE.get(error, error)}
         if any(is_handled(self._module, node, one, is_broad=is_broad) for one in errors):
@@ -246,7 +246,7 @@ class _Search:
         if self._is_fallback(node, written):
             return
         old = self._module.source.text[slice(*place)]
-        # Before Python 3.12 nobody knows where in an f-string something is.
+        # Before Python 3.12 positions in f-strings are unknown.
         is_there = old == name.rpartition(".")[2]
         can_write = bool(written) and change.has_replacement and is_there
         edits = (Edit(self._path, *place, written),) if can_write else ()

@@ -98,7 +98,7 @@ class Creation:
         func = self._file.method_of(call)
         if func is not None and func.attr in NODE_METHODS:
             if self._file.is_node_class(func.value):
-                return None  # Node.create_publisher(self, ...): an override passes on its own
+                return None  # Node.create_publisher(self, ...) in an override
             is_node = self._file.owner_of(func.value) is not None
             return func.attr if is_node or self._may_be_of_rclpy(func) else None
         for name in self._file.module.qualified_names(call.func):
@@ -165,7 +165,7 @@ class Creation:
             return self._qos_given(given.node)
         if method == "Subscriber" and not created.has_unknown_arguments:
             more = created.call.args[len(_FILTERS[method]) :]
-            if more:  # a TypeError: the value is meant as the quality of service
+            if more:  # a TypeError: the value is meant as QoS
                 return qos_of(self._file.evaluator, more[0])
             return Qos(created.location, None, _DEFAULT_DEPTH, *PROFILES["default"][1:])
         return None

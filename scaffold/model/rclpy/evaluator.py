@@ -83,7 +83,7 @@ class NodeEvaluator(AttributeEvaluator):
         for other in values[1:]:
             if value is UNKNOWN or not same(self.evaluate(other), value):
                 return UNKNOWN
-        # What methods do to a list that belongs to an object is not tracked.
+        # Changes of lists in attributes are not tracked.
         return UNKNOWN if isinstance(value, list | dict) else value
 
     def _default_in_class(self, node: ast.Attribute) -> object:

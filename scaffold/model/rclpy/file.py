@@ -236,7 +236,7 @@ class RclpyFile:
         if self.modules is None or path is None:
             return None
         with suppress(ViewError), reads.recorded(self._reads):
-            # The analysis of the other file is kept here, for all callers.
+            # The analysis of the other file is cached here.
             return rclpy_file(self.modules, path)
         return None
 
@@ -332,7 +332,7 @@ class RclpyFile:
         bound = self.module.index.only_node(node)
         return bound if isinstance(bound, ast.arg) else None
 
-    # -- what is created
+    # -- entities
 
     def stored_in(self, call: ast.Call) -> tuple[str | None, str | None]:
         """Return the attribute of ``self`` and the variable that a call's result is stored in."""
@@ -372,7 +372,7 @@ class RclpyFile:
         if not kinds or not parts[0] or not parts[-1][:1].isupper():
             return None
         if self._file_of(".".join(parts[:2])) is not None:
-            return None  # a module of the package that is called action, too
+            return None  # a module of the package named action
         return f"{parts[0]}/{kinds[0]}/{parts[-1]}"
 
     def is_conditional(self, node: ast.AST) -> bool:
@@ -451,7 +451,7 @@ class RclpyFile:
         values = [item.default for item in owner.parameters if item.name == name]
         return values[0] if len(values) == 1 else UNKNOWN
 
-    # -- how it is run
+    # -- execution
 
     @cached_property
     def init_calls(self) -> Sequence[RclpyCall]:

@@ -121,7 +121,7 @@ class _Outside:
         if function is None or self._depth > _MAX_CALLS:
             return frozenset()
         if function not in self._catches:
-            self._catches[function] = frozenset()  # what calls itself promises nothing
+            self._catches[function] = frozenset()  # recursive calls are ignored
             self._depth += 1
             caught = [
                 self.around(name) | _handlers_around(self._file, name)

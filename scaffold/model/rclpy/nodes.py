@@ -67,7 +67,7 @@ class NodeDefinition:
     """The parameters it declares."""
     parameter_reads = _own(ParameterRead)
     """Its parameter reads."""
-    # -- what its constructor is given
+    # -- arguments of its constructor
 
     @cached_property
     def constructor_call(self) -> ast.Call | None:

@@ -152,7 +152,7 @@ def _statement_of(evaluator: AttributeEvaluator, node: ast.AST) -> ast.AST:
     return node
 
 
-# -- what fits
+# -- compatibility
 
 
 class Offered(Protocol):

@@ -49,7 +49,7 @@ def lookups_in(file: RclpyFile) -> Iterator[Lookup]:
             ):
                 continue
             if method == "transform" and buffer_made(file, func.value) is None:
-                continue  # of many libraries
+                continue  # methods of many libraries
             arguments = dict(zip(names, call.args, strict=False))
             arguments |= {word.arg: word.value for word in call.keywords if word.arg}
             yield Lookup(method, call, func.value, arguments)

@@ -75,7 +75,7 @@ def robot_file(package: Package, path: str) -> RobotFile | None:
     def read() -> RobotFile | None:
         try:
             source = xml_reader.decode(path, package.data(path))
-            # urdfdom knows no namespaces: an element of Drake's needs no declaration.
+            # urdfdom ignores namespaces: elements of Drake need no declaration.
             is_xacro = not path.endswith(".urdf") or "xacro" in source.text
             root = xml_reader.parse(source, has_namespaces=is_xacro).root
             return RobotFile(package, path, root)

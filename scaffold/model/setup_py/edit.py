@@ -110,7 +110,7 @@ def add_import(module: PythonModule, statement: str) -> Edit | None:
     return Edit(module.path, at, at, f"{statement}{newline * 2}")
 
 
-# -- what is inserted
+# -- inserted text
 
 
 class Text(NamedTuple):
@@ -158,7 +158,7 @@ def quote_of(setup: SetupPy) -> str:
     return "'"
 
 
-# -- where it is inserted
+# -- places
 
 
 def _resolved(module: PythonModule, node: ast.expr) -> ast.expr:
@@ -211,7 +211,7 @@ def append_item(
     indent = start if start is not None else _indent(text, close) + _STEP
     rendered = f"{newline}{indent}{_render(item, indent, newline)}"
     if "\n" not in text[at:close]:
-        # The bracket closes on the last item's line: keep it there.
+        # The closing bracket is on the last item's line: keep it there.
         return Edit(module.path, end, close, f",{rendered}")
     line_end = _line_end(module, at)
     kept = text[at:line_end]

@@ -165,7 +165,7 @@ class SetupPy:
             node = self.module.index.only_value(node) or node
         return node if isinstance(node, ast.Dict) else None
 
-    # -- what the keywords say
+    # -- keywords
 
     @property
     def name(self) -> str | Unknown | None:
@@ -207,7 +207,7 @@ class SetupPy:
         if isinstance(node, ast.Call):
             return self._find_packages(node)
         if isinstance(word.value, list | tuple):
-            # setuptools takes the directory, too: "talker/nodes", "talker/nodes/".
+            # setuptools also accepts directories: "talker/nodes", "talker/nodes/".
             texts = [item for item in word.value if isinstance(item, str)]
             names = [text.rstrip("/").replace("/", ".") for text in texts]
             return names if len(names) == len(word.value) else UNKNOWN
@@ -380,7 +380,7 @@ class SetupPy:
             if isinstance(item.value, str):
                 yield self._entry_point(group, item.value, at, item.node)
             elif isinstance(item.node, ast.Tuple | ast.List):
-                yield from self._group(group, item.node)  # setuptools flattens lists in lists
+                yield from self._group(group, item.node)  # setuptools flattens nested lists
             else:
                 yield None
         if not elements.complete:

@@ -51,7 +51,7 @@ def _is_named(pattern: str, path: str, full_path: str) -> bool:
         path: The path in the package, below the directory of the file.
         full_path: The path from the directory of the file.
     """
-    from fnmatch import fnmatchcase  # few packages name a file that is not there
+    from fnmatch import fnmatchcase  # few packages refer to a missing file
 
     pattern = pattern.rstrip("/")
     if "/" not in pattern:

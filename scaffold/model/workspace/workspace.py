@@ -100,7 +100,7 @@ def _shared(package: Package, directory: str) -> int:
     """Return the length of the common path of a package and a directory."""
     try:
         return len(os.path.commonpath((package.directory, directory)))
-    except ValueError:  # an absolute path and a relative one
+    except ValueError:  # an absolute and a relative path
         return 0
 
 

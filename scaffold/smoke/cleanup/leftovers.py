@@ -91,7 +91,7 @@ def remove_scratch(scratch: Path, mark: str) -> bool:
             _unlock(scratch)
         with os.scandir(scratch) as entries:
             for entry in entries:
-                # The marker goes last: a run that is killed here can be taken up again.
+                # The marker is removed last, so that a killed cleanup can be repeated.
                 if entry.name != MARKER:
                     _remove(entry)
         with suppress(OSError):
@@ -111,7 +111,7 @@ def _is_scratch(path: Path, mark: str) -> bool:
         if not stat.S_ISDIR(status.st_mode) or status.st_uid != os.geteuid():
             return False
         if not os.listdir(path):
-            return True  # killed before it could write the marker
+            return True  # killed before writing the marker
         descriptor = os.open(path / MARKER, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK)
     except OSError:
         return False

@@ -40,7 +40,7 @@ def locked(workspace: Path, wait: float, tell: Callable[[str], None]) -> Iterato
     try:
         yield
     finally:
-        # While it is held: a waiting run notices that it is gone, and creates another one.
+        # While locked: a waiting run notices that the file is gone, and creates another one.
         path.unlink(missing_ok=True)
         os.close(descriptor)
 

@@ -60,7 +60,7 @@ async def provide(
     missing = bundle.closure(_needed(packages) - own, available)
     if not missing:
         return environment
-    # What interface packages are made from has to have the C++ part as well.
+    # Dependencies of interface packages need the C++ part as well.
     complete = {*bundle.closure(_needed(filter(_has_interfaces, packages)) - own, available)}
     places = {name: _place(environment, bundle, complete=name in complete) for name in missing}
     remembered = [
@@ -164,5 +164,5 @@ def _kept(built: Path, place: Path | None) -> Path:
         os.chmod(aside, 0o755)  # noqa: S103  as colcon makes it
         os.rename(aside, kept)
     except OSError:
-        shutil.rmtree(aside, ignore_errors=True)  # another run was first, or the disk is full
+        shutil.rmtree(aside, ignore_errors=True)  # another run was faster, or the disk is full
     return kept if kept.is_dir() else built

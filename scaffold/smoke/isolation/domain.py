@@ -42,7 +42,7 @@ def reserved() -> Iterator[int]:
 def _take(lock: socket.socket) -> int:
     busy = domains_in_use()
     numbers = [number for number in range(FIRST, LAST + 1) if number not in busy]
-    # In any order: someone else's idea of a free domain is often the first one.
+    # In random order, as other programs often choose the first free domain.
     random.shuffle(numbers)
     for number in numbers:
         try:
@@ -67,7 +67,7 @@ def domains_of(pids: Iterable[int]) -> set[int]:
     result: set[int] = set()
     for port in ports:
         number, place = divmod(port - _FIRST_PORT, _PORTS)
-        # A participant has two ports, one after the other: by chance, that does not happen.
+        # A participant has two consecutive ports, which hardly happens by chance.
         if place >= _FIRST_OF_PARTICIPANTS and not place % 2 and port + 1 in ports:
             result.add(number)
     return result

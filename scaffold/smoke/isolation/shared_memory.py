@@ -86,7 +86,7 @@ def _remove(name: str) -> list[str]:
                 os.unlink(path)
                 removed.append(path)
     except OSError:
-        return removed  # somebody else removes it at this moment
+        return removed  # another process removes it at this moment
     finally:
         for descriptor in held:
             os.close(descriptor)
@@ -138,7 +138,7 @@ def _mapped(pid: int) -> list[str]:
     except OSError:
         return []
     if f" {DIRECTORY}/".encode() not in maps:
-        return []  # most processes: the whole table is looked through again and again
+        return []  # most processes, as the whole table is scanned repeatedly
     return [
         line[line.index(DIRECTORY) :].removesuffix(" (deleted)")
         for line in maps.decode("utf-8", "replace").splitlines()

@@ -58,7 +58,7 @@ def isolated(variables: Mapping[str, str], number: int, scratch: Path) -> dict[s
         **variables,
         "ROS_DOMAIN_ID": str(number),
         "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
-        "TMPDIR": str(temporary),  # what a process leaves there is removed with the run
+        "TMPDIR": str(temporary),  # files left there are removed with the run
         "ROS_LOG_DIR": str(scratch / "ros_log"),
         "FASTRTPS_DEFAULT_PROFILES_FILE": str(profile),
         "FASTDDS_DEFAULT_PROFILES_FILE": str(profile),
@@ -114,7 +114,7 @@ class Stations:
         try:
             return await asyncio.shield(task)
         except BaseException:
-            self._waiting.append(task)  # the station is not handed over: ``close`` closes it
+            self._waiting.append(task)  # the station is not used: ``close`` closes it
             raise
 
     async def _open(self, variables: Mapping[str, str]) -> tuple[AsyncExitStack, Isolation]:

@@ -38,7 +38,7 @@ class Probe:
     """The observing node and its state."""
 
     def __init__(self) -> None:
-        # Named here, not imported above: the file is read and type-checked where no ROS is.
+        # Not imported at the top: the file is also read and type-checked without ROS.
         self._rclpy = import_module("rclpy")
         self._qos = import_module("rclpy.qos")
         self._deserialize = import_module("rclpy.serialization").deserialize_message
@@ -61,7 +61,7 @@ class Probe:
 
     def run(self) -> None:
         """Observe until stdin ends."""
-        signal.signal(signal.SIGTERM, signal.SIG_IGN)  # from now on there is something to clean up
+        signal.signal(signal.SIGTERM, signal.SIG_IGN)  # from here on, cleanup is needed
         say({"event": "ready"})
         commands = Commands()
         next_look = 0.0
@@ -172,7 +172,7 @@ class Probe:
         profile = self._weakest(publishers)
         topic = self._topics.setdefault(name, Topic())
         depth = topic.fitting_depth()
-        # What is kept for late subscribers has come already when the queue is made shorter.
+        # Latched messages have arrived already when the queue is shortened.
         is_shorter = depth < topic.depth / 2
         if topic.profile == profile and not is_shorter:
             return
@@ -249,9 +249,9 @@ def say(event: dict[str, object]) -> None:
 
 def main() -> None:
     """Run the probe."""
-    # The terminal's ^C reaches the whole foreground group; the one who asked decides the end.
+    # ^C reaches the whole foreground group; the parent process decides when to end.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
-    # The middleware complains on the first descriptor, which is for events alone.
+    # The middleware writes messages to stdout, which is only for events.
     sys.stdout = os.fdopen(os.dup(1), "w", encoding="utf-8")
     os.dup2(2, 1)
     Probe().run()

@@ -83,7 +83,7 @@ class _Inquiry:
             request = self._services.GetParameters.Request(names=self._names)
             self._answer = self._get.call_async(request)
             return
-        # An answer of fewer values: some were undeclared in the meantime.
+        # Fewer values in a response: some were undeclared in the meantime.
         pairs = zip(self._names, answer.values)  # noqa: B905  any Python
         self.values = {name: value_of(value) for name, value in pairs}
         self._is_over = True

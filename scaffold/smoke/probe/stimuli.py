@@ -42,7 +42,7 @@ class Stimuli:
             profile = qos.QoSProfile(
                 depth=_DEPTH,
                 reliability=qos.ReliabilityPolicy.RELIABLE,
-                durability=qos.DurabilityPolicy.TRANSIENT_LOCAL,  # fits who wants what was before
+                durability=qos.DurabilityPolicy.TRANSIENT_LOCAL,  # matches all subscriptions
             )
             publisher = self._node.create_publisher(kind, command["topic"], profile)
         except Exception as error:  # noqa: BLE001  generated code may raise anything

@@ -25,7 +25,7 @@ def marked(mark: str) -> dict[int, str]:
             continue
         try:
             environment = Path("/proc", name, "environ").read_bytes()
-        except OSError:  # it has ended meanwhile, or belongs to somebody else
+        except OSError:  # it has ended meanwhile, or belongs to another user
             continue
         if any(_is_below(entry, wanted) for entry in environment.split(b"\0")):
             result[int(name)] = process_table.command_line(int(name))
@@ -36,7 +36,7 @@ def marked(mark: str) -> dict[int, str]:
 def sweep(mark: str) -> list[str]:
     """Kill the processes with a mark; return their command lines."""
     killed: list[str] = []
-    for _ in range(3):  # what is started while the list is read is caught in the next round
+    for _ in range(3):  # processes started while the list is read are caught in the next round
         alive = marked(mark)
         if not alive:
             break

@@ -313,7 +313,7 @@ def capture(
             events = []
             err += f"\nit did not exit within {timeout:g} s\n".encode()
         finally:
-            ours.close()  # in any case: the supervisor takes care of the rest
+            ours.close()  # in any case: the supervisor handles the rest
     reported = {name: value for event in events for name, value in event.items()}
     if "errno" in reported:
         raise OSError(reported["errno"], os.strerror(reported["errno"]))

@@ -122,7 +122,7 @@ class Supervisor:
         used = [name for name in self._segments if not shared_memory.is_of_middleware(name)]
         self._tell({"left": left, "leaked": sorted(leaked), "used": sorted(used)})
 
-    # -- what smoke asks for
+    # -- requests of smoke
 
     def _receive(self) -> None:
         try:
@@ -175,7 +175,7 @@ class Supervisor:
         except OSError:
             self._abandoned = True
 
-    # -- while it runs
+    # -- while the command runs
 
     def _reap(self) -> None:
         """Reap the command and orphans."""
@@ -275,7 +275,7 @@ class Supervisor:
         self._hold()
         deadline = time.monotonic() + GRACE_OF_KILL
         while (living := self._living()) and time.monotonic() < deadline:
-            # The kernel ends a group at once, also one whose members start others all the time.
+            # The kernel kills a group at once, even one that forks all the time.
             for group in {process.group for process in living} - {os.getpgrp()}:
                 _send(group, signal.SIGKILL, group=True)
             for process in living:

@@ -42,7 +42,7 @@ def of_pid(pid: int) -> Process | None:
             status = file.read()
     except OSError:
         return None
-    # The name in parentheses may hold anything, parentheses too.
+    # The name in parentheses may contain anything, even parentheses.
     values = status[status.rindex(b")") + 2 :].split()
     parent, group, session = map(int, values[1:4])
     return Process(pid, values[0].decode(), parent, group, session, int(values[19]))

@@ -44,7 +44,7 @@ class Meter:
         ]
         memory = 0
         for process in members[:_MOST_PROCESSES]:
-            # Gone since they were listed.
+            # Ended since they were listed.
             with suppress(OSError, ValueError, IndexError):
                 self._cpu_of[process.pid, process.started] = _cpu_seconds(process.pid)
                 memory += _resident(process.pid)

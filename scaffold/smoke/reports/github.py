@@ -23,7 +23,7 @@ def report(result: Smoke, out: TextIO, *, verbose: bool = False) -> None:
         out.write(command("error", _plain(title), printable(result.ended_early)))
     for package in result.packages:
         out.writelines(_annotations(package))
-    # What executables have written may look like a command.
+    # The output of executables may look like a command.
     token = secrets.token_hex()
     out.write(f"::stop-commands::{token}\n")
     text.report(result, out, verbose=verbose)

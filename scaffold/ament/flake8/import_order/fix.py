@@ -35,7 +35,7 @@ def attach(text: PythonText, tree: ast.Module, findings: Sequence[Finding]) -> l
         end = len(text.lines[last - 1].rstrip("\n")) + 1
         fix = ((first, 1, last, end, sorted_block),)
         for at, finding in enumerate(fixed):
-            # What precedes the block is not moved, so its first line gains nothing.
+            # The code before the block is not moved, so a finding on its first line may remain.
             gains = finding.line > first or finding.code == "I101"
             if finding.code in CODES and gains and first <= finding.line <= last:
                 fixed[at] = finding._replace(fix=fix, fix_title="sort the imports")

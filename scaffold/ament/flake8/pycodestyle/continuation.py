@@ -47,7 +47,7 @@ def check(text: PythonText, options: Options = AMENT) -> Iterator[Finding]:
     """Yield the continuation lines that start in the wrong column."""
     is_tabbed = text.indent_char == "\t"
     for logical in text.logical_lines:
-        # After a last line that is a comment, the end of the file is a row without a line.
+        # After a comment in the last line, the end of the file is a row without a line.
         if logical.row != logical.end_row <= len(logical.lines):
             for (row, column), code in _Walk(logical, options, is_tabbed=is_tabbed).faults():
                 yield Finding(code, row, column + 1, _MESSAGES[code])
@@ -77,13 +77,13 @@ class _Walk:
         self.first_row = self.tokens[0].start[0]
         count = 1 + self.tokens[-1].start[0] - self.first_row
         self.level = logical.indent
-        # A block follows: lines indented like its body need to be told apart from it.
+        # A block follows, whose indentation must differ from that of these lines.
         self.opens_block = logical.text.endswith(":")
         self.relative = [0] * count
         self.opened = [0] * count
         start = self.tokens[0].start
         self.stack = [_Bracket(start[1], [0])]
-        # Rows of levels that were closed and may be opened again in the same statement.
+        # Rows of closed levels, which may be opened again in the same statement.
         self.spare: list[list[int]] = [self.stack[0].rows]
         self.chances: dict[int, object] = {}
         self.columns: list[int] = []

@@ -157,7 +157,7 @@ class _Scan:
         if (before.string == "/" and token.string in (",", ")", ":")) or (
             before.string == ")" and token.string == ":"
         ):
-            # The end of positional-only parameters; the state stays as it is.
+            # The end of positional-only parameters; the state is unchanged.
             return
         if isinstance(wanted, bool) or wanted[1]:
             yield before.end, "E225", _ONE_SIDED

@@ -79,7 +79,7 @@ def _long_text(logical: LogicalLine, most: int) -> Iterator[Finding]:
     before: Token | None = None
     for token in logical.tokens:
         if token.type == STRING and has_code:
-            continue  # and what follows counts as if it was not there
+            continue  # and the following token is treated as if it was not there
         is_alone = before is None or before.type in LAYOUT
         before = token
         is_text = token.type in {COMMENT, STRING}

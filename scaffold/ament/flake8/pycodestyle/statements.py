@@ -33,7 +33,7 @@ _BEFORE_IMPORTS = ("try", "except", "else", "finally", "with", "if", "elif")
 _DUNDER = r"__([^\s]+)__(?::\s*[a-zA-Z.0-9_\[\]\"]+)? = "
 _SINGLETON = r"(?:(\bNone|\bFalse|\bTrue)\s*)?([=!]=)\s*(?(1)|(None|False|True))\b"
 _NEGATION = r"\b(?<!is\s)(not)\s+[^][)(}{\s]+\s+(in|is)\s"
-# linear: Python refuses more than 200 parentheses that are open at a time
+# linear: Python rejects more than 200 open parentheses
 _TYPES = r"[=!]=\s+type\s*\(([^)]*[^ )]) *\)|\btype\s*\([^)]*[^ )] *\)\s+[=!]="
 _TYPES_2_12 = _TYPES.replace(r"\btype", r"(?<!\.)\btype")
 _TYPES_2_8 = r"(?:[=!]=|is(?:\s+not)?)\s+type(?:s\.\w+Type|\s*\(([^)]*[^ )]) *\))"
@@ -117,7 +117,7 @@ def _on_new_line(logical: LogicalLine, finding: Finding) -> tuple[Replacement, .
     if logical.row != row or logical.end_row != row or "\t" in indent or len(indent) % 4:
         return ()
     if not opens and logical.first in _BLOCK_KEYWORDS:
-        return ()  # first the block gets a line of its own
+        return ()  # first the block is moved to a separate line
     column = finding.column  # of the colon or semicolon, and the text after it
     start = column + 1 if opens else column
     end = column + len(line[column:]) - len(line[column:].lstrip())

@@ -119,7 +119,7 @@ class Expansion:
         for attribute in part.element.attributes.values():
             part.attributes[attribute.name] = str(self._values.attribute(attribute, frame))
 
-    # -- what xacro handles
+    # -- elements of xacro
 
     def _include(self, element: Element, holder: Part, frame: Frame) -> None:
         if frame.is_certain:
@@ -223,7 +223,7 @@ class Expansion:
                 return
         self.problems.is_partial = True
         if not is_known(name) or frame.scope.find(name) is not None:
-            return  # a property without a block, or the parameter of a macro that nobody calls
+            return  # a property without a block, or the parameter of an uncalled macro
         at = element.attributes.get("name")
         location = at.location if at is not None else element.name_location
         self.problems.note("block", name, frame.file, location, ())
