@@ -14,7 +14,7 @@ CIRCLES_OF_TYPES = {
     "scaffold.model.rclpy.file": frozenset(
         f"{MODEL}.rclpy.{name}"
         for name in (
-            *("callbacks", "creation", "entities", "init_and_spin", "nodes", "qos"),
+            *("callbacks", "creation", "entities", "nodes"),
             *("parameters.declarations", "parameters.descriptors"),
         )
     ),

@@ -6,8 +6,8 @@ import ast
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from scaffold.model.rclpy.entities import RclpyCall
     from scaffold.model.rclpy.file import RclpyFile
+    from scaffold.model.rclpy.init_and_spin import RclpyCall
 
 _FAR = 200
 """The maximum number of statements between, which are not checked."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 from collections.abc import Iterator, Mapping
 from contextlib import suppress
 from typing import TYPE_CHECKING
@@ -13,12 +14,11 @@ from scaffold.model.rclpy.entities import (
     Client,
     Endpoint,
     Publisher,
-    Qos,
     Service,
     Subscription,
 )
 from scaffold.model.rclpy.file import rclpy_file, rclpy_paths
-from scaffold.model.rclpy.qos import profile_words
+from scaffold.model.rclpy.qos import Qos
 from scaffold.record import NamedTuple
 from scaffold.source import Location, ViewError
 
@@ -42,7 +42,7 @@ class NamedEndpoint(NamedTuple):
     name_location: Location
     qos: Qos | None
     profile: Mapping[str, str] | None
-    """See `profile_words`."""
+    """What is given to its QoSProfile; ``None`` where that is not known."""
     is_plain: bool
     """Whether it is certainly created, once, by a node without a namespace."""
     from_parameter: str | None
@@ -87,7 +87,7 @@ def _named_endpoints(package: Package, path: str) -> tuple[NamedEndpoint, ...]:
             (item.type_argument or item).location,
             (item.name_argument or item).location,
             item.qos,
-            profile_words(item),
+            _profile_words(item),
             _is_plain(item),
             item.from_parameter,
         )
@@ -190,3 +190,20 @@ def _is_plain(endpoint: Endpoint) -> bool:
         and not endpoint.has_unknown_arguments
         and len(endpoint.from_parameters) <= 1
     )
+
+
+def _profile_words(endpoint: Endpoint) -> dict[str, str] | None:
+    """Return the arguments of the QoSProfile of an endpoint; empty for a depth or a preset."""
+    argument = endpoint.argument("qos_profile")
+    if argument is None or endpoint.qos is None or endpoint.qos.reliability is None:
+        return None
+    if isinstance(argument.value, int) or endpoint.qos.profile is not None:
+        return {}
+    file = endpoint.owner.file if endpoint.owner else None
+    value = file.evaluator.single_value(argument.node) if file else None
+    if not isinstance(value, ast.Call) or any(word.arg is None for word in value.keywords):
+        return None
+    names = ("deadline", "liveliness")
+    if file is None or any(file.evaluator.stores(name) for name in names):
+        return None
+    return {word.arg or "": ast.unparse(word.value) for word in value.keywords}

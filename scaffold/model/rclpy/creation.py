@@ -20,7 +20,6 @@ from scaffold.model.rclpy.entities import (
     Parameter,
     ParameterRead,
     Publisher,
-    Qos,
     Service,
     Subscription,
     Synchronizer,
@@ -30,7 +29,7 @@ from scaffold.model.rclpy.evaluator import NOTE
 from scaffold.model.rclpy.parameters.declarations import SIGNATURES as DECLARATIONS
 from scaffold.model.rclpy.parameters.declarations import Declaration
 from scaffold.model.rclpy.parameters.descriptors import descriptor_of
-from scaffold.model.rclpy.qos import PROFILES, qos_of
+from scaffold.model.rclpy.qos import PROFILES, Qos, qos_of
 
 if TYPE_CHECKING:
     from scaffold.model.rclpy.file import RclpyFile

@@ -6,7 +6,7 @@ import ast
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, TypeVar
 
-from scaffold.model.python.values import UNKNOWN, Unknown
+from scaffold.model.python.values import Unknown
 from scaffold.record import NamedTuple
 
 if TYPE_CHECKING:
@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from scaffold.model.rclpy.nodes import NodeDefinition
     from scaffold.model.rclpy.parameters.declarations import Declaration
     from scaffold.model.rclpy.parameters.descriptors import Descriptor
+    from scaffold.model.rclpy.qos import Qos
     from scaffold.source import Location
 
 
@@ -49,19 +50,6 @@ class Callback(NamedTuple):
     def location(self) -> Location:
         """The location of the passed expression."""
         return self.module.location(self.node)
-
-
-class Qos(NamedTuple):
-    """The quality of service of a publisher or subscription; policies in capitals."""
-
-    location: Location
-    profile: str | None = None
-    """The predefined profile: ``sensor_data`` ..."""
-    depth: int | Unknown | None = UNKNOWN
-    """The depth; ``None`` if missing, though the history needs it."""
-    history: str | Unknown = UNKNOWN
-    reliability: str | Unknown = UNKNOWN
-    durability: str | Unknown = UNKNOWN
 
 
 class Created(NamedTuple):
@@ -292,31 +280,6 @@ class ParameterRead(Entity):
         super().__init__(created)
         self.method = method
         self.name = name
-
-
-class RclpyCall(NamedTuple):
-    """A call that starts, runs or ends rclpy."""
-
-    name: str
-    """``init``, ``spin``, ``spin_once``, ``spin_until_future_complete``, ``shutdown``,
-    ``try_shutdown``; the methods of an executor have ``executor.`` in front."""
-    call: ast.Call
-    location: Location
-    function: FunctionNode | None
-    handlers: frozenset[str]
-    """Full names of the exceptions caught around it in the same function."""
-    in_finally: bool
-    asks_ok: bool
-    """Whether it is under ``if rclpy.ok():``."""
-    in_with: bool
-    """Whether it is, or is inside of, ``with rclpy.init() ...:``."""
-    outer_handlers: frozenset[str] = frozenset()
-    """The exceptions caught around all calls of its function in the file."""
-
-    @property
-    def catches_keyboard_interrupt(self) -> bool:
-        """Whether Ctrl-C does not end in a traceback."""
-        return not self.handlers.isdisjoint({"KeyboardInterrupt", "BaseException"})
 
 
 _SCALARS: Mapping[type, str] = {bool: "bool", int: "integer", float: "double", str: "string"}

@@ -29,14 +29,13 @@ from scaffold.model.rclpy.entities import (
     Parameter,
     ParameterRead,
     Publisher,
-    RclpyCall,
     Service,
     Subscription,
     Synchronizer,
     Timer,
 )
 from scaffold.model.rclpy.evaluator import NodeEvaluator
-from scaffold.model.rclpy.init_and_spin import rclpy_calls
+from scaffold.model.rclpy.init_and_spin import RclpyCall, rclpy_calls
 from scaffold.model.rclpy.nodes import NodeClass, NodeDefinition, NodeObject
 from scaffold.model.rclpy.own_modules import Modules, OwnModules
 from scaffold.model.rclpy.parameters.declarations import Declarations
@@ -471,7 +470,7 @@ class RclpyFile:
     @cached_property
     def rclpy_calls(self) -> Sequence[RclpyCall]:
         """The calls that start, run or end rclpy, in the order of the text."""
-        return list(rclpy_calls(self))
+        return list(rclpy_calls(self.evaluator))
 
 
 def _callbacks_of(entity: Entity) -> Sequence[Callback]:

@@ -6,11 +6,12 @@ import ast
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from scaffold.model.rclpy.entities import RclpyCall
+from scaffold.record import NamedTuple
 
 if TYPE_CHECKING:
     from scaffold.model.python.scopes import FunctionNode
-    from scaffold.model.rclpy.file import RclpyFile
+    from scaffold.model.rclpy.evaluator import NodeEvaluator
+    from scaffold.source import Location
 
 _RUNS = frozenset({"init", "spin", "spin_once", "spin_until_future_complete"})
 _RUNS |= {"shutdown", "try_shutdown"}
@@ -21,65 +22,96 @@ _EXECUTORS = frozenset(
 _MAX_CALLS = 20
 
 
-def rclpy_calls(file: RclpyFile) -> Iterator[RclpyCall]:
+class RclpyCall(NamedTuple):
+    """A call that starts, runs or ends rclpy."""
+
+    name: str
+    """``init``, ``spin``, ``spin_once``, ``spin_until_future_complete``, ``shutdown``,
+    ``try_shutdown``; the methods of an executor have ``executor.`` in front."""
+    call: ast.Call
+    location: Location
+    function: FunctionNode | None
+    handlers: frozenset[str]
+    """Full names of the exceptions caught around it in the same function."""
+    in_finally: bool
+    asks_ok: bool
+    """Whether it is under ``if rclpy.ok():``."""
+    in_with: bool
+    """Whether it is, or is inside of, ``with rclpy.init() ...:``."""
+    outer_handlers: frozenset[str] = frozenset()
+    """The exceptions caught around all calls of its function in the file."""
+
+    @property
+    def catches_keyboard_interrupt(self) -> bool:
+        """Whether Ctrl-C does not end in a traceback."""
+        return not self.handlers.isdisjoint({"KeyboardInterrupt", "BaseException"})
+
+
+def rclpy_calls(evaluator: NodeEvaluator) -> Iterator[RclpyCall]:
     """Yield the calls that start, run or end rclpy, in the order of the text."""
     outside: _Outside | None = None
-    for call in file.module.walk(ast.Call):
-        name = _run_name(file, call)
+    for call in evaluator.module.walk(ast.Call):
+        name = _run_name(evaluator, call)
         if name is not None:
-            outside = outside or _Outside(file)
-            yield _rclpy_call(file, call, name, outside)
+            outside = outside or _Outside(evaluator)
+            yield _rclpy_call(evaluator, call, name, outside)
 
 
-def _run_name(file: RclpyFile, call: ast.Call) -> str | None:
-    for name in file.module.qualified_names(call.func):
+def _run_name(evaluator: NodeEvaluator, call: ast.Call) -> str | None:
+    for name in evaluator.module.qualified_names(call.func):
         root, _, function = name.rpartition(".")
         if function in _RUNS and root in {"rclpy", "rclpy.utilities"}:
             return function
     func = call.func
-    if isinstance(func, ast.Attribute) and func.attr in _RUNS and _is_executor(file, func.value):
+    if (
+        isinstance(func, ast.Attribute)
+        and func.attr in _RUNS
+        and _is_executor(evaluator, func.value)
+    ):
         return f"executor.{func.attr}"
     return None
 
 
-def _is_executor(file: RclpyFile, node: ast.expr) -> bool:
-    value = file.evaluator.single_value(node)
+def _is_executor(evaluator: NodeEvaluator, node: ast.expr) -> bool:
+    value = evaluator.single_value(node)
     if value is node and isinstance(node, ast.Name):
-        value = _entered(file, node) or node
+        value = _entered(evaluator, node) or node
     if not isinstance(value, ast.Call):
         return False
-    return not _EXECUTORS.isdisjoint(file.module.qualified_names(value.func))
+    return not _EXECUTORS.isdisjoint(evaluator.module.qualified_names(value.func))
 
 
-def _entered(file: RclpyFile, node: ast.Name) -> ast.expr | None:
+def _entered(evaluator: NodeEvaluator, node: ast.Name) -> ast.expr | None:
     """Return the context manager of ``with ... as name``."""
-    for binding in file.module.index.bindings_of(node):
-        parent = file.module.parent(binding.node)
+    for binding in evaluator.module.index.bindings_of(node):
+        parent = evaluator.module.parent(binding.node)
         if isinstance(parent, ast.withitem):
             return parent.context_expr
     return None
 
 
-def _rclpy_call(file: RclpyFile, call: ast.Call, name: str, outside: _Outside) -> RclpyCall:
+def _rclpy_call(
+    evaluator: NodeEvaluator, call: ast.Call, name: str, outside: _Outside
+) -> RclpyCall:
     in_finally = asks_ok = in_with = False
     child: ast.AST = call
-    for parent in file.module.parents(call):
+    for parent in evaluator.module.parents(call):
         match parent:
             case ast.FunctionDef() | ast.AsyncFunctionDef() | ast.Lambda():
                 break
-            case ast.Try() if file.module.index.place(child)[0] == "finalbody":
+            case ast.Try() if evaluator.module.index.place(child)[0] == "finalbody":
                 in_finally = True
             case ast.If(test=test):
-                asks_ok = asks_ok or _asks_ok(file, test)
+                asks_ok = asks_ok or _asks_ok(evaluator, test)
             case ast.With(items=items):
-                in_with = in_with or any(_enters_init(file, item) for item in items)
+                in_with = in_with or any(_enters_init(evaluator, item) for item in items)
         child = parent
     return RclpyCall(
         name,
         call,
-        file.module.location(call),
-        file.module.enclosing_function(call),
-        frozenset(_handlers_around(file, call)),
+        evaluator.module.location(call),
+        evaluator.module.enclosing_function(call),
+        frozenset(_handlers_around(evaluator, call)),
         in_finally,
         asks_ok,
         in_with,
@@ -87,18 +119,18 @@ def _rclpy_call(file: RclpyFile, call: ast.Call, name: str, outside: _Outside) -
     )
 
 
-def _handlers_around(file: RclpyFile, node: ast.AST) -> set[str]:
+def _handlers_around(evaluator: NodeEvaluator, node: ast.AST) -> set[str]:
     """Return the exceptions caught around a node in its function."""
     handlers: set[str] = set()
     child = node
-    for parent in file.module.parents(node):
+    for parent in evaluator.module.parents(node):
         match parent:
             case ast.FunctionDef() | ast.AsyncFunctionDef() | ast.Lambda():
                 break
-            case ast.Try() if file.module.index.place(child)[0] == "body":
-                handlers.update(_caught(file, parent))
+            case ast.Try() if evaluator.module.index.place(child)[0] == "body":
+                handlers.update(_caught(evaluator, parent))
             case ast.With(items=items):
-                handlers.update(*(_suppressed(file, item) for item in items))
+                handlers.update(*(_suppressed(evaluator, item) for item in items))
         child = parent
     return handlers
 
@@ -106,25 +138,25 @@ def _handlers_around(file: RclpyFile, node: ast.AST) -> set[str]:
 class _Outside:
     """The exceptions caught around all calls of the functions of a file."""
 
-    def __init__(self, file: RclpyFile) -> None:
-        self._file = file
+    def __init__(self, evaluator: NodeEvaluator) -> None:
+        self._evaluator = evaluator
         self._catches: dict[FunctionNode, frozenset[str]] = {}
         self._depth = 0
         self._calls: dict[str, list[ast.Name]] = {}
-        for call in file.module.walk(ast.Call):
+        for call in evaluator.module.walk(ast.Call):
             if isinstance(call.func, ast.Name):
                 self._calls.setdefault(call.func.id, []).append(call.func)
 
     def around(self, node: ast.AST) -> frozenset[str]:
         """Return the exceptions caught around all calls of a node's function."""
-        function = self._file.module.enclosing_function(node)
+        function = self._evaluator.module.enclosing_function(node)
         if function is None or self._depth > _MAX_CALLS:
             return frozenset()
         if function not in self._catches:
             self._catches[function] = frozenset()  # recursive calls are ignored
             self._depth += 1
             caught = [
-                self.around(name) | _handlers_around(self._file, name)
+                self.around(name) | _handlers_around(self._evaluator, name)
                 for name in self._calls.get(function.name, ())
                 if self._is_name_of(name, function)
             ]
@@ -133,43 +165,43 @@ class _Outside:
         return self._catches[function]
 
     def _is_name_of(self, name: ast.Name, function: FunctionNode) -> bool:
-        bindings = self._file.module.index.bindings_of(name)
+        bindings = self._evaluator.module.index.bindings_of(name)
         return any(binding.node is function for binding in bindings)
 
 
-def _caught(file: RclpyFile, node: ast.Try) -> Iterator[str]:
+def _caught(evaluator: NodeEvaluator, node: ast.Try) -> Iterator[str]:
     for handler in node.handlers:
         if handler.type is None:
             yield "BaseException"
         else:
-            yield from _exceptions(file, handler.type)
+            yield from _exceptions(evaluator, handler.type)
 
 
-def _exceptions(file: RclpyFile, node: ast.expr) -> Iterator[str]:
-    node = file.evaluator.single_value(node)
+def _exceptions(evaluator: NodeEvaluator, node: ast.expr) -> Iterator[str]:
+    node = evaluator.single_value(node)
     if isinstance(node, ast.Tuple):
         for item in node.elts:
-            yield from _exceptions(file, item)
+            yield from _exceptions(evaluator, item)
     else:
-        yield from file.module.qualified_names(node)
+        yield from evaluator.module.qualified_names(node)
 
 
-def _suppressed(file: RclpyFile, item: ast.withitem) -> Iterator[str]:
+def _suppressed(evaluator: NodeEvaluator, item: ast.withitem) -> Iterator[str]:
     call = item.context_expr
     if not isinstance(call, ast.Call):
         return
-    if file.module.qualified_name(call.func) == "contextlib.suppress":
+    if evaluator.module.qualified_name(call.func) == "contextlib.suppress":
         for arg in call.args:
-            yield from _exceptions(file, arg)
+            yield from _exceptions(evaluator, arg)
 
 
-def _enters_init(file: RclpyFile, item: ast.withitem) -> bool:
+def _enters_init(evaluator: NodeEvaluator, item: ast.withitem) -> bool:
     call = item.context_expr
-    return isinstance(call, ast.Call) and file.module.qualified_name(call.func) == "rclpy.init"
+    return isinstance(call, ast.Call) and evaluator.module.qualified_name(call.func) == "rclpy.init"
 
 
-def _asks_ok(file: RclpyFile, test: ast.expr) -> bool:
+def _asks_ok(evaluator: NodeEvaluator, test: ast.expr) -> bool:
     return any(
-        isinstance(node, ast.Call) and file.module.qualified_name(node.func) == "rclpy.ok"
+        isinstance(node, ast.Call) and evaluator.module.qualified_name(node.func) == "rclpy.ok"
         for node in ast.walk(test)
     )

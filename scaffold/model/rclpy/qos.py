@@ -7,11 +7,10 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Protocol
 
 from scaffold.model.python.values import UNKNOWN, Unknown
-from scaffold.model.rclpy.entities import Qos
+from scaffold.record import NamedTuple
 
 if TYPE_CHECKING:
     from scaffold.model.python.attributes import AttributeEvaluator
-    from scaffold.model.rclpy.entities import Endpoint
     from scaffold.source import Location
 
 PROFILES: Mapping[str, tuple[int, str, str, str]] = {
@@ -30,6 +29,19 @@ Conflict = tuple[str, str]
 """The offered and the requested policy: ``is BEST_EFFORT``, ``requests RELIABLE``."""
 
 _QOS_PARAMETERS = ("history", "depth", "reliability", "durability")
+
+
+class Qos(NamedTuple):
+    """The quality of service of a publisher or subscription; policies in capitals."""
+
+    location: Location
+    profile: str | None = None
+    """The predefined profile: ``sensor_data`` ..."""
+    depth: int | Unknown | None = UNKNOWN
+    """The depth; ``None`` if missing, though the history needs it."""
+    history: str | Unknown = UNKNOWN
+    reliability: str | Unknown = UNKNOWN
+    durability: str | Unknown = UNKNOWN
 
 
 def qos_of(evaluator: AttributeEvaluator, node: ast.expr) -> Qos:
@@ -164,7 +176,7 @@ class Offered(Protocol):
 
     @property
     def profile(self) -> Mapping[str, str] | None:
-        """The result of ``profile_words``."""
+        """What is given to its QoSProfile; ``None`` where that is not known."""
 
 
 def conflict_of(publisher: Offered, subscription: Offered) -> Conflict | None:
@@ -189,20 +201,3 @@ def _conflict_of_time(
     if "MANUAL" in asked.get("liveliness", "") and "liveliness" not in offered:
         return ("has AUTOMATIC liveliness", "requests MANUAL_BY_TOPIC")
     return None
-
-
-def profile_words(endpoint: Endpoint) -> dict[str, str] | None:
-    """Return the arguments of the QoSProfile of an endpoint; empty for a depth or a preset."""
-    argument = endpoint.argument("qos_profile")
-    if argument is None or endpoint.qos is None or endpoint.qos.reliability is None:
-        return None
-    if isinstance(argument.value, int) or endpoint.qos.profile is not None:
-        return {}
-    file = endpoint.owner.file if endpoint.owner else None
-    value = file.evaluator.single_value(argument.node) if file else None
-    if not isinstance(value, ast.Call) or any(word.arg is None for word in value.keywords):
-        return None
-    names = ("deadline", "liveliness")
-    if file is None or any(file.evaluator.stores(name) for name in names):
-        return None
-    return {word.arg or "": ast.unparse(word.value) for word in value.keywords}
