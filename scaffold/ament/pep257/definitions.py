@@ -9,9 +9,8 @@ from bisect import bisect_left
 from collections.abc import Iterator, Sequence
 from functools import cached_property
 
-from scaffold.ament.python_text.quick_tokens import QUOTED
 from scaffold.ament.python_text.text import PythonText
-from scaffold.ament.python_text.tokens import COMMENT, NEWLINE, NL
+from scaffold.ament.python_text.tokens import COMMENT, NEWLINE, NL, QUOTED
 from scaffold.record import NamedTuple
 
 MODULE, CLASS, FUNCTION, METHOD = range(4)

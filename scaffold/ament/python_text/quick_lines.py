@@ -11,8 +11,7 @@ import re
 from collections.abc import Iterator, Sequence
 
 from scaffold.ament.python_text.logical import LogicalLine, expand_indent, gap
-from scaffold.ament.python_text.quick_tokens import QUOTED
-from scaffold.ament.python_text.tokens import FSTRING_START
+from scaffold.ament.python_text.tokens import FSTRING_START, QUOTED
 from scaffold.record import NamedTuple
 
 _MUTED = re.compile(rf"#[^\n]*|{'|'.join(QUOTED)}|['\"]", re.DOTALL)

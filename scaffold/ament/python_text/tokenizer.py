@@ -5,7 +5,7 @@ from __future__ import annotations
 import tokenize
 
 from scaffold.ament import linters
-from scaffold.ament.python_text import fstrings, quick_tokens
+from scaffold.ament.python_text import fstrings
 from scaffold.ament.python_text.tokens import (
     DEDENT,
     ENDMARKER,
@@ -53,10 +53,6 @@ def read_statement(lines: list[str], row: int, end_row: int, levels: int) -> lis
 def _read(lines: list[str], rows: tuple[int, int] | None) -> list[Token]:
     row, end_row = rows or (1, len(lines))
     some = lines if rows is None else lines[row - 1 : end_row]
-    if FSTRING_START < 0:
-        tokens = quick_tokens.read("".join(some), lines, row)
-        if tokens is not None:
-            return tokens
     feed = iter([*some, ""]).__next__
     try:
         tokens = list(tokenize.generate_tokens(feed))

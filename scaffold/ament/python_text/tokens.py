@@ -26,6 +26,14 @@ SILENT = LAYOUT | {COMMENT}
 OPEN_FSTRINGS = (3, 12)
 """The first Python with tokens for the parts of f-strings."""
 
+QUOTED = (
+    r'"""[^"\\]*(?:(?:\\.|"(?!""))[^"\\]*)*"""',
+    r"'''[^'\\]*(?:(?:\\.|'(?!''))[^'\\]*)*'''",
+    r'"(?!"")[^\n"\\]*(?:\\.[^\n"\\]*)*"',
+    r"'(?!'')[^\n'\\]*(?:\\.[^\n'\\]*)*'",
+)
+"""Patterns of string literals, without their prefixes."""
+
 Token = tokenize.TokenInfo
 Position = tuple[int, int]
 """Row from 1, column from 0."""
