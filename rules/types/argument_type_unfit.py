@@ -657,6 +657,20 @@ class ArgumentTypeUnfit(TypeRule):
             "TypeError when it is called",
         ),
         Example(
+            "an exception for the text of a log message",
+            {
+                "driver.py": "from rclpy.node import Node\n\n\n"
+                "class Driver(Node):\n"
+                "    def read(self, port):\n"
+                "        try:\n            port.read()\n"
+                "        except OSError as error:\n"
+                "            self.get_logger().warning(str(error))\n"
+                "        except Exception as error:\n"
+                "            self.get_logger().error(error)\n"
+            },
+            "11:37: 'message' of error() must be a str, not an Exception: error() fails",
+        ),
+        Example(
             "a variable of another module that is None at first",
             {
                 "package.xml": "<package><name>rover</name></package>\n",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import builtins
 import re
 
 from scaffold.types.stubs.marks import MARK, MARKED, full_name, short_name
@@ -13,6 +14,11 @@ _BUILTINS = frozenset(
     {"int", "float", "str", "bool", "bytes", "bytearray", "complex", "list", "tuple", "dict"}
     | {"set", "frozenset", "Literal", "LiteralString", "None", "True", "False", "type", "class"}
     | {"array"}
+    | {
+        name
+        for name, value in vars(builtins).items()
+        if isinstance(value, type) and issubclass(value, BaseException)
+    }
 )
 _ANYTHING = re.compile(r"\b(?:Unknown|Any|object|Todo|Never|Divergent)\b|@")
 _CONTAINER = re.compile(r"(?:list|dict|set|tuple)\[[^|]*\]")
