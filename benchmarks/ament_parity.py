@@ -139,7 +139,7 @@ def _compare(
 ) -> int:
     started = time.perf_counter()
     with ThreadPoolExecutor(jobs) as pool:
-        theirs = list(pool.map(lambda package: _ask(linter, package), packages))
+        theirs = list(pool.map(lambda package: _run_linter(linter, package), packages))
     between = time.perf_counter()
     verdicts = []
     for package, their in zip(packages, theirs, strict=True):
@@ -153,7 +153,7 @@ def _compare(
     return sum(bool(verdict.theirs) and not verdict.diagnostics for verdict in verdicts)
 
 
-def _ask(linter: Linter, package: Package) -> set[Finding]:
+def _run_linter(linter: Linter, package: Package) -> set[Finding]:
     try:
         findings = linter.oracle(Path(package.directory).resolve())
     except AssertionError:

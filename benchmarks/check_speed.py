@@ -94,7 +94,7 @@ def cost(
     for _ in range(repeat):
         if before is not None:
             before()
-        costs.append(_together([_run(command) for command in commands]))
+        costs.append(_total([_run(command) for command in commands]))
     return min(costs)
 
 
@@ -106,7 +106,7 @@ def _run(command: Sequence[str]) -> Cost:
     return Cost(used.ru_utime + used.ru_stime, used.ru_maxrss / 1024)
 
 
-def _together(costs: Sequence[Cost]) -> Cost:
+def _total(costs: Sequence[Cost]) -> Cost:
     return Cost(sum(cost.seconds for cost in costs), max(cost.megabytes for cost in costs))
 
 

@@ -85,7 +85,7 @@ def names(files: Mapping[str, str]) -> dict[str, set[str]]:
     result: dict[str, set[str]] = {}
     for module, tree in trees.items():
         below = {name.rpartition(".")[2] for name in trees if name.rpartition(".")[0] == module}
-        result[module] = {name for node in _flat(tree.body) for name in _bound(node)} | below
+        result[module] = {name for node in _flat(tree.body) for name in _bound_names(node)} | below
         for node in _flat(tree.body):
             if isinstance(node, ast.ClassDef) and not node.name.startswith("_"):
                 places[f"{module}.{node.name}"] = (module, node)
@@ -104,7 +104,7 @@ def _flat(body: Sequence[ast.stmt]) -> Iterator[ast.stmt]:
             yield node
 
 
-def _bound(node: ast.stmt) -> Iterator[str]:
+def _bound_names(node: ast.stmt) -> Iterator[str]:
     match node:
         case ast.Import(names=aliases) | ast.ImportFrom(names=aliases):
             yield from (alias.asname or alias.name.partition(".")[0] for alias in aliases)
@@ -129,7 +129,7 @@ def _class_names(
         if full in places and full not in above:
             result |= _class_names(places[full][1], places[full][0], places, trees, (*above, full))
     for item in node.body:
-        for name in _bound(item):
+        for name in _bound_names(item):
             is_method = isinstance(item, Function) and not item.decorator_list
             is_method |= isinstance(item, Function) and "deprecated" in ast.unparse(
                 ast.Tuple(item.decorator_list)
@@ -192,10 +192,12 @@ def compared_stub(known: str, old: str, new: str, still: Mapping[str, set[str]])
         return known
     added = [node for node in after if isinstance(node, ast.Import | ast.ImportFrom)]
     gone = _exports(before) - _exports(after)
-    kept = [_without(node, gone) for node in imports]
+    kept = [_without_names(node, gone) for node in imports]
     lines = [node for group in merged.values() for node in group]
     everything = [*(node for node in kept if node.names), *added, *lines]
-    return ast.unparse(ast.fix_missing_locations(ast.Module(_used(everything), [])))
+    return ast.unparse(
+        ast.fix_missing_locations(ast.Module(_without_unused_imports(everything), []))
+    )
 
 
 def with_modules(text: str, path: str, old: Collection[str], new: Collection[str]) -> str:
@@ -234,12 +236,14 @@ def _exports(body: Sequence[ast.stmt]) -> set[str]:
     }
 
 
-def _without(node: ast.Import | ast.ImportFrom, names: set[str]) -> ast.Import | ast.ImportFrom:
+def _without_names(
+    node: ast.Import | ast.ImportFrom, names: set[str]
+) -> ast.Import | ast.ImportFrom:
     node.names = [alias for alias in node.names if alias.asname not in names]
     return node
 
 
-def _used(body: Sequence[ast.stmt]) -> list[ast.stmt]:
+def _without_unused_imports(body: Sequence[ast.stmt]) -> list[ast.stmt]:
     """Return a stub without imports that are repeated or not needed."""
     needed = {
         item.id
@@ -273,7 +277,7 @@ def _groups(body: Sequence[ast.stmt]) -> dict[str, Group]:
     result: dict[str, Group] = {}
     for node in body:
         if isinstance(node, Definition):
-            result.setdefault(next(_bound(node), ""), []).append(node)
+            result.setdefault(next(_bound_names(node), ""), []).append(node)
     return result
 
 
@@ -306,7 +310,7 @@ def _merged_group(
     before, after = old[-1], new[-1]
     if not isinstance(before, Function) or not isinstance(after, Function):
         return known if type(before) is type(after) else new
-    if _shape(before) == _shape(after):
+    if _call_interface(before) == _call_interface(after):
         return known
     function = known[0]
     if len(known) == 1 and isinstance(function, Function):
@@ -324,21 +328,21 @@ def _merged_class(
     if merged == _groups(known.body) and not gone and not added:
         return known
     bases: list[ast.expr] = [ast.Name(name) for name in added]
-    bases += [base for base in known.bases if _plain(base) not in gone]
+    bases += [base for base in known.bases if _unquoted(base) not in gone]
     body: list[ast.stmt] = [node for group in merged.values() for node in group]
     empty: list[ast.stmt] = [ast.Expr(ast.Constant(...))]
     return ast.ClassDef(known.name, bases, known.keywords, body or empty, [])
 
 
-def _plain(base: ast.expr) -> str:
+def _unquoted(base: ast.expr) -> str:
     return ast.unparse(base.value if isinstance(base, ast.Subscript) else base)
 
 
 def _bases(node: ast.ClassDef) -> list[str]:
-    return [name for name in map(_plain, node.bases) if name not in {"Generic", "object"}]
+    return [name for name in map(_unquoted, node.bases) if name not in {"Generic", "object"}]
 
 
-def _shape(node: Function) -> object:
+def _call_interface(node: Function) -> object:
     """Return the call interface of a function: arguments, their order, which are optional."""
     arguments = node.args
     return (
@@ -392,7 +396,9 @@ def stubs(sources: Path, name: str) -> tuple[dict[str, str], list[str]]:
             elif file.is_file():
                 known = file.read_text()
                 known = with_modules(known, path, old, new)
-                result = compared_stub(known, stub(old[path], ""), after, _of(known_names, path))
+                result = compared_stub(
+                    known, stub(old[path], ""), after, _members_of_classes(known_names, path)
+                )
                 if result != file.read_text():
                     changed[path] = result
     same = formatted(changed)
@@ -408,7 +414,7 @@ def of_subclasses(text: str) -> str:
     return re.sub(r"(?m)^(?=from |import )", "from typing_extensions import Self\n", text, count=1)
 
 
-def _of(table: Mapping[str, set[str]], path: str) -> dict[str, set[str]]:
+def _members_of_classes(table: Mapping[str, set[str]], path: str) -> dict[str, set[str]]:
     """Return the names of the classes of a module, by the name of the class."""
     start = f"{module_name(path)}."
     return {

@@ -206,7 +206,7 @@ def _fields(base: str, own: str) -> str:
     before, after = base.splitlines(), own.splitlines()
     more = [line for line in after if line not in before]
     less = [line for line in before if line not in after]
-    parts = [f"has {_listed(more)}"] * bool(more) + [f"lacks {_listed(less)}"] * bool(less)
+    parts = [f"has {_joined(more)}"] * bool(more) + [f"lacks {_joined(less)}"] * bool(less)
     return ", ".join(parts) or "another order"
 
 
@@ -225,8 +225,8 @@ def _members(one: Distribution) -> Iterator[str]:
             if not _is_name(one, class_):
                 lines.append(f"- `{class_}` is gone")
         elif added or gone:
-            changes_ = [f"has {_listed(added)}"] * bool(added)
-            changes_ += [f"lacks {_listed(gone)}"] * bool(gone)
+            changes_ = [f"has {_joined(added)}"] * bool(added)
+            changes_ += [f"lacks {_joined(gone)}"] * bool(gone)
             lines.append(f"- `{class_}` {', '.join(changes_)}")
     if lines:
         yield ""
@@ -241,7 +241,7 @@ def _is_name(one: Distribution, class_: str) -> bool:
     return name in names_of(one).get(module, ())
 
 
-def _listed(names: list[str]) -> str:
+def _joined(names: list[str]) -> str:
     return ", ".join(f"`{name}`" for name in names)
 
 

@@ -104,7 +104,7 @@ def stub(source: str, overlay: str) -> str:
     """
     body = list(_Module().statements(ast.parse(source).body))
     body = merged(body, ast.parse(overlay).body)
-    return ast.unparse(ast.fix_missing_locations(ast.Module(_used(body), [])))
+    return ast.unparse(ast.fix_missing_locations(ast.Module(_with_needed_imports(body), [])))
 
 
 # -- from source to stub
@@ -380,7 +380,7 @@ def _name(node: Statement) -> str:
 # -- remaining imports
 
 
-def _used(body: Sequence[Statement]) -> list[Statement]:
+def _with_needed_imports(body: Sequence[Statement]) -> list[Statement]:
     """Return the statements of a stub with the imports that it needs or exports."""
     names = {
         item.id

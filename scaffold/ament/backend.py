@@ -74,7 +74,7 @@ class _File:
         return reduce(or_, (item.linters for item in self.settings), 0)
 
 
-def _unread(path: str, settings: Sequence[Settings], why: str) -> _File:
+def _unreadable_file(path: str, settings: Sequence[Settings], why: str) -> _File:
     file = _File(path, b"", settings)
     finding = Finding("E902", 1, 1, why, linters=file.linters)
     linters = reduce(or_, (item.linters_of(finding) for item in settings), 0)
@@ -200,7 +200,7 @@ class StyleCheck:
         own = PackageSettings(package, is_reference=True)
         if not self._is_reference:
             own = settings_of(package)
-            self._notes[id(package)] = [_noted(note) for note in own.notes]
+            self._notes[id(package)] = [_note_diagnostic(note) for note in own.notes]
         links = getattr(package.tree, "broken_links", ())
         for path, linters in select((*package.tree.files, *links), own.named).items():
             settings = (
@@ -215,7 +215,7 @@ class StyleCheck:
                 continue
             except OSError as error:
                 why = "broken symbolic link" if path in links else error.strerror or "not a file"
-                files.append(_unread(path, settings, f"the file cannot be read: {why}"))
+                files.append(_unreadable_file(path, settings, f"the file cannot be read: {why}"))
                 continue
             if reason := why_unread(path, data):
                 files.append(_too_large(path, settings, reason))
@@ -262,7 +262,7 @@ def _failure(error: Exception, linters: int) -> Finding:
     return Finding(CRASHED, 1, 1, crash_message("the style check", error), linters=linters)
 
 
-def _noted(note: Note) -> Diagnostic:
+def _note_diagnostic(note: Note) -> Diagnostic:
     return Diagnostic(UNFOLLOWED, *_OWN_CODES[UNFOLLOWED], *note)
 
 

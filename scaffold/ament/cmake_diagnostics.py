@@ -44,12 +44,12 @@ def _extra_whitespace(package: Package, finding: Finding) -> _Explained:
 def _mismatch(package: Package, finding: Finding) -> _Explained:
     last, fix = finding.end - 1, None
     if not outline(package, finding.source).touches_literal(last, finding.end):
-        fix = Fix("make the spaces equal", _even(finding))
+        fix = Fix("make the spaces equal", _padding_edits(finding))
     line, _ = finding.source.position(last)
     return f'spaces after the "(" of {finding.detail} and before the ")" in line {line} differ', fix
 
 
-def _even(finding: Finding) -> tuple[Edit, ...]:
+def _padding_edits(finding: Finding) -> tuple[Edit, ...]:
     source, text, closing = finding.source, finding.source.text, finding.end - 1
     opened = finding.start + 1
     behind = opened

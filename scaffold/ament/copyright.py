@@ -113,7 +113,7 @@ def read(path: str, data: bytes) -> Header:
             line = text.count("\n", 0, offset) + 1
             column = offset - text.rfind("\n", 0, offset)
             at = Location(path, line, column, line, column + len(first))
-            holders = tuple(_holder(notice) for notice in notices)
+            holders = tuple(_holder_in(notice) for notice in notices)
             text = " ".join(rest.split())
             return Header(path, at, holders, identify(text), text)
     return Header(path, at)
@@ -202,14 +202,14 @@ def _notices(block: str) -> tuple[list[str], str]:
 
 def _begins_line(block: str, at: int, floor: int) -> bool:
     r"""Tell whether only spaces, one other character or ``\copyright`` precede ``at``."""
-    before = _back(block, at, floor)
+    before = _skip_space_back(block, at, floor)
     if _is_near_start(block, before, at, floor):
         return True
     command = "\\copyright"
     at = before - len(command)
     if at < floor or block[at:before].lower() != command:
         return False
-    return _is_near_start(block, _back(block, at, floor), at, floor)
+    return _is_near_start(block, _skip_space_back(block, at, floor), at, floor)
 
 
 def _is_near_start(block: str, before: int, at: int, floor: int) -> bool:
@@ -219,13 +219,13 @@ def _is_near_start(block: str, before: int, at: int, floor: int) -> bool:
     return before - 1 == floor or block[before - 2] == "\n"
 
 
-def _back(block: str, at: int, floor: int) -> int:
+def _skip_space_back(block: str, at: int, floor: int) -> int:
     while at > floor and block[at - 1].isspace():
         at -= 1
     return at
 
 
-def _holder(notice: str) -> str:
+def _holder_in(notice: str) -> str:
     # linear: whatever is left of the line matches
     match = re.fullmatch(_NOTICE, notice, re.IGNORECASE)
     return match[2].strip() if match else ""
@@ -254,7 +254,7 @@ def contributing(licence: str) -> str | None:
         return None
 
 
-def _known(kind: str) -> tuple[KnownText, ...]:
+def _known_texts(kind: str) -> tuple[KnownText, ...]:
     """Return the known texts of a kind for the linter of the target."""
     unknown = distributions.target().fact("copyright.unknown_licenses")
     return tuple(item for item in known_texts()[kind] if item.licence not in unknown)
@@ -273,7 +273,7 @@ def known_texts() -> dict[str, list[KnownText]]:
 
 def identify(text: str) -> str | None:
     """Return the SPDX identifier of the license header in a normalized text."""
-    return _identified(text, _known("header"))
+    return _identified(text, _known_texts("header"))
 
 
 @lru_cache(maxsize=256)
@@ -303,7 +303,7 @@ def departure(text: str) -> tuple[str, str, str] | None:
     """
     best: tuple[int, str, str, str] | None = None
     words = text.split()
-    for known_text in _known("header"):
+    for known_text in _known_texts("header"):
         same, expected, given = _compare(words, [part.split() for part in known_text.sections])
         enough = min(_NEAR, sum(map(len, (part.split() for part in known_text.sections))) // 2)
         if same >= enough and (best is None or same > best[0]):
@@ -330,7 +330,7 @@ def _compare(words: list[str], sections: list[list[str]]) -> tuple[int, list[str
 def identify_file(name: str, data: bytes) -> str | None:
     """Return the SPDX identifier of a LICENSE or CONTRIBUTING.md, ``None`` if it is unknown."""
     text = " ".join(data.decode("utf-8", "replace").split())
-    for known_text in _known(name):
+    for known_text in _known_texts(name):
         last = -1
         for mark in known_text.sections:
             at = _find_marked(text, mark)

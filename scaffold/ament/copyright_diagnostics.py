@@ -97,7 +97,7 @@ def _of_repository(package: Package, code: str) -> Iterator[Diagnostic]:
         return
     use = linter_use(package, "copyright")
     for name in REPOSITORY_FILES:
-        wrong = _wrong(package, name)
+        wrong = _file_problem(package, name)
         at = package.start_of(name).location
         if not wrong:
             continue
@@ -129,7 +129,7 @@ def _is_repository(package: Package) -> bool:
     return any(package.outside.exists(place) for place in places)
 
 
-def _wrong(package: Package, name: str) -> str:
+def _file_problem(package: Package, name: str) -> str:
     if not package.has(name):
         return f"the repository has no {name}"
     data = package.bytes_of(name)

@@ -141,24 +141,24 @@ class Scan:
                 words = [word.strip() for word in line.raw[len(PRAGMA) :].split(",") if word]
                 wrong = next((word for word in words if not _is_switch(word)), None)
                 if wrong is not None:
-                    result.append(self._at(PRAGMA_INVALID, line, 0, len(line.raw), wrong))
+                    result.append(self._finding(PRAGMA_INVALID, line, 0, len(line.raw), wrong))
                 switches += filter(_is_switch, words)
         if not switches:
             return result
         return [f for f in result if f.filter == PRAGMA_INVALID or _is_on(f.filter, switches)]
 
-    def _at(self, name: str, line: Line, start: int, end: int, text: str = "") -> Finding:
+    def _finding(self, name: str, line: Line, start: int, end: int, text: str = "") -> Finding:
         return Finding(name, self.source, line.start + start, line.start + end, text)
 
-    def _whole(self, name: str, text: str) -> Finding:
+    def _file_finding(self, name: str, text: str) -> Finding:
         return Finding(name, self.source, 0, 0, text)
 
     def _file_name(self) -> Iterator[Finding]:
         match = re.match(r"Find(.*)\.cmake", self.name)
         if match and not match[1].isupper():
-            yield self._whole("convention/filename", f"Find{match[1].upper()}.cmake")
+            yield self._file_finding("convention/filename", f"Find{match[1].upper()}.cmake")
         elif self.source.path.lower() == "cmakelists.txt" and self.name != "CMakeLists.txt":
-            yield self._whole("convention/filename", "CMakeLists.txt")
+            yield self._file_finding("convention/filename", "CMakeLists.txt")
 
     def _each_line(self) -> Iterator[Finding]:
         above = ""  # the command of strings in a long line
@@ -166,7 +166,7 @@ class Scan:
         for line in self.lines:
             raw = line.raw
             if len(raw) > LINE_LENGTH and not (_is_string(raw) and above not in {"", "message"}):
-                yield self._at("linelength", line, LINE_LENGTH, len(raw), str(len(raw)))
+                yield self._finding("linelength", line, LINE_LENGTH, len(raw), str(len(raw)))
             above = line.command or above
             if line.command:
                 upper = line.command == line.command.upper()
@@ -178,16 +178,16 @@ class Scan:
                     yield self._name(line, "readability/mixedcase")
             indentation = len(raw) - len(raw.lstrip(" "))
             if indentation % INDENTATION:
-                yield self._at("whitespace/indent", line, 0, indentation, str(indentation))
+                yield self._finding("whitespace/indent", line, 0, indentation, str(indentation))
             if "\t" in raw:
                 at = raw.index("\t")
-                yield self._at("whitespace/tabs", line, at, at + 1)
+                yield self._finding("whitespace/tabs", line, at, at + 1)
             if raw and raw[-1].isspace():
-                yield self._at("whitespace/eol", line, len(raw.rstrip()), len(raw))
+                yield self._finding("whitespace/eol", line, len(raw.rstrip()), len(raw))
             yield from self._repeated(line)
 
     def _name(self, line: Line, name: str) -> Finding:
-        return self._at(name, line, line.name_start, line.name_end, line.command)
+        return self._finding(name, line, line.name_start, line.name_end, line.command)
 
     def _repeated(self, line: Line) -> Iterator[Finding]:
         if "(" not in line.code:
@@ -200,7 +200,7 @@ class Scan:
             if match.end() >= last:
                 return
             if _has_arguments(line.code, match.end(), last):
-                yield self._at("readability/logic", line, match.start(), last + 1, match[1])
+                yield self._finding("readability/logic", line, match.start(), last + 1, match[1])
                 return
 
     def _spaces(self) -> Iterator[Finding]:
@@ -214,7 +214,7 @@ class Scan:
                 continue
             if line.name_end != line.open:
                 start, end = line.name_end, line.open
-                result.append(self._at("whitespace/extra", line, start, end, line.command))
+                result.append(self._finding("whitespace/extra", line, start, end, line.command))
             if closing is None:
                 result.append(self._name(line, "syntax"))
                 continue
@@ -241,9 +241,9 @@ class Scan:
                 actual = self._argument(number)
                 if actual != expected:
                     detail = f"{actual} {expected}"
-                    yield self._at("package/stdargs", line, line.name_start, line.open, detail)
+                    yield self._finding("package/stdargs", line, line.name_start, line.open, detail)
         for detail in missing.values():
-            yield self._whole("package/consistency", detail)
+            yield self._file_finding("package/consistency", detail)
 
     def _argument(self, number: int) -> str:
         """Return the first word after the command, here or further down."""

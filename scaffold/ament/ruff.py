@@ -99,7 +99,9 @@ class Run:
                     self._running = self._start(chunk)
                 for arguments in passes():
                     output = _collect(*self._running.pop(0))
-                    answer = _bisect(arguments, chunk) if output is None else _parse(output)
+                    answer = (
+                        _check_by_bisection(arguments, chunk) if output is None else _parse(output)
+                    )
                     for path, diagnostic in answer:
                         result.setdefault(path, []).append(diagnostic)
         finally:
@@ -118,7 +120,9 @@ class Run:
         return [_spawn([*arguments, "--", *chunk]) for arguments in passes()]
 
 
-def _bisect(arguments: Sequence[str], files: Sequence[str]) -> Iterator[tuple[str, RuffDiagnostic]]:
+def _check_by_bisection(
+    arguments: Sequence[str], files: Sequence[str]
+) -> Iterator[tuple[str, RuffDiagnostic]]:
     """Check files of which one crashes ruff, by bisection, so that the others are still checked."""
     if len(files) == 1:
         yield files[0], RuffDiagnostic("", 1, 1, 1, 1, "nested too deeply for its linters", (), "")
@@ -126,7 +130,7 @@ def _bisect(arguments: Sequence[str], files: Sequence[str]) -> Iterator[tuple[st
     middle = len(files) // 2
     for half in (files[:middle], files[middle:]):
         output = _collect(*_spawn([*arguments, "--", *half]))
-        yield from _bisect(arguments, half) if output is None else _parse(output)
+        yield from _check_by_bisection(arguments, half) if output is None else _parse(output)
 
 
 def _chunked(files: Sequence[str]) -> list[Sequence[str]]:

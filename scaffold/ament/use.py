@@ -60,10 +60,10 @@ def linter_use(package: Package, linter: str) -> Use:
         package: The package.
         linter: Its name without ``ament_``: ``copyright``, ``flake8``, ``pep257``.
     """
-    return package.remember(("linter_use", linter), lambda: _use(package, linter))
+    return package.remember(("linter_use", linter), lambda: _use_of_linter(package, linter))
 
 
-def _use(package: Package, linter: str) -> Use:
+def _use_of_linter(package: Package, linter: str) -> Use:
     uses = (_by_cmake(package, linter), _by_pytest(package, f"ament_{linter}"))
     result = [use for use in uses if use is not None]
     running = [use for use in result if use.runs]
@@ -75,7 +75,7 @@ def _by_cmake(package: Package, linter: str) -> Use | None:
         cmake = package.cmake
         calls = cmake.find(f"ament_{linter}")
         if calls:
-            return _called(cmake, calls)
+            return _use_by_command(cmake, calls)
         if hook(package, linter) is None:
             return None
     except ViewError:
@@ -89,7 +89,7 @@ def _by_cmake(package: Package, linter: str) -> Use | None:
 _KEYWORDS = ("EXCLUDE", "TESTNAME", "TIMEOUT", "EXTENSIONS", "CONFIG_FILE")
 
 
-def _called(cmake: CMakeLists, calls: Sequence[Command]) -> Use:
+def _use_by_command(cmake: CMakeLists, calls: Sequence[Command]) -> Use:
     """Return the arguments of a linter in CMake: excluded files, and paths."""
     excluded: list[Argument] = []
     given: list[str] = []
@@ -117,11 +117,13 @@ def hook(package: Package, linter: str) -> Command | None:
     """Return the command that runs a linter declared in the manifest; raises ViewError."""
     finds = package.cmake.find(*_FINDING)
     wrapper = f"ament_cmake_{linter}"
-    is_found = finds and any(_brings(package, name, wrapper) for name in _found(package))
+    is_found = finds and any(
+        _provides_linter(package, name, wrapper) for name in _found_packages(package)
+    )
     return finds[0] if is_found else None
 
 
-def _found(package: Package) -> set[str]:
+def _found_packages(package: Package) -> set[str]:
     """Return the packages found by CMake and declared in the manifest.
 
     ament_lint_auto only finds test dependencies, so that it ignores a ``<depend>``.
@@ -148,7 +150,7 @@ def _switched_off(cmake: CMakeLists, linter: str) -> str:
     return ""
 
 
-def _brings(package: Package, name: str, wrapper: str) -> bool:
+def _provides_linter(package: Package, name: str, wrapper: str) -> bool:
     """Tell whether a dependency is the linter or a collection that includes it."""
     collections = (_COLLECTION, wrapper)
     if name in collections:
@@ -216,10 +218,10 @@ def linter_tests(package: Package, linter: str) -> Iterator[tuple[PythonModule, 
         elif is_unrun_test(package, path):
             yield module, f"CMake does not run {path}"
         else:
-            yield module, "" if _asserts(module) else f"{path} asserts nothing"
+            yield module, "" if _can_fail(module) else f"{path} asserts nothing"
 
 
-def _asserts(module: PythonModule) -> bool:
+def _can_fail(module: PythonModule) -> bool:
     """Tell whether a test can fail: by an ``assert``, or a call such as ``assertEqual``."""
     return bool(module.walk(ast.Assert)) or any(
         re.search(r"assert|fail|exit", ast.unparse(call.func), re.IGNORECASE)

@@ -89,20 +89,20 @@ def check(
     if text.why_unchecked:
         linters = settings[0].linters
         return [Finding(TOO_LARGE, 1, 1, text.why_unchecked, linters=linters)]
-    own = [list(_own(text, item)) for item in settings]
+    own = [list(_own_findings(text, item)) for item in settings]
     reported = ask_ruff()
     broken = _broken(text, reported, is_clean=decoded.is_clean)
     if broken is not None:
-        return _once(_reported([broken], settings))
-    results = [_judged(text, *item, reported) for item in zip(settings, own, strict=True)]
-    judged = results[0] if len(results) == 1 else _once(chain.from_iterable(results))
+        return _unique(_reported([broken], settings))
+    results = [_findings_for(text, *item, reported) for item in zip(settings, own, strict=True)]
+    judged = results[0] if len(results) == 1 else _unique(chain.from_iterable(results))
     if text.is_too_deep:
         linters = settings[0].linters
         judged.insert(0, Finding(UNPARSABLE, 1, 1, exhausted(RecursionError()), linters=linters))
     return judged
 
 
-def _judged(
+def _findings_for(
     text: PythonText,
     settings: Settings,
     own: Sequence[Finding],
@@ -116,7 +116,7 @@ def _judged(
     placed = [*flakes.placed(text, reported)]
     findings = _reported(_with_fixes([*ruff_findings, *own], placed), [settings])
     silence = noqa.apply_of_plugins if options.disable_noqa else noqa.apply
-    return [*map(_Alignment(text).keep_alignment, _once(silence(text, findings)))]
+    return [*map(_Alignment(text).keep_alignment, _unique(silence(text, findings)))]
 
 
 def _reported(findings: Iterable[Finding], settings: Sequence[Settings]) -> list[Finding]:
@@ -129,7 +129,7 @@ def _reported(findings: Iterable[Finding], settings: Sequence[Settings]) -> list
     ]
 
 
-def _own(text: PythonText, settings: Settings) -> Iterator[Finding]:
+def _own_findings(text: PythonText, settings: Settings) -> Iterator[Finding]:
     # Without a tree, a newer Python may still parse the file: ruff covers the other rules.
     counts: dict[tuple[str, int], int] = {}
     for finding in _all_own(text, settings):
@@ -234,7 +234,7 @@ def _with_fixes(
     for item in diagnostics:
         if item.fix and not _loads_conversions(item):
             same_place.setdefault((item.code, item.line), []).append(plain(item))
-    fixes = {key: _joined(same) for key, same in same_place.items()}
+    fixes = {key: _merged(same) for key, same in same_place.items()}
     result = []
     for finding in findings:
         other = fixes.get((finding.code, finding.line))
@@ -295,15 +295,15 @@ class _Alignment:
         return self._columns[row]
 
 
-def _once(findings: Iterable[Finding]) -> list[Finding]:
+def _unique(findings: Iterable[Finding]) -> list[Finding]:
     """Return one finding for each line and code, in reading order."""
     result: dict[tuple[int, str], list[Finding]] = {}
     for finding in sorted(findings, key=lambda item: (item.line, item.column, item.code)):
         result.setdefault((finding.line, finding.code), []).append(finding)
-    return [_joined(same) for same in result.values()]
+    return [_merged(same) for same in result.values()]
 
 
-def _joined(findings: Sequence[Finding]) -> Finding:
+def _merged(findings: Sequence[Finding]) -> Finding:
     """Return the first of some findings, with the fixes of all if they do not overlap."""
     first, *others = findings
     if not others:
@@ -318,7 +318,7 @@ def _joined(findings: Sequence[Finding]) -> Finding:
     edits = sorted({*leading.fix})
     has_grown = False
     before = leading.fix
-    for other in fixable[1:] if not _meet(edits) else ():
+    for other in fixable[1:] if not _overlap(edits) else ():
         if len(edits) > MOST_EDITS:
             break
         # A fix of a whole line belongs to each of its findings.
@@ -336,14 +336,14 @@ def _joined(findings: Sequence[Finding]) -> Finding:
 def _added(edits: list[Replacement], more: Sequence[Replacement]) -> bool:
     """Merge sorted edits, all or none, as overlapping ones are impossible."""
     new = sorted({*more})
-    if _meet(new):
+    if _overlap(new):
         return False
     places: list[tuple[int, Replacement]] = []
     for edit in new:
         at = bisect_left(edits, edit)
         if edits[at : at + 1] == [edit]:
             continue
-        if _meet([*edits[max(at - 1, 0) : at], edit, *edits[at : at + 1]]):
+        if _overlap([*edits[max(at - 1, 0) : at], edit, *edits[at : at + 1]]):
             return False
         places.append((at, edit))
     for at, edit in reversed(places):
@@ -351,6 +351,6 @@ def _added(edits: list[Replacement], more: Sequence[Replacement]) -> bool:
     return True
 
 
-def _meet(edits: Sequence[Replacement]) -> bool:
+def _overlap(edits: Sequence[Replacement]) -> bool:
     """Tell whether any of some sorted edits overlap."""
     return any(item[2:4] > other[:2] for item, other in pairwise(edits))

@@ -228,20 +228,22 @@ def _judge(package: Package, use: _Use) -> Verdict | bytes | None:
     if manifest:
         wrong = violations(use.data, int(manifest[1]))
         return (
-            _wrong(use, wrong[0][0], f"is no package.xml: {_shown(wrong[0][1])}") if wrong else None
+            _invalid(use, wrong[0][0], f"is no package.xml: {_first_line(wrong[0][1])}")
+            if wrong
+            else None
         )
     if "://" in use.href:
-        return _left(use, "it is not a local file")
+        return _unchecked(use, "it is not a local file")
     target = posixpath.normpath(posixpath.join(posixpath.dirname(use.path), use.href))
     try:
         schema = _read(package, target)
     except LargeFileError as error:
-        return _left(use, f"its {error.size // 1000} kB are more than {MAX_BYTES // 1000} kB")
+        return _unchecked(use, f"its {error.size // 1000} kB are more than {MAX_BYTES // 1000} kB")
     except (OSError, ValueError):
-        return _wrong(use, 1, f"names the schema {use.href}, but there is no file {target}")
+        return _invalid(use, 1, f"names the schema {use.href}, but there is no file {target}")
     root = _parse(schema)
     if root is not None and _reads_others(root):
-        return _left(use, "it includes other files")
+        return _unchecked(use, "it includes other files")
     return schema
 
 
@@ -266,7 +268,7 @@ def _validated(jobs: Mapping[_Use, xml_validate.Job]) -> Iterator[tuple[_Use, Ve
     lines = _run(list(jobs.values())) if jobs else []
     for at, use in enumerate(jobs):
         if at >= len(lines):
-            yield use, _left(use, "it takes too long, or too much memory")
+            yield use, _unchecked(use, "it takes too long, or too much memory")
             continue
         complaint = json.loads(lines[at])
         if complaint is None:
@@ -274,7 +276,10 @@ def _validated(jobs: Mapping[_Use, xml_validate.Job]) -> Iterator[tuple[_Use, Ve
             continue
         line, message, is_unusable = complaint
         problem = f"names the schema {use.href}, which cannot be used" if is_unusable else ""
-        yield use, _wrong(use, line, f"{problem or f'does not fit {use.href}'}: {_shown(message)}")
+        yield (
+            use,
+            _invalid(use, line, f"{problem or f'does not fit {use.href}'}: {_first_line(message)}"),
+        )
 
 
 def _run(jobs: list[xml_validate.Job]) -> list[bytes]:
@@ -298,16 +303,16 @@ def _run(jobs: list[xml_validate.Job]) -> list[bytes]:
     return [line for line in output.splitlines(keepends=True) if line.endswith(b"\n")]
 
 
-def _wrong(use: _Use, line: int, message: str) -> Verdict:
+def _invalid(use: _Use, line: int, message: str) -> Verdict:
     return Verdict(Location.start_of(use.path, max(line, 1)), message, is_checked=True)
 
 
-def _left(use: _Use, why: str) -> Verdict:
+def _unchecked(use: _Use, why: str) -> Verdict:
     message = f"names the schema '{use.href}', which is not checked: {why}"
     return Verdict(Location.start_of(use.path), message, is_checked=False)
 
 
-def _shown(message: str) -> str:
+def _first_line(message: str) -> str:
     return message.partition("\n")[0].rstrip(". ")
 
 

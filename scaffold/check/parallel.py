@@ -172,12 +172,12 @@ def _tasks(sizes: Sequence[Mapping[str, int]], processors: int) -> Iterator[_Tas
         else:
             yield _Task(start, stop, has_rules=True, paths=frozenset())
             for at in range(start, stop):
-                for paths in _cut(sizes[at]):
+                for paths in _split(sizes[at]):
                     yield _Task(at, at + 1, has_rules=False, paths=paths)
         start = stop
 
 
-def _cut(files: Mapping[str, int]) -> Iterator[frozenset[str]]:
+def _split(files: Mapping[str, int]) -> Iterator[frozenset[str]]:
     paths: list[str] = []
     total = 0
     for path, bytes_ in files.items():
@@ -221,7 +221,7 @@ def _no_interruption() -> Iterator[None]:
 
 def _run(number: int) -> _Done:
     session, targets, earlier, packages, tasks = _work
-    _tidy(packages)
+    _drop_old_data(packages)
     task = tasks[number]
     places = range(task.start, task.stop)
     backend = session.start_style([targets[at].package for at in places], earlier, task.paths)
@@ -262,7 +262,7 @@ class _Garbage:
 _garbage = _Garbage()
 
 
-def _tidy(packages: Sequence[Package]) -> None:
+def _drop_old_data(packages: Sequence[Package]) -> None:
     """Drop the data of earlier tasks of this process."""
     if gc.isenabled():  # the first task
         _garbage.start()

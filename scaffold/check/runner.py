@@ -154,7 +154,7 @@ class Check:
         """Add the diagnostics of a rule to ``parts``."""
         # One more than is shown, so that the session notices it.
         most = MAX_FINDINGS + 1
-        for key, say in self._steps(rule):
+        for key, say in self._steps_of(rule):
             diagnostics = parts.setdefault(key, [])
             try:
                 with recorded(self._reads_of(key)):
@@ -170,7 +170,7 @@ class Check:
             self._reads[key] = Reads()
         return self._reads[key]
 
-    def _steps(self, rule: Rule) -> Iterator[tuple[str, Callable[[], Iterable[Diagnostic]]]]:
+    def _steps_of(self, rule: Rule) -> Iterator[tuple[str, Callable[[], Iterable[Diagnostic]]]]:
         """Yield the steps of a rule, each with its part."""
         package = self._package
         if not isinstance(rule, FileRule):

@@ -156,7 +156,7 @@ class Session:
         verdict = rules.verdict._replace(style=everything) if rules.verdict else None
         if typed is not None:
             of_rules = [*rules.diagnostics, *rules.suppressed]
-            diagnostics += _besides(of_rules, typed.diagnostics)
+            diagnostics += _unreported(of_rules, typed.diagnostics)
             if verdict is not None:
                 facts = {**verdict.facts, **typed.facts}
                 verdict = verdict._replace(types=typed.parts, facts=facts)
@@ -299,7 +299,7 @@ class Session:
         unreadable = (UnparsableFile.code, FileTooLarge.code)
         wanted = [
             d
-            for d in _bounded([*dict.fromkeys(diagnostics)])
+            for d in _limited([*dict.fromkeys(diagnostics)])
             if not (d.code in unreadable and d.location.path in reported)
             and (target.only is None or d.location.path in target.only)
             and (d.code == RuleCrashed.code or self._wants(d.code))
@@ -330,7 +330,7 @@ def _of_ros1(package: Package) -> Sequence[Diagnostic]:
     return (PackageOfRos1().report(catkin, message),)
 
 
-def _bounded(diagnostics: list[Diagnostic]) -> list[Diagnostic]:
+def _limited(diagnostics: list[Diagnostic]) -> list[Diagnostic]:
     """Limit the findings per code, and add a note about the rest."""
     if len(diagnostics) <= MAX_FINDINGS:
         return diagnostics
@@ -353,7 +353,7 @@ def all_rules(rules: Sequence[type[Rule]]) -> list[type[Rule]]:
     return sorted([*rules, *AMENT_RULES, *INTERNAL_RULES], key=lambda rule: rule.code)
 
 
-def _besides(of_rules: Sequence[Diagnostic], of_types: Sequence[Diagnostic]) -> list[Diagnostic]:
+def _unreported(of_rules: Sequence[Diagnostic], of_types: Sequence[Diagnostic]) -> list[Diagnostic]:
     """Return the type findings that no rule has reported.
 
     A rule explains an error better than its types, at the same place or for errors in

@@ -47,11 +47,11 @@ class Choices:
             words, origin = split(flag), f"--{name}"
             key = f"check.{name}"
             if not words and key in self._settings.values:
-                words, origin = split(self._settings.strings(key)), self._origin(key)
+                words, origin = split(self._settings.strings(key)), self._origin_of(key)
             chosen[name] = self._prefixes(words, origin)
         key = "check.per-path-ignores"
         per_path = {
-            pattern: self._prefixes(words, f"{self._origin(key)}: {pattern!r}")
+            pattern: self._prefixes(words, f"{self._origin_of(key)}: {pattern!r}")
             for pattern, words in self._settings.value(key).items()
         }
         origin = self._settings.origin(key) if per_path else ""
@@ -77,7 +77,7 @@ class Choices:
         severities = {
             prefix: Severity(severity)
             for word, severity in self._settings.value(key).items()
-            for prefix in self._prefixes([word], self._origin(key))
+            for prefix in self._prefixes([word], self._origin_of(key))
         }
         key = "check.exclude"
         patterns = self._settings.strings(key)
@@ -105,7 +105,7 @@ class Choices:
 
         return frozenset(rule.code for rule in all_rules(self.rules) if rule.release_refused)
 
-    def _origin(self, key: str) -> str:
+    def _origin_of(self, key: str) -> str:
         return f"{self._settings.origin(key)}: {key}"
 
     def _prefixes(self, words: Sequence[str], origin: str) -> tuple[str, ...]:

@@ -109,13 +109,13 @@ def _failed(error: Exception | KeyboardInterrupt) -> int:
             return BROKEN_PIPE
         case OSError() | MemoryError():
             _show_traceback(error)
-            terminal.error(_refused(error))
+            terminal.error(_system_error_message(error))
         case _:
             return _defect(error)
     return USAGE_ERROR
 
 
-def _refused(error: OSError | MemoryError) -> str:
+def _system_error_message(error: OSError | MemoryError) -> str:
     """Return a message about a system error: space, permission, memory, current directory."""
     if isinstance(error, MemoryError):
         return "out of memory"

@@ -94,9 +94,9 @@ class Cluster:
                 )
             )
         try:
-            for future in self._ended(futures):
+            for future in self._ended_tasks(futures):
                 if future.key in waiting:
-                    yield _done(waiting.pop(future.key), future)
+                    yield _outcome(waiting.pop(future.key), future)
                 future.release()
             for name in waiting.values():
                 yield Done(name, error=f"the scheduler has not answered for {PATIENCE:g} s")
@@ -104,7 +104,7 @@ class Cluster:
             with suppress(Exception):  # the scheduler may be gone
                 self._client.cancel([*futures, *given], force=True)
 
-    def _ended(self, futures: Sequence[Dask]) -> Iterator[Dask]:
+    def _ended_tasks(self, futures: Sequence[Dask]) -> Iterator[Dask]:
         """Yield ended tasks, until the scheduler does not respond any more."""
         ended = _dask().as_completed(futures, loop=self._client.loop)
         silence = Silence(self._client, self._tell)
@@ -121,7 +121,7 @@ def _dask() -> Dask:
     return import_module("distributed")
 
 
-def _done(name: str, future: Dask) -> Done[Any]:
+def _outcome(name: str, future: Dask) -> Done[Any]:
     try:
         where, result = future.result(timeout=TIMEOUT)
     except (Exception, asyncio.CancelledError) as error:  # noqa: BLE001  whatever a worker raises
@@ -155,11 +155,11 @@ def connected(address: str, tell: Callable[[str], None]) -> Iterator[Cluster]:
         raise EnvironmentMissingError(
             f"--cluster needs Dask; run: {installation.command('cluster')}"
         ) from error
-    _silence()
+    _silence_logging()
     try:
         client = dask.Client(address, timeout=TIMEOUT, set_as_default=False)
     except Exception as error:  # any error of a wrong address, a wrong port or TLS
-        raise EnvironmentMissingError(_refused(address, error)) from error
+        raise EnvironmentMissingError(_connection_error(address, error)) from error
     try:
         _validate(client, address)
         yield Cluster(client, tell)
@@ -168,7 +168,7 @@ def connected(address: str, tell: Callable[[str], None]) -> Iterator[Cluster]:
             client.close(timeout=TIMEOUT)
 
 
-def _silence() -> None:
+def _silence_logging() -> None:
     """Keep Dask from logging, as this tool reports errors itself."""
     names = [*logging.root.manager.loggerDict, "distributed"]  # it sets the levels of many loggers
     for name in names:
@@ -176,7 +176,7 @@ def _silence() -> None:
             logging.getLogger(name).setLevel(logging.CRITICAL + 1)
 
 
-def _refused(address: str, error: Exception) -> str:
+def _connection_error(address: str, error: Exception) -> str:
     reason = f"{type(error).__name__}: {error}".splitlines()[0]
     if address.startswith("tls://") and "ssl" in reason.lower():
         return (
@@ -200,7 +200,7 @@ def _validate(client: Dask, address: str) -> None:
                 f"--cluster {address}: the scheduler has no workers; "
                 f"start some with: dask worker {address}"
             ) from error
-        raise EnvironmentMissingError(_refused(address, error)) from error
+        raise EnvironmentMissingError(_connection_error(address, error)) from error
     own = versions["client"]["packages"]
     others = {"the scheduler": versions["scheduler"], **versions["workers"]}
     for name, other in others.items():

@@ -83,7 +83,7 @@ class Packer:
         Raises:
             OSError: it cannot be read.
         """
-        for directory in _above(os.path.realpath(path)):
+        for directory in _parents(os.path.realpath(path)):
             self._add_checkout(directory)
             for name in os.listdir(directory):
                 if name in _LOOKED_AT or name.upper().startswith(_LICENSES):
@@ -96,7 +96,7 @@ class Packer:
             OSError: it cannot be read.
         """
         path = os.path.abspath(path)
-        for way in _above(path):
+        for way in _parents(path):
             if os.path.islink(way):
                 self._add_link(way)
         real = os.path.join(os.path.realpath(os.path.dirname(path)), os.path.basename(path))
@@ -181,7 +181,7 @@ def _write_checkout(place: str, index: bytes) -> None:
                 file.write(data)
 
 
-def _above(path: str) -> Iterator[str]:
+def _parents(path: str) -> Iterator[str]:
     """Yield the parent directories of a path, from the root."""
     parts = path.split(os.sep)
     for depth in range(2, len(parts)):

@@ -23,7 +23,7 @@ def pack(package: Package) -> bytes:
     """
     out = io.BytesIO()
     with tarfile.open(fileobj=out, mode="w:gz", compresslevel=1) as archive:
-        archive.add(os.path.realpath(package.directory), arcname=".", filter=_kept)
+        archive.add(os.path.realpath(package.directory), arcname=".", filter=_archive_filter)
     return out.getvalue()
 
 
@@ -41,7 +41,7 @@ def unpack(data: bytes, directory: Path) -> Package:
     return Package.at(str(directory))
 
 
-def _kept(entry: tarfile.TarInfo) -> tarfile.TarInfo | None:
+def _archive_filter(entry: tarfile.TarInfo) -> tarfile.TarInfo | None:
     name = os.path.basename(entry.name)
     is_special = not (entry.isreg() or entry.isdir() or entry.issym() or entry.islnk())
     if is_special or (name in _LEFT_BEHIND and entry.name != "."):

@@ -111,7 +111,7 @@ def load(directory: str = ".", content: tuple[str, ...] = (), disk: Disk | None 
                 given = {disk.real(path) for path in content}
                 listed = _content(disk, entries, file.path)
                 named = [path for path in listed if disk.real(path) not in given]
-                refused = _refused(disk, file.path) if named and file.is_projects else None
+                refused = _why_ignored(disk, file.path) if named and file.is_projects else None
                 warnings += [refused] if refused else []
                 directories += [] if refused else [Value(path, file.path) for path in named]
                 continue
@@ -198,11 +198,11 @@ def user_file(disk: Disk) -> str | None:
 
 def _project_file(disk: Disk, directory: str, warnings: list[str]) -> _File | None:
     start = os.path.abspath(directory)
-    for current in _upwards(start):
+    for current in _parents(start):
         path = _path_in(disk, current)
         if path is None:
             continue
-        top = None if disk.is_own(path) else _top(disk, start)
+        top = None if disk.is_own(path) else _repository_top(disk, start)
         if top is None or (_is_within(current, top) and not disk.is_shared(current)):
             file = file_in(disk, current)
             if file is not None:
@@ -273,18 +273,18 @@ def _tool_table(disk: Disk, path: str) -> Mapping[str, Any] | None:
     return table
 
 
-def _top(disk: Disk, start: str) -> str:
+def _repository_top(disk: Disk, start: str) -> str:
     """Return the top of the repository around a directory; without one, the directory itself.
 
     A repository in a world-writable directory may belong to anybody.
     """
-    for current in _upwards(start):
+    for current in _parents(start):
         if disk.exists(os.path.join(current, ".git")) and not disk.is_shared(current):
             return current
     return start
 
 
-def _upwards(directory: str) -> Iterator[str]:
+def _parents(directory: str) -> Iterator[str]:
     yield directory
     while (parent := os.path.dirname(directory)) != directory:
         yield parent
@@ -295,7 +295,7 @@ def _is_within(directory: str, top: str) -> bool:
     return os.path.commonpath((directory, top)) == top
 
 
-def _refused(disk: Disk, path: str) -> str | None:
+def _why_ignored(disk: Disk, path: str) -> str | None:
     """Return why the content of a project's file is ignored, ``None`` if it is not."""
     from shlex import quote
 

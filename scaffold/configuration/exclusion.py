@@ -43,7 +43,7 @@ class Exclusion(NamedTuple):
     def covers_relative(self, path: str) -> bool:
         """Tell the same of a path relative to the directory of the configuration."""
         return any(
-            fnmatchcase(above, pattern) for above in _upwards(path) for pattern in self._normal
+            fnmatchcase(above, pattern) for above in _parents(path) for pattern in self._normal
         )
 
     @property
@@ -51,7 +51,7 @@ class Exclusion(NamedTuple):
         return [pattern.removeprefix("./").rstrip("/") for pattern in self.patterns]
 
 
-def _upwards(path: str) -> Iterator[str]:
+def _parents(path: str) -> Iterator[str]:
     while path:
         yield path
         path = path.rpartition("/")[0]

@@ -49,7 +49,7 @@ def why_unread(path: str, data: bytes) -> str:
         most = MOST_BYTES_OF_LINE // 1000
         return f"a line of {longest // 1000} kB; the limit is {most} kB: the file is not checked"
     most = _most_words(path)
-    words = len(data) if len(data) <= most else _words(data)
+    words = len(data) if len(data) <= most else _token_count(data)
     if words > most:
         return f"{words} tokens; the limit is {most}: the file is not checked"
     return ""
@@ -60,7 +60,7 @@ def too_large(size: int, path: str) -> str:
     return f"{size // 1000} kB; the limit is {most_bytes(path) // 1000} kB: the file is not checked"
 
 
-def _words(data: bytes) -> int:
+def _token_count(data: bytes) -> int:
     """Count the tokens of code, as time and memory depend on these and not on bytes."""
     kinds = b" " + data.translate(_KINDS)
     return kinds.count(b".") + kinds.count(b" w") + kinds.count(b".w")

@@ -55,20 +55,20 @@ def _text_before_declaration(text: str) -> Explanation | None:
     return begin, at, f'{subject} before "<?xml": it must come first'
 
 
-def _junk(text: str, at: int) -> Explanation:
+def _after_root(text: str, at: int) -> Explanation:
     last = max(text.rfind("</", 0, at), text.rfind("/>", 0, at))
     closing = text[last : text.find(">", last) + 1] if text.startswith("</", last) else "/>"
     if text.startswith("</", at):
-        name = f"</{_word(text, at + 2)}>"
+        name = f"</{_name_at(text, at + 2)}>"
         return at, at + len(name), f"{name} closes nothing: the root element is closed already"
     if text.startswith("<", at):
-        name = f"<{_word(text, at + 1)}"
+        name = f"<{_name_at(text, at + 1)}"
         return at, at + len(name), f"{name}> after {closing}, the end of the root element"
     return at, at + 1, f"text after {closing}, the end of the root element"
 
 
 def _duplicate_attribute(text: str, at: int) -> Explanation:
-    name = _word(text, at)
+    name = _name_at(text, at)
     return at, at + len(name), f"the attribute {name!r} is a duplicate"
 
 
@@ -101,7 +101,7 @@ def _mismatch(source: Source, at: int, inside: Element | None) -> Explanation:
     text = source.text
     start = text.rfind("</", 0, at + 2)
     start = at if start < 0 else start
-    end = start + 2 + len(_word(text, start + 2))
+    end = start + 2 + len(_name_at(text, start + 2))
     if inside is None:
         return start, end, "this end tag closes nothing"
     line, _ = source.position(inside.start)
@@ -131,7 +131,7 @@ def _unclosed(source: Source, at: int, inside: Element | None) -> Explanation:
     if text.startswith("</", at) and inside is not None:
         return at, len(text), f"</{inside.tag}> expected, the file ends inside of it"
     if text.startswith("<", at):
-        name = _word(text, at + 1)
+        name = _name_at(text, at + 1)
         for quote in "\"'":
             if text.count(quote, at) % 2:
                 opened = text.find(quote, at)
@@ -144,7 +144,7 @@ def _unclosed(source: Source, at: int, inside: Element | None) -> Explanation:
 
 def _unbound_prefix(text: str, at: int) -> Explanation:
     start = at + 1 if text.startswith("<", at) else at
-    name = _word(text, start)
+    name = _name_at(text, start)
     end = _tag_close(text, start)
     for match in re.finditer(r"[ \t\r\n]([^\s=:\"'<>]+):[^\s=\"'<>]+[ \t\r\n]*=", text[start:end]):
         if ":" not in name and match[1] not in {"xml", "xmlns"}:
@@ -165,7 +165,7 @@ def _not_well_formed(text: str, at: int, inside: Element | None) -> Explanation 
     end_tag = at if text.startswith("</", at) else at - 1
     if text.startswith("</", max(end_tag, 0)):
         if _opening(text, end_tag) == end_tag:
-            end = end_tag + 2 + len(_word(text, end_tag + 2))
+            end = end_tag + 2 + len(_name_at(text, end_tag + 2))
             return end_tag, end, "this end tag closes nothing"
         at = end_tag
     opening = _opening(text, at)
@@ -205,7 +205,7 @@ def _in_tag(text: str, opening: int, at: int) -> Explanation:
         return opening, opening + 2, '"<!" begins neither a comment nor a CDATA section'
     if not re.match(r"[/?]?(?:[^\W\d]|:)", text[opening + 1 : opening + 3]):
         return opening, opening + 1, 'write "&lt;" for "<", or a tag name after it'
-    tag, character = f"<{_word(text, opening + 1)}", text[at : at + 1]
+    tag, character = f"<{_name_at(text, opening + 1)}", text[at : at + 1]
     before = text[opening:at].rstrip(BLANK)
     width = 1
     if character and character in _TYPOGRAPHIC_QUOTES:
@@ -218,7 +218,7 @@ def _in_tag(text: str, opening: int, at: int) -> Explanation:
         message = f"a value in quotes expected in the tag {tag}>"
     elif before.endswith(("'", '"')) and len(before) == at - opening:
         message = f"a space expected between attributes of {tag}>"
-        width = max(len(_word(text, at)), 1)
+        width = max(len(_name_at(text, at)), 1)
     elif character == ">" or re.search(r"[ \t\r\n][^\s=\"'<>]+$", before):
         message = f"an attribute of {tag}> has no value"
     elif text.startswith("<?", opening):
@@ -241,7 +241,7 @@ def _opening(text: str, at: int) -> int:
     return before
 
 
-def _word(text: str, at: int) -> str:
+def _name_at(text: str, at: int) -> str:
     match = _NAME.match(text, at)
     return match[0] if match else ""
 
@@ -273,7 +273,7 @@ _OF_ELEMENTS: dict[str, Callable[[Source, int, Element | None], Explanation]] = 
 }
 _OF_TEXT: dict[str, Callable[[str, int], Explanation]] = {
     errors.XML_ERROR_UNCLOSED_CDATA_SECTION: _unclosed_cdata,
-    errors.XML_ERROR_JUNK_AFTER_DOC_ELEMENT: _junk,
+    errors.XML_ERROR_JUNK_AFTER_DOC_ELEMENT: _after_root,
     errors.XML_ERROR_DUPLICATE_ATTRIBUTE: _duplicate_attribute,
     errors.XML_ERROR_UNDEFINED_ENTITY: _undefined_entity,
     errors.XML_ERROR_BAD_CHAR_REF: _bad_reference,

@@ -57,7 +57,7 @@ def decode(path: str, data: bytes) -> Source:
     return Source.decode(path, data, codec)
 
 
-def _same(offset: int) -> int:
+def _identity(offset: int) -> int:
     return offset
 
 
@@ -89,7 +89,7 @@ class _Reader:
         self.has_namespaces = has_namespaces
         self.source = source
         self.data = source.text.encode("utf-8", "surrogatepass")
-        self.offset = _same if source.text.isascii() else _Offsets(self.data)
+        self.offset = _identity if source.text.isascii() else _Offsets(self.data)
         # The text is decoded already, so expat ignores the declared encoding.
         self.parser = expat.ParserCreate("utf-8")
         self.root: Element | None = None

@@ -126,9 +126,9 @@ class _Reader:
         elif isinstance(event, yaml.AliasEvent):
             self._add(Alias(event.anchor or "", self._location(event)))
         elif isinstance(event, yaml.SequenceStartEvent):
-            self._enter(Sequence([], self._location(event)))
+            self._open_node(Sequence([], self._location(event)))
         elif isinstance(event, yaml.MappingStartEvent):
-            self._enter(Mapping([], self._location(event)))
+            self._open_node(Mapping([], self._location(event)))
         elif isinstance(event, yaml.CollectionEndEvent):
             self.keys.pop()
             self.open.pop()
@@ -139,7 +139,7 @@ class _Reader:
         is_plain = event.style not in {"'", '"'}
         self._add(Scalar(event.value, is_plain, event.tag, at, start, end))
 
-    def _enter(self, node: Sequence | Mapping) -> None:
+    def _open_node(self, node: Sequence | Mapping) -> None:
         if len(self.open) >= MAX_DEPTH:
             raise ParseError(node.location, "nested too deeply to be read")
         self._add(node)

@@ -168,7 +168,7 @@ class RuleProcess:
         if self.number == 0:
             os.close(to)
             os.close(answers)
-            _serve(requests, back)
+            _serve_request(requests, back)
         os.close(requests)
         os.close(back)
         self._to: BinaryIO = os.fdopen(to, "wb")
@@ -213,7 +213,7 @@ def _prepare() -> None:
     changes.of_kind("name")
 
 
-def _serve(requests: int, back: int) -> NoReturn:
+def _serve_request(requests: int, back: int) -> NoReturn:
     """Load the rules, check the received package, send the findings, and exit.
 
     On any error, the first process checks the package itself.

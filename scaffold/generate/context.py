@@ -81,7 +81,9 @@ def package_context(
     context["header"] = renderer.license_header(answers["license"], context)
     for role in PARTS:
         context[f"{role.value}s"] = [
-            _part(part, layers, context, renderer) for part in parts if part.template.role is role
+            _part_context(part, layers, context, renderer)
+            for part in parts
+            if part.template.role is role
         ]
     scopes = list(part_scopes(layers, context))
     context["other_programs"] = []
@@ -120,7 +122,7 @@ def today() -> date:
         raise InputError(f"SOURCE_DATE_EPOCH: {epoch!r} is not a number of seconds") from None
 
 
-def _part(
+def _part_context(
     part: Part, layers: Iterable[Template], context: Mapping[str, Any], renderer: Renderer
 ) -> dict[str, Any]:
     template = part.template

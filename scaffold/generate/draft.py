@@ -191,7 +191,7 @@ def compose(
     order = choose(templates, given)
     asked = questions.unique(order.frame)
     _refuse_useless(given, order)
-    comments = _answer("comments", asked, given)
+    comments = _base_answer("comments", asked, given)
     renderer = Renderer(roots, templates, is_tutorial=comments == "tutorial")
     existing = existing or Existing()
     settled = {**existing.answers, "contents": _contents(order)}
@@ -218,7 +218,7 @@ def compose(
         order.layers,
         context,
         renderer,
-        {**_without(answers.written, "node_kind"), parts.ADD: written},
+        {**_without_key(answers.written, "node_kind"), parts.ADD: written},
     )
 
 
@@ -239,7 +239,7 @@ def choose(templates: Mapping[str, Template], given: Mapping[str, Given]) -> Ord
     """
     base = templates[BASE]
     build = _template("build_type", Role.BUILD_TYPE, templates, given)
-    extras = [templates[name] for name in _several("extras", base.questions, given)]
+    extras = [templates[name] for name in _list_answer("extras", base.questions, given)]
     is_whole = any(extra.is_alone for extra in extras) and not any(
         extra.needs_nodes for extra in extras
     )
@@ -326,7 +326,7 @@ def _parts(
     return made, written
 
 
-def _without(table: Mapping[str, Any], key: str) -> dict[str, Any]:
+def _without_key(table: Mapping[str, Any], key: str) -> dict[str, Any]:
     return {name: value for name, value in table.items() if name != key}
 
 
@@ -334,7 +334,7 @@ def _template(
     name: str, role: Role, templates: Mapping[str, Template], given: Mapping[str, Given]
 ) -> Template:
     """Return the template that a question of the base chooses."""
-    answer = _answer(name, templates[BASE].questions, given)
+    answer = _base_answer(name, templates[BASE].questions, given)
     if answer not in templates or templates[answer].role is not role:
         raise ContentError(
             f"{templates[BASE].directory}: the question {name} must choose a {role.value}"
@@ -342,7 +342,9 @@ def _template(
     return templates[answer]
 
 
-def _several(name: str, asked: Sequence[Question], given: Mapping[str, Given]) -> tuple[str, ...]:
+def _list_answer(
+    name: str, asked: Sequence[Question], given: Mapping[str, Given]
+) -> tuple[str, ...]:
     result: tuple[str, ...] = ()
     for question in asked:
         if question.name == name:
@@ -350,7 +352,7 @@ def _several(name: str, asked: Sequence[Question], given: Mapping[str, Given]) -
     return result
 
 
-def _answer(name: str, asked: Sequence[Question], given: Mapping[str, Given]) -> str:
+def _base_answer(name: str, asked: Sequence[Question], given: Mapping[str, Given]) -> str:
     """Return the answer to a question of the base that decides what is rendered."""
     for question in asked:
         if question.name == name:

@@ -38,13 +38,13 @@ def of(template: Template, templates: Mapping[str, Template]) -> Iterator[Exampl
     """
     for title, answers in template.examples.items():
         for build_type in of_role(templates, Role.BUILD_TYPE):
-            own = _own(template, answers)
+            own = _template_answer(template, answers)
             whole = {"package": PACKAGE, "build_type": build_type, **own, **answers}
             if whole["build_type"] == build_type and _is_for(template, build_type):
                 yield Example(template.name, f"{title}, {build_type}", whole)
 
 
-def _own(template: Template, answers: Mapping[str, Any]) -> dict[str, Any]:
+def _template_answer(template: Template, answers: Mapping[str, Any]) -> dict[str, Any]:
     if template.role is Role.NODE and ADD not in answers:
         return {"node_kind": template.name}
     if template.role in PARTS and ADD not in answers:
@@ -79,10 +79,10 @@ def check(
     """Render the examples of some templates and check the packages with every rule."""
     for name in names:
         for example in of(templates[name], templates):
-            yield _tried(example, roots, templates, rules)
+            yield _try_example(example, roots, templates, rules)
 
 
-def _tried(
+def _try_example(
     example: Example,
     roots: Sequence[str],
     templates: Mapping[str, Template],

@@ -59,7 +59,7 @@ def place_of(package: str | None, *, is_parent: bool = False) -> Place:
     if package is None:
         return NOWHERE
     directory = os.path.realpath(package)
-    top = _top(directory)
+    top = _repository_top(directory)
     if top is None:
         return NOWHERE
     way = os.path.relpath(directory, top).replace(os.sep, "/")
@@ -191,7 +191,7 @@ def left_to_owner(path: str, existing: bytes, text: str) -> ByHand | None:
     return ByHand(path, f"add to `repos`: {entry}", reason) if entry else None
 
 
-def _top(directory: str) -> str | None:
+def _repository_top(directory: str) -> str | None:
     """Return the innermost parent that is a repository, a worktree or a submodule."""
     while not _is_git(os.path.join(directory, _GIT)):
         parent = os.path.dirname(directory)

@@ -364,18 +364,18 @@ def similar_package(name: str) -> str | None:
     if name in ROS_PACKAGES or is_released(name):
         return None
     plain = name.replace("-", "").replace("_", "").lower()
-    candidates = set(_alike()[len(plain), plain])
+    candidates = set(_similarity_index()[len(plain), plain])
     for length in range(len(name) - 1, len(name) + 2):
         # Wherever the typo is, one end of the name is right.
         for end in (name[:1] + "*", "*" + name[-1:]):
-            candidates.update(_alike()[length, end])
+            candidates.update(_similarity_index()[length, end])
     return next((candidate for candidate in sorted(candidates) if is_near(name, candidate)), None)
 
 
 _ALIKE: defaultdict[tuple[int, str], list[str]] = defaultdict(list)
 
 
-def _alike() -> Mapping[tuple[int, str], list[str]]:
+def _similarity_index() -> Mapping[tuple[int, str], list[str]]:
     """Index the packages by length with first letter, last letter, or all letters."""
     if not _ALIKE:
         for name in ROS_PACKAGES:

@@ -23,7 +23,7 @@ def command(extra: str = "") -> str:
         extra: An optional extra to install with it, such as ``ros``.
     """
     extras = f"[{extra}]" if extra else ""
-    origin = _origin()
+    origin = _recorded_origin()
     url, vcs = str(origin.get("url", "")), _table(origin, "vcs_info").get("vcs")
     parts = urlsplit(url)
     if parts.scheme and vcs:
@@ -42,7 +42,7 @@ def source(extra: str = "") -> str:
         extra: An optional extra to install with it.
     """
     extras = f"[{extra}]" if extra else ""
-    origin = _origin()
+    origin = _recorded_origin()
     url, vcs = str(origin.get("url", "")), _table(origin, "vcs_info").get("vcs")
     path = unquote(urlsplit(url).path)
     if url and vcs:
@@ -67,7 +67,7 @@ def _installer() -> str:
     return f"{quote(sys.executable or 'python3')} -m pip install"
 
 
-def _origin() -> Mapping[str, object]:
+def _recorded_origin() -> Mapping[str, object]:
     """Return the recorded origin of the installation (PEP 610); empty for one from an index."""
     import json
     from importlib.metadata import PackageNotFoundError, distribution

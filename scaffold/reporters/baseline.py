@@ -122,7 +122,7 @@ def hide(
             else:
                 new.append(diagnostic)
         kept.append(Result(result.package, result.files, new, result.verdict))
-    covered = _covered(targets)
+    covered = _checked_prefixes(targets)
     gone = sum(
         entry.fingerprint not in seen
         and session.selection.wants(entry.code)
@@ -137,7 +137,7 @@ def hide(
     return Filtered(kept, note)
 
 
-def _covered(targets: Sequence[Target]) -> tuple[str, ...]:
+def _checked_prefixes(targets: Sequence[Target]) -> tuple[str, ...]:
     """Return the prefixes of the paths that were checked."""
     prefixes: list[str] = []
     for package, only in targets:

@@ -60,8 +60,8 @@ def _rule(page: RulePage) -> Data:
         "id": page.code,
         "name": page.name,
         "shortDescription": {"text": _shortened(page.summary)},
-        "fullDescription": {"text": _shortened(_plain(page.markdown))},
-        "help": {"text": _plain(page.markdown), "markdown": page.markdown},
+        "fullDescription": {"text": _shortened(_without_markup(page.markdown))},
+        "help": {"text": _without_markup(page.markdown), "markdown": page.markdown},
         "defaultConfiguration": {"level": _LEVELS[page.severity]},
         "properties": {
             "tags": ["ROS 2", *page.linters],
@@ -141,7 +141,7 @@ def _region(at: Location) -> dict[str, int]:
     }
 
 
-def _plain(markdown: str) -> str:
+def _without_markup(markdown: str) -> str:
     return markdown.replace("**", "").replace("`", "")
 
 

@@ -62,7 +62,7 @@ def report(results: Sequence[Result], out: TextIO, options: ReportOptions) -> No
     console = Console(file=out, highlight=False, soft_wrap=True)
     folded = _fold(results, options)
     hidden = {id(result.package): set(result.diagnostics) for result in folded.results}
-    kept = [_without(result, hidden.get(id(result.package), set())) for result in results]
+    kept = [_without_hidden(result, hidden.get(id(result.package), set())) for result in results]
     entries = merged(
         in_order(
             [
@@ -77,7 +77,9 @@ def report(results: Sequence[Result], out: TextIO, options: ReportOptions) -> No
     blocks = _blocks(entries, options)
     room = len(blocks)
     if not options.everything:
-        room = _room(blocks, max(_MIN_LINES, console.height - len(footer) - 6), console.width)
+        room = _fitting_blocks(
+            blocks, max(_MIN_LINES, console.height - len(footer) - 6), console.width
+        )
     links = rule_pages.links({entry.first.code for entry in entries[:room]})
     for block in _blocks(entries[:room], options, links):
         console.print(block)
@@ -89,7 +91,7 @@ def report(results: Sequence[Result], out: TextIO, options: ReportOptions) -> No
         console.print(text)
 
 
-def _without(result: Result, hidden: set[Diagnostic]) -> Result:
+def _without_hidden(result: Result, hidden: set[Diagnostic]) -> Result:
     kept = [diagnostic for diagnostic in result.diagnostics if diagnostic not in hidden]
     return Result(result.package, result.files, kept)
 
@@ -164,11 +166,11 @@ def _lines(entry: Entry, options: ReportOptions, link: str | None) -> list[Text]
         for text, style in zip(excerpt(entry.package, first.location), ("", "red"), strict=False):
             lines.append(Text(f"    {text}", style=style))
     if len(entry.places) > 1:
-        lines += _further(entry)
+        lines += _other_places(entry)
     return lines
 
 
-def _further(entry: Entry) -> list[Text]:
+def _other_places(entry: Entry) -> list[Text]:
     """Return the other places, in one line if all have the same message."""
     first = entry.first
     others = _new_first(entry)
@@ -197,7 +199,7 @@ def _new_first(entry: Entry) -> list[Place]:
     return [*new, *repeated]
 
 
-def _room(blocks: Sequence[Text], height: int, width: int) -> int:
+def _fitting_blocks(blocks: Sequence[Text], height: int, width: int) -> int:
     """Return the number of blocks that fit on the screen, at least one."""
     used = 0
     for at, block in enumerate(blocks):

@@ -172,11 +172,11 @@ def _merged(publications: Iterable[Publication]) -> tuple[Publication, ...]:
     result: dict[str, Publication] = {}
     for publication in publications:
         other = result.get(publication.topic)
-        result[publication.topic] = publication if other is None else _joined(publication, other)
+        result[publication.topic] = publication if other is None else _combined(publication, other)
     return tuple(result.values())
 
 
-def _joined(publication: Publication, other: Publication) -> Publication:
+def _combined(publication: Publication, other: Publication) -> Publication:
     rates = (publication.rate_hz, other.rate_hz)
     stated = [rate for rate in rates if rate is not None]
     rate = sum(stated) if len(stated) == len(rates) else None

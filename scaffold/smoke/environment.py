@@ -121,7 +121,9 @@ def select(
     why = f" ({'; '.join(reasons)})" if reasons else ""
     if wanted:
         has_wheels = _has_package(own_prefix, "rclpy")
-        raise EnvironmentMissingError(_ways(wanted, why, paths, has_wheels=has_wheels))
+        raise EnvironmentMissingError(
+            _unavailable_message(wanted, why, paths, has_wheels=has_wheels)
+        )
     raise EnvironmentMissingError(
         f"no ROS 2 environment found{why}: source the setup file of a ROS 2 installation, "
         f"install ROS 2 Jazzy, or run: {installation.command('ros')}"
@@ -135,7 +137,7 @@ def _named(environment: Environment) -> str:
     return f"{'the wheels in ' if environment.kind == 'wheels' else ''}{environment.prefix}"
 
 
-def _ways(
+def _unavailable_message(
     wanted: Sequence[Distribution], why: str, paths: Sequence[str], *, has_wheels: bool
 ) -> str:
     """Return a message that no environment has one of the distributions, and how to get one.

@@ -49,7 +49,7 @@ class ExecutableRuns:
         self._slots = asyncio.Semaphore(options.jobs)
         self._running: set[str] = set()
         self._ended = 0
-        self._all = 0
+        self._total = 0
 
     async def run(self, packages: Sequence[Source], done: dict[str, dict[str, Executable]]) -> None:
         """Run all executables of packages.
@@ -62,8 +62,8 @@ class ExecutableRuns:
         for package in packages:
             of_package = done.setdefault(package.name, {})
             runs += self._of_package(package, of_package)
-        self._all = len(runs)
-        await _all(runs)
+        self._total = len(runs)
+        await _gather(runs)
 
     def _of_package(
         self, source: Source, done: dict[str, Executable]
@@ -80,10 +80,10 @@ class ExecutableRuns:
                 done[name] = _missing(name, where)
             elif not expectation.scenario.skip:
                 done[name] = Executable(name, interrupted=True)  # until it has run
-                runs.append(self._one(source, by_name[name], expectation, done))
+                runs.append(self._run_one(source, by_name[name], expectation, done))
         return runs
 
-    async def _one(
+    async def _run_one(
         self, source: Source, path: Path, expectation: Expectation, done: dict[str, Executable]
     ) -> None:
         label = f"{source.name}/{path.name}"
@@ -93,8 +93,8 @@ class ExecutableRuns:
             trials = [NodeRun()]
             judged = None
             try:
-                await self._try(path, expectation, label, trials)
-                judged = _judge(path.name, trials, expectation)
+                await self._run_trials(path, expectation, label, trials)
+                judged = _summarize(path.name, trials, expectation)
             finally:
                 done[path.name] = replace(
                     judged or _unfinished(path.name, trials[0]),
@@ -103,7 +103,7 @@ class ExecutableRuns:
                 )
             self._tell_running(label, started=False)
 
-    async def _try(
+    async def _run_trials(
         self, path: Path, expectation: Expectation, label: str, trials: list[NodeRun]
     ) -> None:
         """Run an executable once for every signal; the first run is the observed one."""
@@ -120,7 +120,7 @@ class ExecutableRuns:
         self._ended += not started
         if self._running:
             names = ", ".join(sorted(self._running))
-            self._tell(f"{self._ended} of {self._all} done, running {names}")
+            self._tell(f"{self._ended} of {self._total} done, running {names}")
 
 
 async def _observed(
@@ -142,7 +142,7 @@ async def _observed(
         trials[0] = other
 
 
-async def _all(runs: Sequence[Coroutine[Any, Any, None]]) -> None:
+async def _gather(runs: Sequence[Coroutine[Any, Any, None]]) -> None:
     """Run coroutines concurrently; all have ended when this returns or raises.
 
     ``asyncio.gather`` would go on as soon as the first of them is cancelled.
@@ -180,7 +180,7 @@ def _missing(name: str, where: str) -> Executable:
     )
 
 
-def _judge(name: str, trials: Sequence[NodeRun], expectation: Expectation) -> Executable:
+def _summarize(name: str, trials: Sequence[NodeRun], expectation: Expectation) -> Executable:
     """Put the runs of an executable together; the first one is the one that was observed."""
     first = trials[0]
     problems = list(first.problems)

@@ -109,7 +109,7 @@ def compare(
         return [*_finished_early(expectation, observation, seconds), *problems], notes
     for publication in expectation.publications:
         topic = observation.topic(publication.topic)
-        statement = _said(publication, expectation)
+        statement = _expectation_text(publication, expectation)
         if topic is None or not topic.publishers:
             problems.append(Problem(f"nothing publishes {publication.topic}: {statement}"))
         elif publication.type and publication.type not in topic.types:
@@ -117,7 +117,7 @@ def compare(
                 Problem(f"{topic.name} has the type {', '.join(topic.types)}: {statement}")
             )
         elif not topic.count:
-            problem, note = _silent(
+            problem, note = _silence_problems(
                 publication, topic, seconds, statement + _stands_still(observation)
             )
             problems += problem
@@ -135,7 +135,7 @@ def wrong_rates(expectation: Expectation, observation: Observation) -> list[Prob
         if (topic := observation.topic(publication.topic)) is not None
         and topic.count
         and publication.rate_hz
-        for problem in _wrong_rate(publication, topic, _said(publication, expectation))
+        for problem in _wrong_rate(publication, topic, _expectation_text(publication, expectation))
     ]
 
 
@@ -160,7 +160,7 @@ def _finished_early(
         topic = observation.topic(publication.topic)
         is_due = publication.certain or publication.timer_hz
         if is_due and (topic is None or not topic.count):
-            statement = _said(publication, expectation)
+            statement = _expectation_text(publication, expectation)
             return [
                 Problem(
                     f"exited by itself after {seconds:.1f} s, before a message on "
@@ -170,7 +170,7 @@ def _finished_early(
     return []
 
 
-def _said(publication: Publication, expectation: Expectation) -> str:
+def _expectation_text(publication: Publication, expectation: Expectation) -> str:
     shown_type = publication.type or "it"
     hertz = publication.rate_hz or publication.timer_hz
     rate = f" at {hertz:g} Hz" if hertz else ""
@@ -179,7 +179,7 @@ def _said(publication: Publication, expectation: Expectation) -> str:
     return f"{expectation.source or 'the source'} publishes {shown_type}{rate}"
 
 
-def _silent(
+def _silence_problems(
     publication: Publication, topic: Topic, seconds: float, text: str
 ) -> tuple[list[Problem], list[str]]:
     rate = publication.rate_hz

@@ -74,7 +74,7 @@ class Lifecycles:
         for name in names:
             for node in self._nodes():
                 if self._running.exit_code is None and not self._has_failed(node):
-                    await self._take(node, name)
+                    await self._transition(node, name)
 
     def _nodes(self) -> list[str]:
         return self._observer.offering(_CHANGE, _CHANGE_TYPE)
@@ -82,7 +82,7 @@ class Lifecycles:
     def _has_failed(self, node: str) -> bool:
         return any(item.node == node and not item.ok for item in self.transitions)
 
-    async def _take(self, node: str, name: str) -> None:
+    async def _transition(self, node: str, name: str) -> None:
         before, error = await self._state(node)
         if error or before not in _STARTS[name]:
             if error:

@@ -189,11 +189,11 @@ class Observer:
     def watch_fields(self, paths: Mapping[str, Sequence[str]]) -> None:
         """Record values of fields by topic; to be called before the executable is started."""
         if paths:
-            self._tell("fields", topics=paths)
+            self._send("fields", topics=paths)
 
     def publish(self, stimulus: Stimulus) -> None:
         """Start to publish messages."""
-        self._tell(
+        self._send(
             "publish",
             topic=stimulus.topic,
             type=stimulus.type,
@@ -208,7 +208,7 @@ class Observer:
             ObserverError: the probe has ended.
         """
         number = self._called = self._called + 1
-        self._tell(
+        self._send(
             "call",
             id=number,
             kind=call.kind,
@@ -235,7 +235,7 @@ class Observer:
             ObserverError: the probe has ended or does not answer.
         """
         asked = time.monotonic()
-        self._tell("report")
+        self._send("report")
         while not self._reports:
             left = asked + timeout - time.monotonic()
             if left <= 0:
@@ -259,7 +259,7 @@ class Observer:
     async def read(self) -> None:
         """Process the events of the probe until it ends."""
         async for line in self._stdout:
-            self._take(json.loads(line))
+            self._handle(json.loads(line))
             self._changed.set()
         self._ended = True
         self._changed.set()
@@ -279,11 +279,11 @@ class Observer:
         finally:
             event.cancel()
 
-    def _tell(self, command: str, **values: object) -> None:
+    def _send(self, command: str, **values: object) -> None:
         if not self._ended and not self._stdin.is_closing():
             self._stdin.write(json.dumps({"command": command, **values}).encode() + b"\n")
 
-    def _take(self, event: Mapping[str, Any]) -> None:
+    def _handle(self, event: Mapping[str, Any]) -> None:
         kind = event["event"]
         if kind == "ready":
             self.is_ready = True

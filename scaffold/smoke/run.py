@@ -176,9 +176,9 @@ class _Run:
                     await self._watch(running, meter)
                 except asyncio.CancelledError:
                     with suppress(ObserverError):
-                        await self._look(running, meter, LAST_ANSWER_TIMEOUT)
+                        await self._record_observation(running, meter, LAST_ANSWER_TIMEOUT)
                     raise
-                await self._look(running, meter)
+                await self._record_observation(running, meter)
             if self._lifecycles is not None:
                 await self._lifecycles.lead(self._scenario.transitions_down)
                 self._trial.observation = replace(
@@ -198,7 +198,7 @@ class _Run:
         finally:
             await running.close()
 
-    async def _look(
+    async def _record_observation(
         self, running: process.Running, meter: Meter, timeout: float = ANSWER_TIMEOUT
     ) -> None:
         """Record the observation so far."""
@@ -206,7 +206,7 @@ class _Run:
         meter.measure()
         transitions = tuple(self._lifecycles.transitions) if self._lifecycles else ()
         observation = replace(observation, answers=self._answers, transitions=transitions)
-        self._trial.observation = _since(running, observation, meter)
+        self._trial.observation = _relative_to_start(running, observation, meter)
         self._trial.seconds = time.monotonic() - running.started
 
     async def _watch(self, running: process.Running, meter: Meter) -> None:
@@ -273,21 +273,21 @@ class _Run:
         if self._is_expected(code) and (trace is None or code):
             return
         if self._expectation.exit_code is not None and trace is None:
-            self._report(f"exited by itself, {self._unexpected(code)}", _said(running))
+            self._report(f"exited by itself, {self._unexpected(code)}", _last_output(running))
             return
         lack = None if self._scenario.arguments else _missing_arguments(running)
         if code and lack is not None:
-            lines = tuple(output.short(trace)) if trace else _said(running)
+            lines = tuple(output.short(trace)) if trace else _last_output(running)
             self._report(f"exited, {ending(code)}: {lack}; {_GIVING}", lines)
             return
         when = f"after {seconds:.1f} s" if self._trial.observation.alive else "at start"
         reason = output.exception(trace) if trace else output.named_error(errors)
         how = ending(code) + (f": {reason}" if reason else "")
-        lines = tuple(output.short(trace)) if trace else _said(running)
+        lines = tuple(output.short(trace)) if trace else _last_output(running)
         self._report(f"crashed {when}, {how}", lines)
 
     async def _stop(self, running: process.Running) -> None:
-        said = _said(running)
+        said = _last_output(running)
         self._report_exception(running)
         written = output.size(running.err)
         done = await end(running, self._number)
@@ -336,7 +336,9 @@ class _Run:
             self._trial.doubtful = problem
 
 
-def _since(running: process.Running, observation: Observation, meter: Meter) -> Observation:
+def _relative_to_start(
+    running: process.Running, observation: Observation, meter: Meter
+) -> Observation:
     """Return an observation with times relative to the start of the executable."""
     started = time.time() - (time.monotonic() - running.started)
     topics = (
@@ -365,6 +367,6 @@ def _missing_arguments(running: process.Running) -> str | None:
     return output.missing_arguments(output.read(running.out) + output.read(running.err))
 
 
-def _said(running: process.Running) -> tuple[str, ...]:
+def _last_output(running: process.Running) -> tuple[str, ...]:
     """Return the last lines of the output of an executable."""
     return tuple(output.tail(output.read(running.err)) or output.tail(output.read(running.out)))

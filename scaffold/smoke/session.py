@@ -101,7 +101,7 @@ def smoke(
         except InterruptedBySignalError as end:
             ended_early = f"interrupted by {signal.Signals(end.number).name}"
         except OSError as error:
-            ended_early = _refusal(error)
+            ended_early = _system_error_message(error)
         stack.close()
     return Smoke(
         environment={
@@ -124,7 +124,7 @@ def _distribution_of(environment: Environment) -> Distribution:
     return distributions.named(environment.distribution) if is_known else distributions.target()
 
 
-def _refusal(error: OSError) -> str:
+def _system_error_message(error: OSError) -> str:
     """Return a message about an error of the system, such as a full disk."""
     reason = error.strerror or str(error) or type(error).__name__
     return reason if error.filename is None else f"{os.fsdecode(error.filename)}: {reason}"
@@ -251,13 +251,13 @@ class _Session:
             self._scratch,
             origin=self._origin.below("interfaces"),
             timeout=self._options.build_timeout,
-            tell=self._tell,
+            tell=self._report_progress,
             announce=self._announce,
         )
 
     async def _build(self, sources: Sequence[Source]) -> None:
         """Build; meanwhile read the sources and prepare for their likely executables."""
-        self._tell(f"building {', '.join(source.name for source in sources)}")
+        self._report_progress(f"building {', '.join(source.name for source in sources)}")
         building = asyncio.create_task(
             build(
                 self._environment,
@@ -296,7 +296,7 @@ class _Session:
             duration=self._options.duration,
             timeout=self._options.timeout,
         )
-        runs = ExecutableRuns(plan, self._options, self._expected, self._tell)
+        runs = ExecutableRuns(plan, self._options, self._expected, self._report_progress)
         await runs.run(built, self._executables)
         if self._options.together:
             await self._run_together(plan, built)
@@ -315,7 +315,7 @@ class _Session:
                 if not stated.get(path.name, NOTHING).skip
             ]
             if len(paths) > 1:
-                self._tell(f"running all executables of {source.name} together")
+                self._report_progress(f"running all executables of {source.name} together")
                 group = of_executables(source.name, paths, stated)
                 record = partial(self._together.__setitem__, source.name)
                 await run_together(plan, group, record)
@@ -325,13 +325,13 @@ class _Session:
         for source in built:
             done = self._launches.setdefault(source.name, [])
             for group in launching.groups(source.name, self._environment.python, plan.variables):
-                self._tell(f"launching {group.name} of {source.name}")
+                self._report_progress(f"launching {group.name} of {source.name}")
                 await run_together(plan, group, done.append)
 
     async def _test(self, built: Sequence[Source]) -> None:
         from scaffold.smoke.testing import run_tests
 
-        self._tell(f"testing {', '.join(source.name for source in built)}")
+        self._report_progress(f"testing {', '.join(source.name for source in built)}")
         await run_tests(
             self._environment,
             built,
@@ -360,8 +360,8 @@ class _Session:
 
     def say_interrupted(self) -> None:
         """Report what takes time after ^C."""
-        self._tell("interrupted, stopping all processes")
+        self._report_progress("interrupted, stopping all processes")
 
-    def _tell(self, text: str) -> None:
+    def _report_progress(self, text: str) -> None:
         if self._progress is not None:
             self._progress(text)

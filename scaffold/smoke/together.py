@@ -210,7 +210,7 @@ def _mismatch(publisher: Endpoint, subscription: Endpoint) -> str:
     if offered["durability"] == "volatile" and wanted["durability"] in _KEPT:
         return (
             "the publisher offers volatile, the subscription requests "
-            f"{_words(wanted['durability'])}"
+            f"{_spaced(wanted['durability'])}"
         )
     if wanted.get("deadline") is not None and (
         offered.get("deadline") is None or offered["deadline"] > wanted["deadline"]
@@ -241,5 +241,5 @@ def _nodes(topic: Topic) -> str:
     return ", ".join(sorted({endpoint.node for endpoint in topic.endpoints})) or "a node"
 
 
-def _words(name: str) -> str:
+def _spaced(name: str) -> str:
     return name.replace("_", " ")

@@ -125,14 +125,16 @@ class TypeCheck:
             self.close()
 
     @cached_property
-    def _home(self) -> str:
+    def _environment(self) -> str:
         """The environment with the stubs."""
         return environment.directory(distributions.target(), self._directory)
 
     @cached_property
     def _stubbed(self) -> frozenset[str]:
         """The importable packages that have stubs."""
-        entries = os.listdir(os.path.join(self._home, environment.packages(distributions.target())))
+        entries = os.listdir(
+            os.path.join(self._environment, environment.packages(distributions.target()))
+        )
         names = frozenset(name.removesuffix(".pyi") for name in entries)
         return names - INCOMPLETE - partial_libraries()
 
@@ -215,7 +217,7 @@ class TypeCheck:
     ) -> Project:
         """Start the type checker on files, with everything that they import next to them."""
         checked = [file.checked for file in asked]
-        return Project(self._directory(name), self._home, checked, content, passing)
+        return Project(self._directory(name), self._environment, checked, content, passing)
 
     def _directory(self, name: str) -> str:
         if not self._scratch:
@@ -281,7 +283,7 @@ class TypeCheck:
             file.diagnostics = [
                 with_own_marked(item, reached.values())
                 for item in reported
-                if _concerns(item, stubbed) or is_about_own(item, reached.values())
+                if _is_library_report(item, stubbed) or is_about_own(item, reached.values())
             ]
             file.is_confirmed = not any(map(_may_be_annotated, file.diagnostics))
             file.is_silent = not (file.diagnostics or any(map(own_name, reported)))
@@ -378,7 +380,7 @@ def _roots(reached: Mapping[str, Source], *, are_stubs: bool) -> frozenset[str]:
     )
 
 
-def _concerns(item: TyDiagnostic, stubbed: frozenset[str]) -> bool:
+def _is_library_report(item: TyDiagnostic, stubbed: frozenset[str]) -> bool:
     """Tell whether a report is about a library and relevant."""
     if item.kind in _OF_MODULES or item.message.startswith("Module `"):
         module, name = [*re.findall(r"`([\w.]+)`", item.message), "", ""][:2]

@@ -141,13 +141,13 @@ class TypeFinding:
         at = self.location
         start, end = (at.line, at.column), (at.end_line, at.end_column)
         best: ast.AST | None = None
-        for node in self._around():
+        for node in self._enclosing_nodes():
             place = self.module.exact_location(node)
             if (place.line, place.column) <= start and end <= (place.end_line, place.end_column):
                 best = node
         return best
 
-    def _around(self) -> Iterator[ast.AST]:
+    def _enclosing_nodes(self) -> Iterator[ast.AST]:
         """Yield the nodes whose lines contain the reported place, outer ones first."""
         pending: list[ast.AST] = [self.module.tree]
         line = self.location.line

@@ -32,7 +32,8 @@ _PLAIN = frozenset(
 def revealing(passed: Sequence[Passed]) -> bytes:
     """Return a file with ``reveal_type`` calls for the values that a module passes."""
     return "".join(
-        f"from {module} import {name}; reveal_type({name})\n" for module, name in _kept(passed)
+        f"from {module} import {name}; reveal_type({name})\n"
+        for module, name in _passed_names(passed)
     ).encode()
 
 
@@ -53,8 +54,10 @@ def types(
         match = _REVEALED.fullmatch(item.message)
         if match is not None:
             revealed[item.line] = match[1] if _tells_all(match[1], reached) else ""
-    by_name = {name: revealed.get(line, "") for line, (_, name) in enumerate(_kept(passed), 1)}
-    return [(call.function, _given(call.given, by_name)) for call in passed]
+    by_name = {
+        name: revealed.get(line, "") for line, (_, name) in enumerate(_passed_names(passed), 1)
+    }
+    return [(call.function, _argument_types(call.given, by_name)) for call in passed]
 
 
 def signature(source: Source, callers: Iterable[Types]) -> str:
@@ -64,7 +67,7 @@ def signature(source: Source, callers: Iterable[Types]) -> str:
     return repr(received) if all(given for _, given in received) else ""
 
 
-def _kept(passed: Sequence[Passed]) -> list[tuple[str, str]]:
+def _passed_names(passed: Sequence[Passed]) -> list[tuple[str, str]]:
     """Return the modules and names of the passed values, except constants."""
     names = {
         (call.module, value): None
@@ -75,7 +78,7 @@ def _kept(passed: Sequence[Passed]) -> list[tuple[str, str]]:
     return [*names]
 
 
-def _given(given: Mapping[str, str], by_name: Mapping[str, str]) -> str:
+def _argument_types(given: Mapping[str, str], by_name: Mapping[str, str]) -> str:
     """Return the argument types of a call by parameter; empty if any of them is not known."""
     result: list[str] = []
     for key, value in given.items():

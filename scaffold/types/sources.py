@@ -81,7 +81,7 @@ def imported_names(data: bytes, module: str) -> Iterator[tuple[str, str]]:
     for match in _IMPORT.finditer(text):
         if match["modules"] is not None:
             for part in match["modules"].split(b","):
-                name, called = _called(part)
+                name, called = _name_and_alias(part)
                 if name:
                     yield name, called
             continue
@@ -92,12 +92,12 @@ def imported_names(data: bytes, module: str) -> Iterator[tuple[str, str]]:
             continue
         yield absolute, ""
         for part in re.sub(rb"#[^\n]*", b"", names).strip(b"( )").split(b","):
-            name, called = _called(part)
+            name, called = _name_and_alias(part)
             if name:
                 yield f"{absolute}.{name}", called
 
 
-def _called(part: bytes) -> tuple[str, str]:
+def _name_and_alias(part: bytes) -> tuple[str, str]:
     """Return an imported name and its alias: ``pose`` and ``p`` for ``pose as p``."""
     words = [word.decode("utf-8", "replace") for word in _WORD.findall(part)]
     return (words[0], words[-1]) if words else ("", "")
@@ -126,7 +126,7 @@ class Sources:
 
     def get(self, package: Package, path: str) -> Source | None:
         """Return a file of a package; ``None`` if it cannot be read or is too large."""
-        return self._of(package).source(path)
+        return self._sources_of(package).source(path)
 
     def reached(self, source: Source) -> Mapping[str, Source]:
         """Return a file and everything that it imports, directly or not, by place.
@@ -158,7 +158,9 @@ class Sources:
             for name in source.imports:
                 package = self._package(user, name.partition(".")[0])
                 if package is not None:
-                    sources.update((item.place, item) for item in self._of(package).modules(name))
+                    sources.update(
+                        (item.place, item) for item in self._sources_of(package).modules(name)
+                    )
             self._imported[key] = list(sources.values())
         return self._imported[key]
 
@@ -171,11 +173,11 @@ class Sources:
             packages = [item for item in candidates if item is not None]
             if user not in packages and _has_module(user, root):
                 packages = []  # the package itself, even if another workspace has one of this name
-            importable = [item for item in packages if self._of(item).provides(root)]
+            importable = [item for item in packages if self._sources_of(item).provides(root)]
             self._looked_up[key] = next(iter(importable or packages), None)
         return self._looked_up[key]
 
-    def _of(self, package: Package) -> _PackageSources:
+    def _sources_of(self, package: Package) -> _PackageSources:
         if id(package) not in self._packages:
             self._packages[id(package)] = _PackageSources(package)
         return self._packages[id(package)]

@@ -54,7 +54,7 @@ class Transaction:
         """Write the changes that are about to be made to disk, to survive this process."""
         os.close(temporary.create(self.stage.file(MARK)))
         entries = {
-            "mark": self._mark(),
+            "mark": self._mark_identity(),
             "changes": [list(change) for change in self.changes],
             "directories": self.directories,
             "is_forward": self.is_forward,
@@ -79,7 +79,7 @@ class Transaction:
         try:
             with open(stage.file(JOURNAL), encoding="ascii") as file:
                 entries = json.load(file)
-            if entries["mark"] != transaction._mark():
+            if entries["mark"] != transaction._mark_identity():
                 return None
             changes = [Change(*entry) for entry in entries["changes"]]
             if any(
@@ -91,7 +91,7 @@ class Transaction:
         except (OSError, ValueError, TypeError, KeyError, RecursionError):
             return None
 
-    def _mark(self) -> list[int]:
+    def _mark_identity(self) -> list[int]:
         status = os.lstat(self.stage.file(MARK))
         root = os.stat(self.stage.parent)
         return [status.st_ino, status.st_ctime_ns, status.st_uid, root.st_ino]
@@ -102,7 +102,7 @@ class Transaction:
         """Return the place of the file."""
         return join(self.root, change.path)
 
-    def _now(self, change: Change) -> str | None:
+    def _current_state(self, change: Change) -> str | None:
         return state(self.target(change))
 
     def _slot(self, change: Change) -> str:
@@ -122,7 +122,7 @@ class Transaction:
 
     def _is_edited(self, change: Change) -> bool:
         """Tell whether another process has changed the file."""
-        return self._now(change) not in {change.before, change.after}
+        return self._current_state(change) not in {change.before, change.after}
 
     # -- doing and undoing
 
@@ -145,7 +145,7 @@ class Transaction:
             for directory in self.directories:
                 new_files.make_directory(join(self.root, directory))
             for change in self.changes:
-                self._swap(change)
+                self._exchange(change)
             self._compare_again()
         except ChangedError as error:
             raise ConflictError(refusal(self.root, [error.path], self.undo())) from error
@@ -182,7 +182,9 @@ class Transaction:
             if not os.path.lexists(join(self.root, directory)):
                 new_files.make_directory(join(self.root, directory))
         pending = [change for change in self.changes if not self._is_done(change)]
-        left = self._swap_each([item for item in pending if self._now(item) != item.after])
+        left = self._swap_each(
+            [item for item in pending if self._current_state(item) != item.after]
+        )
         self.close()
         return left
 
@@ -193,7 +195,7 @@ class Transaction:
             touch: Whether to set a new modification time, as the new files may have been built.
         """
         done = [change for change in reversed(self.changes) if self._is_done(change)]
-        done = [change for change in done if self._now(change) != change.before]
+        done = [change for change in done if self._current_state(change) != change.before]
         for change in done:
             if touch and change.before is not None:
                 with suppress(OSError):
@@ -213,12 +215,12 @@ class Transaction:
         left: list[str] = []
         for change in changes:
             try:
-                self._swap(change)
+                self._exchange(change)
             except ChangedError:
                 left.append(change.path)
         return left
 
-    def _swap(self, change: Change) -> None:
+    def _exchange(self, change: Change) -> None:
         """Exchange a file and its slot in the stage.
 
         Raises:

@@ -112,12 +112,12 @@ def _open_file(directory: str) -> tuple[int, str]:
 def _wait(descriptor: int, directory: str, notify: Callable[[str], None]) -> None:
     if _is_ours(descriptor):
         return
-    holder = _holder(descriptor)
+    holder = _lock_holder(descriptor)
     notify(f"waiting for {holder}, which is changing {directory}")
     deadline = time.monotonic() + PATIENCE
     while not _is_ours(descriptor):
         time.sleep(_PAUSE)
-        current = _holder(descriptor)
+        current = _lock_holder(descriptor)
         if current != holder:
             holder, deadline = current, time.monotonic() + PATIENCE
         elif time.monotonic() > deadline:
@@ -144,7 +144,7 @@ def _is_current(descriptor: int, path: str) -> bool:
         return False
 
 
-def _holder(descriptor: int) -> str:
+def _lock_holder(descriptor: int) -> str:
     """Return the process that holds a lock, if the kernel shows it."""
     inode = str(os.fstat(descriptor).st_ino)
     with suppress(OSError), open("/proc/locks", encoding="ascii", errors="replace") as locks:

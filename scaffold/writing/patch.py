@@ -51,8 +51,8 @@ def of(file: PlannedFile, relative_to: str) -> str:
         return header
     if b"\0" in before[:_LOOKED_AT] or b"\0" in after[:_LOOKED_AT]:
         return header + _binary(before, after)
-    old = "/dev/null" if file.before is None else _ended(old)
-    new = "/dev/null" if file.is_removed else _ended(new)
+    old = "/dev/null" if file.before is None else _path_line(old)
+    new = "/dev/null" if file.is_removed else _path_line(new)
     return f"{header}--- {old}\n+++ {new}\n{''.join(_hunks(before, after))}"
 
 
@@ -84,7 +84,7 @@ def _escaped(byte: int) -> str:
     return chr(byte) if byte in _PRINTABLE else f"\\{byte:03o}"
 
 
-def _ended(path: str) -> str:
+def _path_line(path: str) -> str:
     """Return a path as in a ``---`` line of git, where a tab ends a path with spaces."""
     return f"{path}\t" if " " in path and not path.startswith('"') else path
 

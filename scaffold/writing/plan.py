@@ -128,7 +128,7 @@ class WritePlan:
                 with transaction.exclusive(self.root):
                     transaction.replace_all(self.root, _replacements(plans, self.root))
         except OSError as error:
-            message = f"{_refusal(error, self.root, around)}; nothing was written"
+            message = f"{_write_error(error, self.root, around)}; nothing was written"
             raise InputError(message) from error
 
     def _write_whole(self, around: Sequence[Replacement]) -> None:
@@ -163,7 +163,7 @@ def _replacements(plans: Sequence[WritePlan], root: str) -> list[Replacement]:
     return list(result.values())
 
 
-def _refusal(error: OSError, root: str, around: WritePlan | None) -> str:
+def _write_error(error: OSError, root: str, around: WritePlan | None) -> str:
     """Return the message about a file or directory that cannot be written."""
     name = error.filename2 or error.filename
     for file in around.changes if around is not None else ():

@@ -84,7 +84,7 @@ def check(text: PythonText, options: Options = AMENT) -> Iterator[Finding]:
         if isinstance(node, _Import) and _has_codes_of_imports():
             yield from _imports(text, node, builtins)
             continue
-        for name, line, column in _bound(node):
+        for name, line, column in _bound_names(node):
             if name in builtins:
                 kind = "attribute of a class" if code == "A003" else "variable"
                 yield _finding(text, code, kind, name, line, column)
@@ -114,7 +114,7 @@ def _builtins(python: tuple[int, int]) -> frozenset[str]:
 def _imports(
     text: PythonText, node: ast.Import | ast.ImportFrom, builtins: frozenset[str]
 ) -> Iterator[Finding]:
-    for name, line, column in _at(node, [alias.asname or alias.name for alias in node.names]):
+    for name, line, column in _located(node, [alias.asname or alias.name for alias in node.names]):
         if name in builtins:
             yield _finding(text, "A004", "import", name, line, column)
 
@@ -149,7 +149,7 @@ def _finding(text: PythonText, code: str, kind: str, name: str, line: int, colum
     return Finding(code, line, at, f"the {kind} '{name}' hides the builtin of that name")
 
 
-def _bound(node: ast.AST) -> Named:  # noqa: C901  one branch for each kind of statement
+def _bound_names(node: ast.AST) -> Named:  # noqa: C901  one branch for each kind of statement
     """Yield the names bound by a node, at the place where flake8-builtins reports them."""
     if isinstance(node, ast.Assign):
         for target in node.targets:
@@ -157,22 +157,22 @@ def _bound(node: ast.AST) -> Named:  # noqa: C901  one branch for each kind of s
     elif isinstance(node, (ast.AnnAssign, ast.NamedExpr)):
         yield from _unpack(node.target)
     elif isinstance(node, (ast.For, ast.AsyncFor)):
-        yield from _at(node, [name for name, _, _ in _unpack(node.target)])
+        yield from _located(node, [name for name, _, _ in _unpack(node.target)])
     elif isinstance(node, (ast.With, ast.AsyncWith)):
         for item in node.items:
-            yield from _at(node, _flat(item.optional_vars, starred=True))
+            yield from _located(node, _flat(item.optional_vars, starred=True))
     elif isinstance(node, _Comprehension):
         for generator in node.generators:
-            yield from _at(node, _flat(generator.target, starred=False))
+            yield from _located(node, _flat(generator.target, starred=False))
     elif isinstance(node, ast.ExceptHandler):
-        yield from _at(node, [node.name or ""])
+        yield from _located(node, [node.name or ""])
     elif isinstance(node, _Import):
-        yield from _at(node, [alias.asname or "" for alias in node.names])
+        yield from _located(node, [alias.asname or "" for alias in node.names])
     elif isinstance(node, (*_Function, ast.ClassDef)):
-        yield from _at(node, [node.name])
+        yield from _located(node, [node.name])
 
 
-def _at(node: ast.stmt | ast.expr | ast.ExceptHandler, names: Sequence[str]) -> Named:
+def _located(node: ast.stmt | ast.expr | ast.ExceptHandler, names: Sequence[str]) -> Named:
     for name in names:
         yield name, node.lineno, node.col_offset
 

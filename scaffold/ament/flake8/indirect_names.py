@@ -36,7 +36,7 @@ def check(text: PythonText) -> Iterator[Finding]:
             name
             for item in text.index.below(scope, *_BINDING)
             if item is not scope and text.index.scope_of(item) is scope
-            for name in _bound(item)
+            for name in _bound_names(item)
         }
         word = "global" if isinstance(node, ast.Global) else "nonlocal"
         for name in node.names:
@@ -46,7 +46,7 @@ def check(text: PythonText) -> Iterator[Finding]:
                 yield Finding("F824", node.lineno, column, message)
 
 
-def _bound(node: ast.AST) -> Iterator[str]:
+def _bound_names(node: ast.AST) -> Iterator[str]:
     if isinstance(node, ast.Name):
         yield from () if isinstance(node.ctx, ast.Load) else (node.id,)
     elif isinstance(node, (ast.Import, ast.ImportFrom)):

@@ -26,20 +26,20 @@ def _skips_file(text: PythonText) -> bool:
 def apply(text: PythonText, findings: Iterable[Finding]) -> list[Finding]:
     """Remove flake8 from suppressed findings; drop those that no other linter reports."""
     if _skips_file(text):
-        return _without(findings, lambda _: True)
+        return _unsuppressed(findings, lambda _: True)
     if "noqa" not in text.text.lower():
         return list(findings)
     silenced = _Silenced(text)
-    return _without(findings, silenced.covers)
+    return _unsuppressed(findings, silenced.covers)
 
 
 def apply_of_plugins(text: PythonText, findings: Iterable[Finding]) -> list[Finding]:
     """Apply the comments under ``disable_noqa``, for plugins that read them themselves."""
     silenced = _Silenced(text)
-    return _without(findings, silenced.covers_by_plugin)
+    return _unsuppressed(findings, silenced.covers_by_plugin)
 
 
-def _without(findings: Iterable[Finding], covers: Callable[[Finding], bool]) -> list[Finding]:
+def _unsuppressed(findings: Iterable[Finding], covers: Callable[[Finding], bool]) -> list[Finding]:
     kept = []
     for finding in findings:
         if finding.linters & FLAKE8 and covers(finding):

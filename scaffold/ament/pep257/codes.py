@@ -39,14 +39,14 @@ def chosen(
 ) -> frozenset[str]:
     """Return the codes that ament_pep257 reports for its flags."""
     if ignored:
-        codes = ALL - _fitting(ignored)
+        codes = ALL - _matching(ignored)
     elif selected:
-        codes = _fitting(selected)
+        codes = _matching(selected)
     else:
         codes = CONVENTIONS.get(convention, AMENT)
-    return (codes | _fitting(more_selected)) - _fitting(more_ignored)
+    return (codes | _matching(more_selected)) - _matching(more_ignored)
 
 
-def _fitting(words: Sequence[str]) -> frozenset[str]:
+def _matching(words: Sequence[str]) -> frozenset[str]:
     prefixes = [part.strip() for word in words for part in word.split(",")]
     return frozenset(code for code in ALL if code.startswith((*filter(None, prefixes),)))

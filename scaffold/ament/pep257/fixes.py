@@ -33,7 +33,7 @@ def fix(definition: Definition, code: str) -> tuple[tuple[Replacement, ...], str
     # A summary that moves to the second line was too long already.
     if not splices or (code != "D213" and _is_too_long(definition, splices)):
         return (), ""
-    return tuple(_placed(definition, splice) for splice in splices), title
+    return tuple(_replacement(definition, splice) for splice in splices), title
 
 
 def _is_raw(definition: Definition) -> bool:
@@ -47,7 +47,7 @@ def _of_section(code: str) -> tuple[Callable[[Definition], Iterator[Splice]], st
     return partial(splices, code), TITLES.get(code, "")
 
 
-def _placed(definition: Definition, splice: Splice) -> Replacement:
+def _replacement(definition: Definition, splice: Splice) -> Replacement:
     start, end, text = splice
     return *_place(definition, start), *_place(definition, end), text
 

@@ -178,7 +178,7 @@ def _backslashes(definition: Definition) -> Violations:
         yield "D301", 'a docstring with backslashes is not raw (r""")'
 
 
-def _ending(definition: Definition) -> Violations:
+def _check_punctuation(definition: Definition) -> Violations:
     summary = _summary(definition)
     if not summary.endswith("."):
         yield "D400", f"the first line of the docstring ends with {summary[-1]!r}, not with '.'"
@@ -189,7 +189,7 @@ def _ending(definition: Definition) -> Violations:
         )
 
 
-def _mood(definition: Definition) -> Violations:
+def _check_mood(definition: Definition) -> Violations:
     name = definition.name
     if name.startswith("test") or name == "runTest":
         return
@@ -234,12 +234,12 @@ _CHECKS: tuple[Callable[[Definition], Violations], ...] = (
     _summary_line,
     _quotes,
     _backslashes,
-    _ending,
+    _check_punctuation,
 )
 
 _FUNCTION_CHECKS: tuple[Callable[[Definition], Violations], ...] = (
     _blank_lines_in_function,
-    _mood,
+    _check_mood,
     _signature,
     _capital,
     _overload,

@@ -180,14 +180,14 @@ def close_up(tokens: Sequence[TokenInfo], lines: Sequence[str]) -> list[TokenInf
         elif token.type == FSTRING_END and first is not None:
             depth -= 1
             if depth == 0:
-                result.append(_joined(first, token, lines))
+                result.append(_joined_token(first, token, lines))
                 first = None
         elif first is None:
             result.append(token)
     return result
 
 
-def _joined(first: TokenInfo, last: TokenInfo, lines: Sequence[str]) -> TokenInfo:
+def _joined_token(first: TokenInfo, last: TokenInfo, lines: Sequence[str]) -> TokenInfo:
     (row, column), (end_row, end) = first.start, last.end
     *whole, rest = lines[row - 1 : end_row]
     text = "".join((*whole, rest[:end]))[column:]

@@ -197,13 +197,13 @@ def expand_indent(line: str) -> int:
 
 def _visible(token: Token) -> str:
     if token.type == STRING:
-        return _mute(token.string)
+        return _masked(token.string)
     if token.type == FSTRING_MIDDLE:
         return "x" * len(token.string)
     return token.string
 
 
-def _mute(text: str) -> str:
+def _masked(text: str) -> str:
     """Replace the content of a string literal by ``x``."""
     start = text.index(text[-1]) + 1
     end = len(text) - 1

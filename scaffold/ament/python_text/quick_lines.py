@@ -165,7 +165,7 @@ def _split(rows: Sequence[str], lines: list[str]) -> Iterator[LogicalLine]:
         pieces.append(piece[:-1].rstrip() if goes_on else piece)
         if depth or goes_on:
             continue
-        joined = pieces[0] if len(pieces) == 1 else _joined(pieces)
+        joined = pieces[0] if len(pieces) == 1 else _joined_rows(pieces)
         yield LogicalLine(
             lines,
             (first, number),
@@ -180,7 +180,7 @@ def _split(rows: Sequence[str], lines: list[str]) -> Iterator[LogicalLine]:
         first = blank_lines = 0
 
 
-def _joined(pieces: Sequence[str]) -> str:
+def _joined_rows(pieces: Sequence[str]) -> str:
     """Join the rows of a statement like pycodestyle."""
     text = ""
     for piece in pieces:

@@ -53,7 +53,7 @@ class EarlierFacts:
         settled = self._settled
         for item in wanted:
             if item not in settled:
-                settled[item] = self._untouched(item) or self._made_again(item)
+                settled[item] = self._unchanged(item) or self._made_again(item)
             if settled[item] is None:
                 return False
         return True
@@ -68,7 +68,7 @@ class EarlierFacts:
 
     def recall(self, wanted: FactId) -> Fact | None:
         """Return a fact if its value is known to be unchanged."""
-        stored = self._settled.get(wanted) or self._untouched(wanted)
+        stored = self._settled.get(wanted) or self._unchanged(wanted)
         if isinstance(stored, StoredFact):
             self._settled[wanted] = stored
             fact = Fact(*wanted, stored)
@@ -77,7 +77,7 @@ class EarlierFacts:
             return fact
         return stored
 
-    def _untouched(self, wanted: FactId) -> StoredFact | None:
+    def _unchanged(self, wanted: FactId) -> StoredFact | None:
         """Return a fact if none of its dependencies has changed."""
         stored = self._stored.get(wanted)
         if stored is None or not stored.files.isdisjoint(self._edited) or stored.has_failed:

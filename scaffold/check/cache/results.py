@@ -77,7 +77,7 @@ class ResultCache:
 
     def _recall(self, run: CachedRun, stored: Sequence[_Record]) -> None:
         if [(item.directory, item.only) for item in stored] != [
-            _asked(item) for item in self._targets
+            _key_of(item) for item in self._targets
         ]:
             return
         edits = [self._edits(run, at) for at in range(len(stored))]
@@ -170,8 +170,8 @@ class ResultCache:
         records: list[tuple[object, ...]] = []
         for at, (target, result) in enumerate(zip(self._targets, results, strict=True)):
             needed = needs.of(target.package, self._needed.get(at, ()))
-            record = self._records.get(at) or _new(target, result, needed, self._results[at])
-            trees.append(_seen(target.package, self._trees.get(at, {}), result))
+            record = self._records.get(at) or _new_record(target, result, needed, self._results[at])
+            trees.append(_accesses(target.package, self._trees.get(at, {}), result))
             records.append(tuple(record))
         entry.save(dict(disk.seen), trees, records)
         return True
@@ -186,11 +186,11 @@ class ResultCache:
         )
 
 
-def _new(
+def _new_record(
     target: Target, result: Result, needed: tuple[int, ...] | None, findings: bytes
 ) -> _Record:
     identity = (*target.package.identity,)
-    return _Record(*_asked(target), identity, needed, result.files, findings, result.foreign)
+    return _Record(*_key_of(target), identity, needed, result.files, findings, result.foreign)
 
 
 def _encode_findings(result: Result, encode: _Encode) -> bytes:
@@ -228,12 +228,12 @@ def _configures(package: Package, verdict: tuple[Any, ...], edited: frozenset[st
         return True
 
 
-def _asked(target: Target) -> tuple[str, tuple[str, ...] | None]:
+def _key_of(target: Target) -> tuple[str, tuple[str, ...] | None]:
     only = None if target.only is None else tuple(sorted(target.only))
     return target.package.directory, only
 
 
-def _seen(package: Package, before: Seen, result: Result) -> Seen | None:
+def _accesses(package: Package, before: Seen, result: Result) -> Seen | None:
     """Return the accesses in a package; ``None`` if its result must not be stored."""
     disk = disk_of(package)
     disk.note(before)

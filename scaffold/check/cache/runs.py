@@ -73,7 +73,7 @@ class CachedRun:
 
     def is_same_outside(self) -> bool:
         """Tell whether nothing has changed outside of the packages; the disk is read once."""
-        return self._asked(-1, self.outside) == []
+        return self._changed_questions(-1, self.outside) == []
 
     def is_same(self, at: int) -> bool:
         """Tell whether nothing has changed in the package with an index; the disk is read once."""
@@ -81,9 +81,9 @@ class CachedRun:
 
     def changed(self, at: int) -> list[Question] | None:
         """Return the changes in the package with an index, ``None`` if unknown."""
-        return self._asked(at, self.trees[at])
+        return self._changed_questions(at, self.trees[at])
 
-    def _asked(self, at: int, seen: Seen | None) -> list[Question] | None:
+    def _changed_questions(self, at: int, seen: Seen | None) -> list[Question] | None:
         if at not in self._changed:
             self._changed[at] = None if seen is None else changed(seen)
         return self._changed[at]

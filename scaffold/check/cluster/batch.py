@@ -101,12 +101,12 @@ def check(batch: Batch, files: mirror.Mirror) -> Answer:
         kept = [distributions.named(name) for name in batch.kept]
         try:
             with distributions.targeting(distributions.named(batch.target), kept=kept):
-                return _answer(batch, top)
+                return _check_batch(batch, top)
         finally:
             os.chdir(os.sep)
 
 
-def _answer(batch: Batch, top: str) -> Answer:
+def _check_batch(batch: Batch, top: str) -> Answer:
     settings = batch.settings
     adjustments = settings.adjustments
     exclusion = adjustments.exclusion

@@ -142,10 +142,10 @@ def apply(
     Returns:
         The files after the fixes, and the number of applied fixes.
     """
-    fixes = _ready([item for item in diagnostics if _is_wanted(item.fix, unsafe=unsafe)])
-    inside = [fixed for item in fixes if (fixed := _inside(item, overlay)) is not None]
+    fixes = _independent([item for item in diagnostics if _is_wanted(item.fix, unsafe=unsafe)])
+    inside = [fixed for item in fixes if (fixed := _within_package(item, overlay)) is not None]
     timely = [item for item in inside if not _is_too_late(item, overlay)]
-    chosen, texts = _sound(package, _compatible(package, timely))
+    chosen, texts = _safe_fixes(package, _compatible(package, timely))
     result = overlay.copy()
     result.rounds.update({change.path for item in chosen for change in item.changes})
     for change in _changes(chosen):
@@ -172,7 +172,7 @@ def _is_wanted(fix: Fix | None, *, unsafe: bool) -> bool:
     return fix is not None and (unsafe or fix.safety is Safety.SAFE)
 
 
-def _ready(diagnostics: Sequence[Diagnostic]) -> list[Fix]:
+def _independent(diagnostics: Sequence[Diagnostic]) -> list[Fix]:
     """Return the fixes that need not wait for others.
 
     A fix that edits another file than that of its diagnostic waits while its line is edited: an
@@ -200,7 +200,7 @@ def _changes(fixes: Iterable[Fix]) -> list[Change]:
     return [*dict.fromkeys(change for item in fixes for change in item.changes)]
 
 
-def _inside(fix: Fix, overlay: Overlay) -> Fix | None:
+def _within_package(fix: Fix, overlay: Overlay) -> Fix | None:
     """Return a fix with real paths; ``None`` if a symlink leads out of the package."""
     changes: list[Change] = []
     for change in fix.changes:
@@ -226,7 +226,7 @@ def _compatible(package: Package, fixes: Iterable[Fix]) -> list[Fix]:
             edit.path in whole
             or any(
                 not _go_together(package, edit, other)
-                for other in _touching(edit, taken.get(edit.path, ()))
+                for other in _adjacent(edit, taken.get(edit.path, ()))
             )
             for edit in edits
         )
@@ -239,7 +239,7 @@ def _compatible(package: Package, fixes: Iterable[Fix]) -> list[Fix]:
     return chosen
 
 
-def _touching(edit: Edit, others: Sequence[Edit]) -> Sequence[Edit]:
+def _adjacent(edit: Edit, others: Sequence[Edit]) -> Sequence[Edit]:
     """Return those of some sorted, disjoint edits that touch another one."""
     first = bisect_left(others, edit.start, key=_end)
     return others[first : bisect_right(others, edit.end, key=_start)]
@@ -287,13 +287,13 @@ def splice(text: str, edits: Iterable[Edit]) -> str:
     """Return the text with edits that do not overlap."""
     parts: list[str] = []
     at = 0
-    for edit in sorted(edits, key=_order):
+    for edit in sorted(edits, key=_sort_key):
         parts += text[at : edit.start], edit.text
         at = edit.end
     return "".join([*parts, text[at:]])
 
 
-def _order(edit: Edit) -> tuple[int, int, tuple[int, str]]:
+def _sort_key(edit: Edit) -> tuple[int, int, tuple[int, str]]:
     """Return the sort key of edits; at the same place, dependencies are sorted by custom."""
     if edit.path != MANIFEST or edit.start != edit.end:
         return edit.start, edit.end, (0, "")
@@ -306,7 +306,7 @@ def _order(edit: Edit) -> tuple[int, int, tuple[int, str]]:
 # -- soundness
 
 
-def _sound(package: Package, fixes: list[Fix]) -> tuple[list[Fix], Mapping[str, bytes]]:
+def _safe_fixes(package: Package, fixes: list[Fix]) -> tuple[list[Fix], Mapping[str, bytes]]:
     """Return the fixes that break no file, and the new content of the files they edit."""
     while True:
         edits: dict[str, list[Edit]] = {}

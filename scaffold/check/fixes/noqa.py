@@ -77,7 +77,7 @@ def _row(package: Package, diagnostic: Diagnostic) -> int | None:
         source = package.editable(at.path)
     except ViewError:
         return None
-    for row in _candidates(package, source, diagnostic):
+    for row in _suppressing_rows(package, source, diagnostic):
         if row > len(source.lines) or (row == 1 and source.text.startswith("#!")):
             continue
         present = re.search(COMMENT, source.lines[row - 1], re.IGNORECASE)
@@ -90,7 +90,7 @@ def _names(codes: str, code: str) -> bool:
     return code in re.split(r"[\s,]+", codes.upper())
 
 
-def _candidates(package: Package, source: Source, diagnostic: Diagnostic) -> Iterator[int]:
+def _suppressing_rows(package: Package, source: Source, diagnostic: Diagnostic) -> Iterator[int]:
     """Yield the rows on which a comment may suppress a finding."""
     path, row = source.path, diagnostic.location.line
     if path.endswith(".py"):

@@ -132,9 +132,9 @@ class Overlay:
         changed = {*self.changed, *before.changed}
         same = (self.real(path) in changed or path in changed for path in self.files)
         candidates = [path for path, is_one in zip(self.files, same, strict=True) if is_one]
-        return [path for path in candidates if [*self._now(path)] != [*before._now(path)]]
+        return [path for path in candidates if [*self._current(path)] != [*before._current(path)]]
 
-    def _now(self, path: str) -> Iterator[bytes]:
+    def _current(self, path: str) -> Iterator[bytes]:
         with suppress(OSError):
             yield self.read(path)
 

@@ -105,7 +105,7 @@ class Since:
         return kept, note
 
     def _path(self, package: Package, path: str) -> str:
-        return _below(self._commit.top, os.path.join(package.directory, path))
+        return _relative_to(self._commit.top, os.path.join(package.directory, path))
 
     def _is_touched(self, package: Package) -> bool:
         place = self._path(package, "")
@@ -150,11 +150,11 @@ class Since:
             targets = [
                 target
                 for target in (discovery.find(packages) if packages else [])
-                if _below(top, target.package.directory) in wanted
+                if _relative_to(top, target.package.directory) in wanted
             ]
 
             def path_of(package: Package, path: str) -> str:
-                return _below(top, os.path.join(package.directory, path))
+                return _relative_to(top, os.path.join(package.directory, path))
 
             fingerprints = Fingerprints(path_of)
             return frozenset(
@@ -177,5 +177,5 @@ def _is_package(directory: str) -> bool:
     return os.path.isfile(os.path.join(directory, MANIFEST))
 
 
-def _below(top: str, path: str) -> str:
+def _relative_to(top: str, path: str) -> str:
     return os.path.relpath(os.path.realpath(path), top).replace(os.sep, "/")

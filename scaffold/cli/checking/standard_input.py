@@ -98,7 +98,7 @@ def fix(session: Session, target: Target, *, unsafe: bool) -> tuple[bytes, Resul
 
     def check(package: Package) -> list[Diagnostic]:
         (result,) = session.run_batch([target._replace(package=package)])
-        return [_within(name, diagnostic) for diagnostic in result.diagnostics]
+        return [_without_outside_fix(name, diagnostic) for diagnostic in result.diagnostics]
 
     before = target.package.tree.read(name)
     fixed = fixer.fix(target.package, check, unsafe=unsafe)
@@ -111,7 +111,7 @@ def _name(target: Target) -> str:
     return next(iter(target.only or ()))
 
 
-def _within(name: str, diagnostic: Diagnostic) -> Diagnostic:
+def _without_outside_fix(name: str, diagnostic: Diagnostic) -> Diagnostic:
     """Return a diagnostic without a fix that changes other files."""
     changes = diagnostic.fix.changes if diagnostic.fix is not None else ()
     if all(change.path == name for change in changes):

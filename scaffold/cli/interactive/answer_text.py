@@ -46,7 +46,7 @@ def command(
     for name, value in answers.items():
         if name == parts.ADD:
             for entry in value:
-                part = entry if isinstance(entry, str) else _written(entry, templates)
+                part = entry if isinstance(entry, str) else _part_argument(entry, templates)
                 words += ["--add", part]
         elif name != "package" and not (name in base and is_default(base[name], value)):
             words += _flag(name, value)
@@ -61,7 +61,7 @@ def _flag(name: str, value: object) -> list[str]:
     return [f"{flag}={value}"] if str(value).startswith("-") else [flag, str(value)]
 
 
-def _written(entry: Mapping[str, Any], templates: Mapping[str, Template]) -> str:
+def _part_argument(entry: Mapping[str, Any], templates: Mapping[str, Template]) -> str:
     """Return a part as an argument of ``--add``."""
     kind = str(entry[parts.KIND])
     asked = templates[kind].name_question

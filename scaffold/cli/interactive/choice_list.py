@@ -122,9 +122,9 @@ class ChoiceList:
         headings = self._headings()
         for number, choice in enumerate(matches):
             if number in headings:
-                tokens.append(("class:heading", f"{_cut(headings[number], columns() - 1)}\n"))
+                tokens.append(("class:heading", f"{_truncated(headings[number], columns() - 1)}\n"))
             is_pointed = number == self._at
-            text = _cut(self._row(choice), columns() - 3)
+            text = _truncated(self._row(choice), columns() - 3)
             if is_pointed:
                 tokens.append(("[SetCursorPosition]", ""))
             chosen = "class:chosen" if choice.name in self._chosen else ""
@@ -211,5 +211,5 @@ class ChoiceList:
             self._chosen ^= {matches[self._at].name}
 
 
-def _cut(text: str, width: int) -> str:
+def _truncated(text: str, width: int) -> str:
     return text if len(text) <= width else text[: max(width - 3, 1)].rstrip() + "..."

@@ -118,19 +118,19 @@ class _Interview:
                 return self._answers
 
     def _ask_all(self) -> None:
-        self._settle("package")
-        self._settle("build_type")
+        self._ask_once("package")
+        self._ask_once("build_type")
         if not self._given.keys() & {parts.ADD, "node_kind", "node_name"}:
             self._ask_parts()
-        self._settle("extras")
-        self._settle("description", hint=self._description())
-        self._settle("license")
+        self._ask_once("extras")
+        self._ask_once("description", hint=self._description())
+        self._ask_once("license")
         for name in ("maintainer_name", "maintainer_email"):
             default = self._user.answer(name)
-            if default is None or default.origin == LOGIN or self._wrong(name, default):
-                self._settle(name, default.value if default else None)
+            if default is None or default.origin == LOGIN or self._is_invalid(name, default):
+                self._ask_once(name, default.value if default else None)
 
-    def _settle(self, name: str, default: object = None, hint: str = "") -> None:
+    def _ask_once(self, name: str, default: object = None, hint: str = "") -> None:
         if name in self._base and name not in self._given:
             question = self._base[name]
             summaries = {
@@ -146,9 +146,9 @@ class _Interview:
         """Show a preview, and ask for confirmation."""
         if not self._history.is_repeated:
             try:
-                show(self._trial.preview(self._together()))
+                show(self._trial.preview(self._answers_so_far()))
             except ScaffoldError as error:
-                self._say(f"{str(error).removeprefix(f'{ORIGIN}: ')}; try again")
+                self._print_once(f"{str(error).removeprefix(f'{ORIGIN}: ')}; try again")
                 raise BackError from None
         choices = [
             Choice(_WRITE, "write these files"),
@@ -161,7 +161,7 @@ class _Interview:
         if decision == _STOP:
             raise KeyboardInterrupt
 
-    def _say(self, text: str) -> None:
+    def _print_once(self, text: str) -> None:
         """Print a text once, and not again when the interview starts over."""
         if not self._history.is_repeated:
             say(text)
@@ -171,14 +171,14 @@ class _Interview:
         if self._history.is_repeated:
             return ""
         try:
-            usual = self._trial.package(self._together())["description"]
+            usual = self._trial.package(self._answers_so_far())["description"]
         except (KeyError, ScaffoldError):
             return ""
         return f"default: {usual}"
 
-    def _wrong(self, name: str, default: Given) -> bool:
+    def _is_invalid(self, name: str, default: Given) -> bool:
         """Tell whether the name or email of the user in git is invalid in a package."""
-        return name in self._base and self._fault(self._base[name], default.value) is not None
+        return name in self._base and self._error_in(self._base[name], default.value) is not None
 
     @property
     def _build_type(self) -> str:
@@ -193,7 +193,7 @@ class _Interview:
             kind = self._kind([item[parts.KIND] for item in entries])
             if kind == _DONE:
                 break
-            entry = self._part(kind, entries, definitions)
+            entry = self._ask_part(kind, entries, definitions)
             fault = self._contradiction([*entries, entry])
             if fault is None:
                 entries.append(entry)
@@ -225,17 +225,17 @@ class _Interview:
         if self._history.is_repeated:
             return None
         try:
-            self._trial.package({**self._together(), parts.ADD: Given(entries, ORIGIN)})
+            self._trial.package({**self._answers_so_far(), parts.ADD: Given(entries, ORIGIN)})
         except ScaffoldError as error:
             return str(error).removeprefix(f"{ORIGIN}: ")
         return None
 
-    def _together(self) -> dict[str, Given]:
+    def _answers_so_far(self) -> dict[str, Given]:
         """Return all answers so far, with placeholders for later questions."""
         answered = {name: Given(value, ORIGIN) for name, value in self._answers.items()}
         return {**_ANYBODY, **self._given, **answered}
 
-    def _part(
+    def _ask_part(
         self, kind: str, entries: list[dict[str, Any]], definitions: Definitions
     ) -> dict[str, Any]:
         """Ask the questions of a kind of part."""
@@ -280,11 +280,13 @@ class _Interview:
         """Ask one question until the answer is acceptable; an empty one takes the default."""
         return self._history.ask(
             lambda before: question_prompt.ask(
-                question, usual._replace(before=before), lambda value: self._fault(question, value)
+                question,
+                usual._replace(before=before),
+                lambda value: self._error_in(question, value),
             )
         )
 
-    def _fault(self, question: Question, value: object) -> str | None:
+    def _error_in(self, question: Question, value: object) -> str | None:
         """Return the error in an answer."""
         try:
             questions.parse(question, Given(value, ""), self._user.directory)

@@ -59,7 +59,7 @@ def find(
     guessed: list[str] = []
     ended: dict[str, Distribution] = {}
     for directory in directories:
-        gone = [] if named else _ended(directory)
+        gone = [] if named else _unsupported(directory)
         recorded = named or _recorded(directory, gone)
         if recorded == []:
             recorded = [distributions.nearest(max(gone))]
@@ -92,7 +92,7 @@ def find(
     return found
 
 
-def _ended(directory: str) -> list[str]:
+def _unsupported(directory: str) -> list[str]:
     """Return the names in the record of a package that are no longer supported."""
     names = distro.recorded_names(directory) or ()
     return [name for name in names if name in distributions.ENDED_ROS2]
@@ -109,7 +109,7 @@ def _recorded(directory: str, ended: Sequence[str]) -> list[Distribution] | None
 def notes(origins: Origins, target: Distribution) -> Iterator[str]:
     """Yield notes on unexpected origins of packages, one line each."""
     for name, origin in origins.ended.items():
-        yield _succession(name, origin)
+        yield _successor_hint(name, origin)
     if origins.assumed:
         yield _assumption(origins, target)
     if origins.guessed:
@@ -133,7 +133,7 @@ def _assumption(origins: Origins, target: Distribution) -> str:
     return f"{where}: not moved: {why}, and the default is {target.title} itself; --from names it"
 
 
-def _succession(name: str, origin: Distribution) -> str:
+def _successor_hint(name: str, origin: Distribution) -> str:
     """Return the sentence about records of a distribution that is no longer supported."""
     title = name.capitalize()
     return (

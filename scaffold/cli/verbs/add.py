@@ -61,7 +61,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         default="",
         help="a launch file of the package to add the node to; no other is edited",
     )
-    names_of_flags = {question.name for question in _asked(templates)}
+    names_of_flags = {question.name for question in _flag_questions(templates)}
     question_groups.add(parser, templates.values(), only=names_of_flags, package=package)
     writing = parser.add_argument_group("output")
     flags.add_answers(writing)
@@ -123,7 +123,7 @@ def _run(
     from scaffold.generate import repository
     from scaffold.generate.add import add
 
-    target, wanted = _order(options, directory, settings, targets)
+    target, wanted = _target_and_wanted(options, directory, settings, targets)
     session = Session(registry.load(content.roots("rules")), Selection())
     is_dry = options.diff or options.dry_run
     with writing.held(target.package.directory, is_dry=is_dry):
@@ -147,7 +147,7 @@ def _run(
     return FINDINGS if any(item.is_needed for item in added.by_hand) else CLEAN
 
 
-def _order(
+def _target_and_wanted(
     options: argparse.Namespace,
     directory: str,
     settings: Config,
@@ -181,12 +181,12 @@ def _order(
     if options.launch and chosen.role is not Role.NODE:
         raise InputError(f"--launch: does not apply to {chosen.name}, which is not a node")
     target = Target(Package.at(directory), roots, templates, User(directory))
-    given = _given(options, templates, settings)
+    given = _given_answers(options, templates, settings)
     given[ANSWER] = Given([item.name for item in targets], RECORD)
     return target, Wanted(chosen, options.name, given, options.launch)
 
 
-def _asked(templates: Mapping[str, Template]) -> list[Question]:
+def _flag_questions(templates: Mapping[str, Template]) -> list[Question]:
     """Return the questions for flags; the name is a separate argument."""
     from scaffold.generate import parts
     from scaffold.generate.add.regenerate import OF_PACKAGES
@@ -200,14 +200,14 @@ def _asked(templates: Mapping[str, Template]) -> list[Question]:
     return [*own, *general]
 
 
-def _given(
+def _given_answers(
     options: argparse.Namespace, templates: Mapping[str, Template], settings: Config
 ) -> dict[str, Given]:
     """Return the user's answers, without those that an existing package implies."""
     from scaffold.generate.add.regenerate import OF_PACKAGES
     from scaffold.generate.questions import defaults, questions
 
-    asked = _asked(templates)
+    asked = _flag_questions(templates)
     table = questions.from_table(
         defaults.configured(settings), questions.unique(templates.values())
     )

@@ -35,15 +35,15 @@ def run(options: argparse.Namespace) -> int:
     if place is None:
         raise ConfigError("no home directory for the cache; set HOME")
     if options.action == "show":
-        terminal.show(f"{place}: {_amount(*cache.size(place))}")
+        terminal.show(f"{place}: {_size_text(*cache.size(place))}")
     else:
         before = cache.size(place)
         cache.clean(place)
-        terminal.show(f"{place}: {_amount(*before)} removed")
+        terminal.show(f"{place}: {_size_text(*before)} removed")
     return CLEAN
 
 
-def _amount(files: int, size: int) -> str:
+def _size_text(files: int, size: int) -> str:
     number = float(size)
     units = iter(("bytes", "kB", "MB"))
     unit = next(units)

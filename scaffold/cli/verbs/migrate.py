@@ -85,7 +85,7 @@ def run(options: argparse.Namespace) -> int:
     kept = distributions.several(",".join(options.keep), "--keep") if options.keep else []
     mover = Mover(options, choices)
     with ExitStack() as stack:
-        directories, has_failed = _held(stack, options, mover)
+        directories, has_failed = _locked_directories(stack, options, mover)
         found = origins.find(options.origin, settings, target, kept, directories)
         for note in origins.notes(found, target):
             terminal.note(note)
@@ -95,7 +95,7 @@ def run(options: argparse.Namespace) -> int:
         ]
         if options.fix or options.diff:
             targets = distributions.ordered([*kept, target])
-            is_refused, is_changed = _put(options, moves, targets, settings)
+            is_refused, is_changed = _write_or_show(options, moves, targets, settings)
             has_failed |= is_refused
             if options.diff:
                 is_clean = not _note_unexamined(moves) and not is_changed
@@ -116,7 +116,9 @@ def run(options: argparse.Namespace) -> int:
     return USAGE_ERROR if has_failed else CLEAN if is_done else FINDINGS
 
 
-def _held(stack: ExitStack, options: argparse.Namespace, mover: Mover) -> tuple[list[str], bool]:
+def _locked_directories(
+    stack: ExitStack, options: argparse.Namespace, mover: Mover
+) -> tuple[list[str], bool]:
     """Return the directories of the packages, locked if they are written to.
 
     A package that another process is changing is skipped; then the second value is true.
@@ -146,7 +148,7 @@ def _nothing_found(options: argparse.Namespace) -> str:
     return f"{', '.join(options.paths)}: not in a ROS 2 package"
 
 
-def _put(
+def _write_or_show(
     options: argparse.Namespace,
     moves: Sequence[Moved],
     targets: Sequence[Distribution],

@@ -65,7 +65,7 @@ def run(options: argparse.Namespace) -> int:
     settings = config.load(content=tuple(options.content))
     roots = content.roots("templates", settings.content)
     templates = loading.load(roots) if options.content else options.templates
-    given = _given(options, templates, settings)
+    given = _given_answers(options, templates, settings)
     with distributions.targeting(target.of(given)[0]):
         return _run(options, roots, templates, given)
 
@@ -85,7 +85,7 @@ def _run(
 
     command = None
     if "package" not in given:
-        given, command = _ask(options, roots, templates, given)
+        given, command = _interview(options, roots, templates, given)
     try:
         named, doubts = _dependencies(options, given)
         user = User(options.destination_directory)
@@ -131,7 +131,7 @@ def _refuse_conflicts(conflicts: Sequence[str]) -> None:
         raise InputError(conflicts[0])
 
 
-def _ask(
+def _interview(
     options: argparse.Namespace,
     roots: list[str],
     templates: dict[str, Template],
@@ -214,7 +214,7 @@ def _in_order(templates: dict[str, Template]) -> list[Template]:
     return [templates[BASE], *(item for name, item in templates.items() if name != BASE)]
 
 
-def _given(
+def _given_answers(
     options: argparse.Namespace, templates: dict[str, Template], settings: Config
 ) -> dict[str, Given]:
     from scaffold.cli import distro

@@ -58,8 +58,8 @@ def run(options: argparse.Namespace) -> int:
         shown = [_explained(word, rules, areas) for word in options.codes]
         terminal.show("\n".join(shown).removesuffix("\n"))
     else:
-        terminal.show(_listed(rules, ()))
-        terminal.show(_about(rules))
+        terminal.show(_rule_lines(rules, ()))
+        terminal.show(_summary(rules))
     return 0
 
 
@@ -71,7 +71,7 @@ def _explained(word: str, rules: list[type[Rule]], areas: Mapping[str, str]) -> 
     codes = _codes(word, rules, areas)
     if len(codes) > 1:
         chosen = [rule for rule in rules if rule.code in codes]
-        return _listed(chosen, [code for code in codes if code in STYLE])
+        return _rule_lines(chosen, [code for code in codes if code in STYLE])
     for rule in rules:
         if rule.code in codes:
             return docs.page(rule)
@@ -97,7 +97,7 @@ def _codes(word: str, rules: list[type[Rule]], areas: Mapping[str, str]) -> list
     return [code for code in names if code.startswith(prefixes)]
 
 
-def _listed(rules: list[type[Rule]], style: Sequence[str]) -> str:
+def _rule_lines(rules: list[type[Rule]], style: Sequence[str]) -> str:
     """Return a line for each rule, and for each code of flake8 and pydocstyle."""
     from scaffold.ament.codes import STYLE
     from scaffold.check.rules import docs
@@ -120,7 +120,7 @@ def _listed(rules: list[type[Rule]], style: Sequence[str]) -> str:
     )
 
 
-def _about(rules: list[type[Rule]]) -> str:
+def _summary(rules: list[type[Rule]]) -> str:
     from scaffold.ament.codes import STYLE
 
     return (

@@ -179,7 +179,7 @@ def _run(options: argparse.Namespace, interruption: Interruption) -> int:
     _validate(options)
     found_targets = targets.find(options.paths)
     packages, run_only = _selected(options, found_targets, packages_of(found_targets))
-    wanted = _wanted(options, packages)
+    wanted = _distributions(options, packages)
     settings = Options(
         duration=options.duration,
         timeout=options.timeout,
@@ -236,7 +236,9 @@ def _run(options: argparse.Namespace, interruption: Interruption) -> int:
     return CLEAN if result.ok else FINDINGS
 
 
-def _wanted(options: argparse.Namespace, packages: Sequence[Package]) -> Sequence[Distribution]:
+def _distributions(
+    options: argparse.Namespace, packages: Sequence[Package]
+) -> Sequence[Distribution]:
     """Return the distributions on which the packages can be run; any if they name none.
 
     Raises:

@@ -70,11 +70,11 @@ def run(options: argparse.Namespace) -> int:
         plan.write(force=True)
     verb = "would be written" if options.dry_run else "written"
     terminal.show(f"{options.output}: {count} stubs, {len(written)} {verb}")
-    terminal.show(_advice(options.output))
+    terminal.show(_next_steps(options.output))
     return CLEAN
 
 
-def _advice(output: str) -> str:
+def _next_steps(output: str) -> str:
     """Return the remaining configuration steps."""
     default = os.path.normpath(output) == TYPINGS
     pyright = (

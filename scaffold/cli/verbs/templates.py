@@ -36,14 +36,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="DIR",
         help="a directory with your own templates/ (default: all templates)",
     )
-    words.completer = _offer  # type: ignore[attr-defined]  # argcomplete
+    words.completer = _complete  # type: ignore[attr-defined]  # argcomplete
     parser.add_argument("--name", metavar="NAME", default="", help="name of the copy")
     place = parser.add_argument("--content", metavar="DIR", help="the same as DIR")
     place.completer = flags.offer_directories  # type: ignore[attr-defined]  # argcomplete
     parser.add_argument("--build", action="store_true", help="also build the packages with colcon")
 
 
-def _offer(prefix: str, parsed_args: argparse.Namespace, **_: object) -> list[str]:
+def _complete(prefix: str, parsed_args: argparse.Namespace, **_: object) -> list[str]:
     """Complete the templates to copy, and directories."""
     from scaffold.configuration import content
     from scaffold.generate.templates import loading
@@ -65,7 +65,7 @@ def run(options: argparse.Namespace) -> int:
     if len(options.words) > 1:
         raise InputError(f"{options.words[1]!r}: only one directory can be named")
     options.directory = options.words[0] if options.words else options.content
-    own = _own(options.directory)
+    own = _template_roots(options.directory)
     options.directory = own[0] if own else None
     roots = content.roots("templates", (*settings.load().content, *own))
     templates = loading.load(roots)
@@ -99,7 +99,7 @@ def _copy(options: argparse.Namespace) -> int:
     return CLEAN
 
 
-def _own(directory: str | None) -> tuple[str, ...]:
+def _template_roots(directory: str | None) -> tuple[str, ...]:
     from scaffold.configuration import content, git_content
     from scaffold.errors import InputError
 
@@ -171,9 +171,9 @@ def _build(tried: Sequence[Tried]) -> int:
     from scaffold.smoke.only_build import only_build
 
     wrong = 0
-    for together in _rounds(tried):
+    for together in _build_rounds(tried):
         with tempfile.TemporaryDirectory(prefix="ros2-scaffold-templates-") as directory:
-            packages = [_written(made, directory) for _, made in together.values()]
+            packages = [_write(made, directory) for _, made in together.values()]
             for name, built in only_build(packages).items():
                 example, _ = together[name]
                 wrong += not built.ok
@@ -184,7 +184,7 @@ def _build(tried: Sequence[Tried]) -> int:
     return wrong
 
 
-def _rounds(tried: Sequence[Tried]) -> list[dict[str, tuple[Example, Draft]]]:
+def _build_rounds(tried: Sequence[Tried]) -> list[dict[str, tuple[Example, Draft]]]:
     """Split the packages into rounds, as colcon cannot build two of one name together."""
     rounds: list[dict[str, tuple[Example, Draft]]] = []
     for item in tried:
@@ -197,7 +197,7 @@ def _rounds(tried: Sequence[Tried]) -> list[dict[str, tuple[Example, Draft]]]:
     return rounds
 
 
-def _written(made: Draft, directory: str) -> Package:
+def _write(made: Draft, directory: str) -> Package:
     from scaffold.model.package import Package
     from scaffold.writing.plan import WritePlan
 

@@ -90,7 +90,7 @@ def _run(options: argparse.Namespace, directory: str, moved: Sequence[Distributi
     if not options.diff:
         terminal.show(_summary(options, updated, plan, above))
         if moved and updated.files and not options.dry_run:
-            terminal.show(_next(directory, moved))
+            terminal.show(_next_steps(directory, moved))
     return FINDINGS if updated.conflicts else CLEAN
 
 
@@ -120,7 +120,7 @@ def _summary(
     return "\n".join(lines)
 
 
-def _next(directory: str, moved: Sequence[Distribution]) -> str:
+def _next_steps(directory: str, moved: Sequence[Distribution]) -> str:
     """Return the remaining steps for new distributions, about the user's own code."""
     from shlex import quote
 

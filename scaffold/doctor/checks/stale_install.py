@@ -17,7 +17,7 @@ def check(machine: Machine) -> Iterator[Finding]:
     workspace = machine.workspace
     if workspace is None:
         return
-    yield from _gone(workspace)
+    yield from _removed_packages(workspace)
     for name, directories in workspace.sources.items():
         if len(directories) > 1:
             newest = max(directories, key=os.path.getctime)
@@ -44,7 +44,7 @@ def check(machine: Machine) -> Iterator[Finding]:
             )
 
 
-def _gone(workspace: Workspace) -> Iterator[Finding]:
+def _removed_packages(workspace: Workspace) -> Iterator[Finding]:
     for name in workspace.installed:
         if name not in workspace.sources:
             prefix = workspace.installed[name]

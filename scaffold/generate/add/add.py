@@ -103,7 +103,7 @@ def add(target: Target, wanted: Wanted) -> Added:
         ConflictError: it has a program of that name already.
     """
     package = target.package
-    with _refusing(package):
+    with _converted_errors(package):
         _refuse_ros_1(package)
         old = regenerate.provenance_of(package)
         if old is not None and old.merged:
@@ -116,7 +116,7 @@ def add(target: Target, wanted: Wanted) -> Added:
         _refuse_taken(package, made)
         new = _new_files(target, old, made)
         new = {path: data for path, data in new.items() if path not in extended.files}
-        others, by_hand = _others(target, old, wanted, made)
+        others, by_hand = _other_files(target, old, wanted, made)
     left = repository.left_to_owners(
         target.place, package.name, made.rendered.files, lambda path: _content(target, path)
     )
@@ -125,7 +125,7 @@ def add(target: Target, wanted: Wanted) -> Added:
     above, new = repository.above(new), repository.inside(new)
     # The files of the part have the date of today, those of the package keep theirs.
     files = {**repository.inside(others), **extended.files, **new}
-    after = _with(package, files, made.rendered.executable)
+    after = _with_files(package, files, made.rendered.executable)
     _refuse_conflicts(after, made)
     return Added(
         files,
@@ -136,7 +136,7 @@ def add(target: Target, wanted: Wanted) -> Added:
         by_hand,
         _start(package, made),
         after,
-        _with(package, new, made.rendered.executable),
+        _with_files(package, new, made.rendered.executable),
         (
             *_remarks(after, made),
             *repository.unread(target.place, made.rendered.unread, package.directory),
@@ -145,7 +145,9 @@ def add(target: Target, wanted: Wanted) -> Added:
     )
 
 
-def _with(package: Package, files: Mapping[str, bytes], executable: frozenset[str]) -> Package:
+def _with_files(
+    package: Package, files: Mapping[str, bytes], executable: frozenset[str]
+) -> Package:
     """Return the package with some files new or changed, in memory."""
     overlay = Overlay(package.tree)
     overlay.changed.update(files)
@@ -164,7 +166,7 @@ def _refuse_ros_1(package: Package) -> None:
 
 
 @contextmanager
-def _refusing(package: Package) -> Iterator[None]:
+def _converted_errors(package: Package) -> Iterator[None]:
     """Convert errors about an unreadable package to a one-line error."""
     try:
         yield
@@ -187,7 +189,9 @@ def _new_files(target: Target, old: Provenance | None, made: Piece) -> dict[str,
         data = text.encode()
         if existing is None:
             result[path] = data
-        elif is_there or path in REPOSITORY_FILES or _timeless(existing) == _timeless(data):
+        elif (
+            is_there or path in REPOSITORY_FILES or _without_dates(existing) == _without_dates(data)
+        ):
             result[path] = existing
         else:
             result[path] = data
@@ -208,7 +212,7 @@ def _content(target: Target, path: str) -> bytes | None:
     return repository.read(repository.place_of_files(package.root), path)
 
 
-def _others(
+def _other_files(
     target: Target, old: Provenance | None, wanted: Wanted, made: Piece
 ) -> tuple[dict[str, bytes], tuple[ByHand, ...]]:
     """Return the other files that change: regenerated where possible, else edited."""
@@ -367,6 +371,6 @@ def _refuse_taken(package: Package, made: Piece) -> None:
         )
 
 
-def _timeless(data: bytes) -> str:
+def _without_dates(data: bytes) -> str:
     """Return a text without its dates."""
     return re.sub(_OF_A_DAY, "", data.decode(errors="replace").replace("\r\n", "\n"))

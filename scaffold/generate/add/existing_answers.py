@@ -45,7 +45,7 @@ def answers(package: Package, licenses: Sequence[str]) -> dict[str, Given]:
     maintainer, address = _maintainer(package.manifest)
     decided = {
         "license": license_of(package, licenses),
-        "copyright_holder": _holder(package) or _holder_in_text(package) or maintainer,
+        "copyright_holder": _copyright_holder(package) or _holder_in_text(package) or maintainer,
         "maintainer_name": maintainer,
         "maintainer_email": address,
     }
@@ -131,7 +131,7 @@ def _end_of_comment(lines: Sequence[str], start: int) -> int:
     )
 
 
-def _holder(package: Package) -> str | None:
+def _copyright_holder(package: Package) -> str | None:
     """Return the copyright holder of most own sources, counting those without a notice.
 
     If several are equally frequent, it is the first one.

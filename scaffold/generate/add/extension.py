@@ -47,7 +47,7 @@ def of(package: Package, wanted: Wanted) -> Extension:
         question = name if name in asked else "fields"
         if question in wanted.given:
             lines = fields(wanted.given[question].value, package.directory).lines
-            _append(section, list(_missing(section, lines, path)))
+            _append_lines(section, list(_missing(section, lines, path)))
         existing = [line.strip() for line in section if line.strip()]
         given[question] = Given(existing, path)
     ending = "\r\n" if "\r\n" in source.text else "\n"
@@ -88,7 +88,7 @@ def _defined(line: str) -> dict[str, tuple[str, str]]:
     return defined | {item.name: (str(item.type), repr(item.value)) for item in section.constants}
 
 
-def _append(section: list[str], lines: Sequence[str]) -> None:
+def _append_lines(section: list[str], lines: Sequence[str]) -> None:
     """Put lines after the last one that is not empty."""
     end = len(section)
     while end and not section[end - 1].strip():

@@ -56,7 +56,7 @@ def joined(target: Target, old: Provenance) -> Provenance:
 
     def drafted(those: branches.Parts) -> Mapping[str, str]:
         changed = {**given, parts.ADD: Given(those, NAME)}
-        return _drafted(target, changed, old).rendered.files
+        return _draft_of(target, changed, old).rendered.files
 
     return branches.joined(old, drafted)
 
@@ -79,13 +79,13 @@ def as_new(target: Target, old: Provenance, piece: Piece) -> dict[str, str] | No
     if answers == old.answers:
         return None
     given = update.recorded(old, target.templates, target.package.directory, [])
-    before = _drafted(target, given, old)
+    before = _draft_of(target, given, old)
     new = {name: value for name, value in answers.items() if old.answers.get(name) != value}
     given |= {name: Given(value, NAME) for name, value in new.items()}
     following = _following(target, given, old)
     for name in following:
         del given[name]
-    after = _drafted(target, given, old)
+    after = _draft_of(target, given, old)
     answers |= {name: after.answers[name] for name in following}
     files, wanted = before.rendered.files, after.rendered.files
     old = old.completed({path: text.encode() for path, text in files.items()})
@@ -149,7 +149,7 @@ def _with_piece(old: Provenance, piece: Piece) -> dict[str, Any]:
     return {**old.answers, parts.ADD: [*existing, part]}
 
 
-def _drafted(target: Target, given: Mapping[str, Given], old: Provenance) -> Draft:
+def _draft_of(target: Target, given: Mapping[str, Given], old: Provenance) -> Draft:
     return draft(target.roots, target.templates, given, target.user, old.date, target.place)
 
 
@@ -165,7 +165,7 @@ def _following(target: Target, given: Mapping[str, Given], old: Provenance) -> l
         return []
     asked = {name: item for name, item in given.items() if name not in names}
     asked[parts.ADD] = Given(old.answers.get(parts.ADD, []), NAME)
-    answers = _drafted(target, asked, old).answers
+    answers = _draft_of(target, asked, old).answers
     return [name for name in names if answers[name] == old.answers[name]]
 
 

@@ -32,11 +32,11 @@ def remarks(package: Package, path: str) -> Iterator[str]:
         package: The package with the node.
         path: The file of the node.
     """
-    yield from _namesakes(package, path)
+    yield from _duplicate_node_names(package, path)
     yield from _misconnected(package, path)
 
 
-def _namesakes(package: Package, path: str) -> Iterator[str]:
+def _duplicate_node_names(package: Package, path: str) -> Iterator[str]:
     files = list(rclpy_files(package))
     names = {node.node_name for file in files if file.module.path == path for node in file.nodes}
     for item in files:
@@ -95,12 +95,12 @@ def uses(package: Package) -> Iterator[Use]:
     """Yield the topics, services and actions of a package with known names and types."""
     for file in rclpy_files(package):
         for endpoint in file.endpoints:
-            use = _use(endpoint)
+            use = _use_of(endpoint)
             if use is not None:
                 yield use
 
 
-def _use(endpoint: Endpoint) -> Use | None:
+def _use_of(endpoint: Endpoint) -> Use | None:
     kind = next((kind for kind, classes in _KINDS if isinstance(endpoint, classes)), None)
     owner = endpoint.owner
     node = owner.node_name if owner is not None and owner.namespace is None else None

@@ -111,7 +111,7 @@ def make(target: Target, old: Provenance | None, wanted: Wanted, day: date | Non
     part = {parts.KIND: wanted.template.name, "name": wanted.name}
     composed = _compose(target, {**wanted.given, parts.ADD: Given([part], "NAME")}, day)
     composed.context["is_added"] = True
-    scopes = _only(composed, PARTS)
+    scopes = _with_roles(composed, PARTS)
     rendered = _rendered(target, composed, scopes, layout)
     if _is_foreign(target.package, old, f"{layout.tests}/{_FIXTURES}", rendered):
         layout = layout._replace(tests=f"{layout.tests}/{_OWN_TESTS}")
@@ -187,7 +187,7 @@ def _extra(
         )
     addition = _described(composed, template, context, package.name, rendered)
     tests = filter(None, (composed.renderer.text(text, context) for text in template.tests))
-    placed = (_placed(path, {_TESTS: layout.tests}) for path in tests)
+    placed = (_relocated(path, {_TESTS: layout.tests}) for path in tests)
     addition = addition._replace(test=next(placed, None))
     readme = f"{template.name}/{_OF_README}{ENDING}"
     if composed.renderer.has(readme):
@@ -233,7 +233,7 @@ def _compose(target: Target, given: Mapping[str, Given], day: date | None) -> Co
     return composed
 
 
-def _only(composed: Composed, roles: Iterable[Role]) -> list[_Scope]:
+def _with_roles(composed: Composed, roles: Iterable[Role]) -> list[_Scope]:
     """Return the templates of some roles with the variables of their files."""
     scopes = part_scopes(composed.layers, composed.context)
     return [(layer, scope) for layer, scope in scopes if layer.role in roles]
@@ -247,7 +247,7 @@ def _rendered(
     name = target.package.name
 
     def place(path: str) -> str:
-        return _placed(path, {name: layout.programs, _TESTS: layout.tests})
+        return _relocated(path, {name: layout.programs, _TESTS: layout.tests})
 
     files = {place(path): _without_gap(text) for path, text in rendered.files.items()}
     if any(path.startswith(f"{layout.programs}/") for path in files):
@@ -260,7 +260,7 @@ def _rendered(
     )
 
 
-def _placed(path: str, places: Mapping[str, str]) -> str:
+def _relocated(path: str, places: Mapping[str, str]) -> str:
     """Return a path in the directory that the package uses instead of the default one."""
     directory, _, rest = path.partition("/")
     return f"{places[directory]}/{rest}" if rest and directory in places else path
@@ -302,7 +302,7 @@ def _described(
 def _of_part(target: Target, composed: Composed, layout: Layout, rendered: Rendered) -> Addition:
     """Return the edits that other files need for a node, an interface or a program."""
     context, renderer = composed.context, composed.renderer
-    ((layer, scope),) = _only(composed, PARTS)
+    ((layer, scope),) = _with_roles(composed, PARTS)
     package = target.package.name
     tests = [path for path in rendered.files if path.startswith(f"{layout.tests}/test_")]
     changelog = renderer.file(f"{BASE}/CHANGELOG.rst{ENDING}", context)

@@ -36,7 +36,7 @@ def add_interfaces(editor: Editor, addition: Addition) -> None:
         elif any(listed.path == path for listed in generation.files):
             for name in addition.interface_depends:
                 editor.edit(cmake_edit.insert_find_package(editor.lists, name))
-                _depend(editor, name)
+                _add_dependency(editor, name)
             continue
         elif not generation.files:
             editor.refuse(f'"{path}"', f"the files of {GENERATE}() are not a literal list")
@@ -53,7 +53,7 @@ def add_interfaces(editor: Editor, addition: Addition) -> None:
             _list_file(editor.lists, generation, path) if generation else _block(editor.lists, path)
         )
         for name in addition.interface_depends:
-            _depend(editor, name)
+            _add_dependency(editor, name)
         _export_runtime(editor)
         generation = _generation(editor.lists)
         if generation is None or path not in [listed.path for listed in generation.files]:
@@ -67,7 +67,7 @@ def add_compiled(editor: Editor, program: Compiled) -> None:
     Raises:
         ConflictError: a target has its name already.
     """
-    for command in _makers(editor.lists, program.name):
+    for command in _defining_commands(editor.lists, program.name):
         if program.source in (editor.lists.expand_list(command.arguments[1:], command) or ()):
             return
         at = command.location
@@ -97,12 +97,12 @@ def add_compiled(editor: Editor, program: Compiled) -> None:
         block += ["  DESTINATION lib/${PROJECT_NAME}", ")"]
         editor.edit(cmake_edit.insert_before_end(editor.lists, block))
     _run_in_tests(editor, program.name)
-    if not any(_makers(editor.lists, program.name)):
+    if not any(_defining_commands(editor.lists, program.name)):
         editor.lists = before
         editor.refuse(f"{lines[0]} and {install}", "no safe place to insert it")
 
 
-def _makers(lists: CMakeLists, name: str | None) -> Iterator[Command]:
+def _defining_commands(lists: CMakeLists, name: str | None) -> Iterator[Command]:
     """Yield the commands that define a target."""
     for command in lists.commands:
         makes = command.name.endswith(_MAKERS)
@@ -149,7 +149,7 @@ def _refuse_conflict(lists: CMakeLists) -> None:
         for command in lists.find(INSTALL_PYTHON)
         if lists.expand_list(command.arguments[:1], command) == [name]
     ]
-    for command in [*_makers(lists, name), *python]:
+    for command in [*_defining_commands(lists, name), *python]:
         at = command.location
         raise InputError(
             f"{at.path}:{at.line}:{at.column}: {command.name}() makes something with the name "
@@ -163,14 +163,14 @@ def _list_file(lists: CMakeLists, generation: Generation, path: str) -> Edits | 
     ending = path.rpartition(".")[2]
     like = [file for file in generation.files if file.path.endswith(f".{ending}")]
     last = (like or generation.files)[-1].argument
-    holder = _holder(lists, last)
+    holder = _command_of(lists, last)
     if holder is None:
         return None
     written = f'"{path}"' if last.quoted else cmake_edit.quote(path)
     return cmake_edit.append_arguments(lists, holder, last, [written], raw=True)
 
 
-def _holder(lists: CMakeLists, argument: Argument) -> Command | None:
+def _command_of(lists: CMakeLists, argument: Argument) -> Command | None:
     """Return the command that an argument belongs to."""
     for command in lists.commands:
         if command.start <= argument.start < command.end:
@@ -183,7 +183,7 @@ def _block(lists: CMakeLists, path: str) -> Edits | None:
     return cmake_edit.insert_before_end(lists, lines)
 
 
-def _depend(editor: Editor, name: str) -> None:
+def _add_dependency(editor: Editor, name: str) -> None:
     """Add a package whose types the interfaces use to the dependencies."""
     generation = _generation(editor.lists)
     if generation is None or generation.dependencies is None or name in generation.dependencies:

@@ -28,7 +28,7 @@ def installs_program(lists: CMakeLists, path: str, package: str) -> bool:
     return any(
         install.destination is not None
         and install.destination.rstrip("/") == f"lib/{package}"
-        and _covers(lists, install, path)
+        and _installs(lists, install, path)
         for install in lists.installs
     )
 
@@ -93,7 +93,7 @@ class Editor:
         if self.refused(line):
             return
         for file in files:
-            self.edit(_beside(self.lists, file, f"share/{self.package}/{path}"))
+            self.edit(_append_to_install(self.lists, file, f"share/{self.package}/{path}"))
         if files and all(_installs_file(self.lists, file) for file in files):
             return
         for make in (_share_keyword, _share_extension, _share_block):
@@ -157,7 +157,7 @@ def _read(source: Source) -> CMakeLists:
 # -- what exists
 
 
-def _covers(lists: CMakeLists, install: Install, path: str) -> bool:
+def _installs(lists: CMakeLists, install: Install, path: str) -> bool:
     if install.kind == "PROGRAMS":
         return any(
             item.path == path or (item.path is None and _globs(lists, item.argument, path))
@@ -273,7 +273,7 @@ def _written_like(lists: CMakeLists, argument: Argument, path: str | None, new: 
     return cmake_edit.quote(new)
 
 
-def _beside(lists: CMakeLists, path: str, destination: str) -> Edits | None:
+def _append_to_install(lists: CMakeLists, path: str, destination: str) -> Edits | None:
     """Add a file to the install command that lists files of its directory."""
     if _installs_file(lists, path):
         return None

@@ -76,7 +76,7 @@ def _editors(package: Package, addition: Addition) -> Iterator[tuple[str, _Edito
         )
     else:
         yield from _python_editors(package, addition)
-    yield from _others(package, addition)
+    yield from _documents(package, addition)
 
 
 def _with_build(addition: Addition, *, is_cmake: bool, installs_python: bool) -> Addition:
@@ -142,7 +142,7 @@ def _declares_scripts(package: Package, config: IniFile) -> bool:
     return setup_cfg.scripts(config) is not None and not package.setup_py.console_scripts
 
 
-def _others(package: Package, addition: Addition) -> Iterator[tuple[str, _Editor]]:
+def _documents(package: Package, addition: Addition) -> Iterator[tuple[str, _Editor]]:
     """Yield edits of README and changelog; unreadable files are skipped."""
     editors: dict[str, _Editor] = {
         README: lambda source: readme.add_to_readme(source, addition),

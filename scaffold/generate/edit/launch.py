@@ -107,7 +107,7 @@ def _edits(launch: LaunchFile, own: list[LaunchCall], program: Program) -> list[
         return []
     node = _node(launch, named[-1], program)
     _, statement = description.assigned[named[-1].call]
-    assignment = _below(launch, statement, _inside(f"{name} = ", node, ""))
+    assignment = _insert_below(launch, statement, _wrapped(f"{name} = ", node, ""))
     return [assignment, _action(launch, description, name)]
 
 
@@ -153,18 +153,18 @@ def _action(launch: LaunchFile, description: _Description, action: str | Block) 
     """Return the edit that appends an action."""
     entities = description.entities
     if entities is None or description.added:
-        call = _inside(f"{description.variable}.add_action(", action, ")")
-        return _below(launch, description.added[-1][0], call)
+        call = _wrapped(f"{description.variable}.add_action(", action, ")")
+        return _insert_below(launch, description.added[-1][0], call)
     return setup_edit.append_item(launch.module, entities, entities.elts, action)
 
 
-def _inside(opening: str, node: str | Block, closing: str) -> str | Block:
+def _wrapped(opening: str, node: str | Block, closing: str) -> str | Block:
     if isinstance(node, str):
         return f"{opening}{node}{closing}"
     return Block(f"{opening}{node.opening}", f"{node.closing}{closing}", node.items)
 
 
-def _below(launch: LaunchFile, statement: ast.stmt, added: str | Block) -> Edit:
+def _insert_below(launch: LaunchFile, statement: ast.stmt, added: str | Block) -> Edit:
     """Return the edit that adds a statement below another one."""
     source = launch.module.source
     line = source.lines[statement.lineno - 1]

@@ -112,7 +112,7 @@ def _merge(source: Source, part: Source, new: Section) -> Source:
         at = source.offset(behind.start + 1) if behind else len(source.text)
         body = [f"{_HEADING}{new.title}", "", *new.lines, "", ""]
         return spliced(source, [Edit(source.path, at, at, source.newline.join(body))])
-    if _says(old.lines, new):
+    if _contains(old.lines, new):
         return source
     for block in _blocks(part.lines, new):
         if block.title or block.lines:
@@ -130,7 +130,7 @@ def _join(source: Source, title: str, new: Section) -> Source:
         block_of_title = blocks[0]
     if block_of_title is not None:
         return _extend(source, block_of_title, new)
-    if _says(source.lines, new):  # the README of a single node has it in several sections
+    if _contains(source.lines, new):  # the README of a single node has it in several sections
         return source
     lines = [f"{_BELOW}{new.title}", "", *new.lines]
     behind = [block for block in blocks[1:] if any(map(_is_row, block.lines))]
@@ -144,7 +144,7 @@ def _join(source: Source, title: str, new: Section) -> Source:
 
 def _extend(source: Source, old: Section, new: Section) -> Source:
     """Add text missing in a block, above its table."""
-    if _says(old.lines, new):
+    if _contains(old.lines, new):
         return source
     # The common beginning applies to all parts, and rows of tables are added one by one.
     shared = 0
@@ -180,7 +180,7 @@ def _above_table(lines: Sequence[str]) -> Sequence[str]:
     return lines[:end]
 
 
-def _says(old: Iterable[str], new: Section) -> bool:
+def _contains(old: Iterable[str], new: Section) -> bool:
     """Tell whether some lines contain all commands of a block, or all of its text."""
     text = [line for line in new.lines if line.strip() and not _is_row(line)]
     wanted = [line for line in text if line.startswith("ros2 ")] or text

@@ -102,7 +102,7 @@ class _Editor:
             self._refuse(line, f"packages= does not include {name!r}")
 
     def add_entry_point(self, program: Program) -> None:
-        if self._has(program):
+        if self._has_entry_point(program):
             return
         line = f"'{program.name} = {program.entry_point}',"
         self._edit(
@@ -111,7 +111,7 @@ class _Editor:
                 or _text_entry(setup, program)
             )
         )
-        if not self._has(program):
+        if not self._has_entry_point(program):
             self._refuse(line, "console_scripts in setup() is not a literal list")
 
     def install_directory(self, path: str, files: Sequence[str] = ()) -> None:
@@ -184,7 +184,7 @@ class _Editor:
         if self.setup is before:
             self._refuse(f"{_EXTRA},", "the arguments of setup() are not literal")
 
-    def _has(self, program: Program) -> bool:
+    def _has_entry_point(self, program: Program) -> bool:
         return any(
             point.name == program.name and point.module == program.module
             for point in self.setup.console_scripts

@@ -19,11 +19,11 @@ def of_action(text: str, interfaces: Definitions) -> ActionPayload:
         InputError: the type is not known or cannot be used.
     """
     types = lookup.find(text, "action", interfaces)
-    known_recipe = recipe.find_action(types.interface.full_name) or _alike(types.interface)
+    known_recipe = recipe.find_action(types.interface.full_name) or _recipe_of_copy(types.interface)
     return _by_recipe(types, known_recipe) if known_recipe else _by_fields(types)
 
 
-def _alike(interface: Interface) -> ActionRecipe | None:
+def _recipe_of_copy(interface: Interface) -> ActionRecipe | None:
     """Return the recipe of Fibonacci for one of its many copies in other packages."""
     parts = (interface.goal, interface.result, interface.feedback)
     names = [[field.name for field in part.fields] for part in parts]

@@ -236,13 +236,13 @@ def _split(text: str, *marks: str) -> Iterator[str]:
             quote = character
         else:
             depth += (character in "([{") - (character in ")]}")
-        if depth == 0 and not quote and (mark := _mark(text, at, marks)):
+        if depth == 0 and not quote and (mark := _mark_at(text, at, marks)):
             yield text[start:at].strip()
             start = at + (len(mark) if mark == "," else 1)
     yield text[start:].strip()
 
 
-def _mark(text: str, at: int, marks: Iterable[str]) -> str:
+def _mark_at(text: str, at: int, marks: Iterable[str]) -> str:
     return next((mark for mark in marks if text.startswith(mark, at)), "")
 
 

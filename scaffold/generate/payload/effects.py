@@ -69,10 +69,10 @@ class _Walk:
                     self.body(body, inside=True)
                 case ast.If(test=test, body=body, orelse=orelse):
                     if self._is_changing(test):
-                        self._depend([*body, *orelse])
+                        self._mark_changing([*body, *orelse])
                     self.body([*body, *orelse], inside=True)
 
-    def _depend(self, statements: Iterable[ast.stmt]) -> None:
+    def _mark_changing(self, statements: Iterable[ast.stmt]) -> None:
         """Mark the fields assigned by statements as changing."""
         for statement in statements:
             if isinstance(statement, ast.Assign):

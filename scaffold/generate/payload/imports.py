@@ -51,7 +51,7 @@ def imports(
             for name in messages
             if name.startswith(f"{package}/")
         )
-        lines.extend(_from(f"{package}.msg", classes))
+        lines.extend(_import_lines(f"{package}.msg", classes))
     libraries = {module.partition(".")[0] for module in functions.values()}
     return tuple(sorted({*packages, *libraries})), tuple(lines)
 
@@ -61,7 +61,7 @@ def _names(code: str) -> set[str]:
     return {node.id for node in ast.walk(ast.parse(code)) if isinstance(node, ast.Name)}
 
 
-def _from(module: str, classes: Sequence[str]) -> Iterator[str]:
+def _import_lines(module: str, classes: Sequence[str]) -> Iterator[str]:
     """Yield an import statement, or several if one would be too long."""
     line = f"from {module} import {classes[0]}"
     for name in classes[1:]:

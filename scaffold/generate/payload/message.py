@@ -38,7 +38,7 @@ def of_message(text: str, interfaces: Definitions) -> Payload:
     types = lookup.find(text, "msg", interfaces)
     own = types.interface
     lines, walk = _fill(types)
-    words_ = _words(types, walk)
+    words_ = _log_text(types, walk)
     packages, lines_of_imports = imports(types, [*lines, f"f'{words_.log}'"], [own.full_name])
     return Payload(
         package=own.package,
@@ -85,7 +85,7 @@ def changes(lines: Iterable[str]) -> bool:
     return any(re.search(r"self\.(count|get_clock)|uuid4", line) for line in lines)
 
 
-def _words(types: Types, walk: Walk) -> Recipe:
+def _log_text(types: Types, walk: Walk) -> Recipe:
     """Return the log text of a message: from its recipe, its only part, or its fields."""
     own = types.interface
     result = recipe.find(own.full_name)

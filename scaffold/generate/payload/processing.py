@@ -150,7 +150,7 @@ def _value(says: str, path: str) -> Process:
     )
 
 
-def _part(says: str, target: str, path: str) -> Process:
+def _copy_part(says: str, target: str, path: str) -> Process:
     """Return how to copy a part of one message to another."""
     return Process(
         says,
@@ -231,10 +231,10 @@ PROCESSES: dict[tuple[str, str], Process] = {
     ),
     ("sensor_msgs/Imu", "std_msgs/Float32"): _YAW,
     ("sensor_msgs/Imu", "std_msgs/Float64"): _YAW,
-    ("sensor_msgs/Imu", "geometry_msgs/QuaternionStamped"): _part(
+    ("sensor_msgs/Imu", "geometry_msgs/QuaternionStamped"): _copy_part(
         "the orientation of the sensor", "quaternion", "orientation"
     ),
-    ("sensor_msgs/Imu", "geometry_msgs/Vector3Stamped"): _part(
+    ("sensor_msgs/Imu", "geometry_msgs/Vector3Stamped"): _copy_part(
         "the acceleration of the sensor", "vector", "linear_acceleration"
     ),
     ("sensor_msgs/Imu", "sensor_msgs/Imu"): Process(
@@ -299,13 +299,13 @@ PROCESSES: dict[tuple[str, str], Process] = {
     ("sensor_msgs/NavSatFix", "std_msgs/Float64"): _value("the altitude", "altitude"),
     ("nav_msgs/Odometry", "std_msgs/Float32"): _SPEED,
     ("nav_msgs/Odometry", "std_msgs/Float64"): _SPEED,
-    ("nav_msgs/Odometry", "geometry_msgs/PoseStamped"): _part(
+    ("nav_msgs/Odometry", "geometry_msgs/PoseStamped"): _copy_part(
         "the pose of the robot", "pose", "pose.pose"
     ),
-    ("nav_msgs/Odometry", "geometry_msgs/PoseWithCovarianceStamped"): _part(
+    ("nav_msgs/Odometry", "geometry_msgs/PoseWithCovarianceStamped"): _copy_part(
         "the pose of the robot", "pose", "pose"
     ),
-    ("nav_msgs/Odometry", "geometry_msgs/PointStamped"): _part(
+    ("nav_msgs/Odometry", "geometry_msgs/PointStamped"): _copy_part(
         "the position of the robot", "point", "pose.pose.position"
     ),
     ("nav_msgs/Odometry", "geometry_msgs/Twist"): Process(
@@ -339,13 +339,13 @@ PROCESSES: dict[tuple[str, str], Process] = {
         "msg.data = received.data.count(100) / max(1, len(received.data))  # 0.0 to 1.0",
         "message.data == pytest.approx(item.data.count(100) / len(item.data))",
     ),
-    ("geometry_msgs/PoseWithCovarianceStamped", "geometry_msgs/PoseStamped"): _part(
+    ("geometry_msgs/PoseWithCovarianceStamped", "geometry_msgs/PoseStamped"): _copy_part(
         "the pose, without its covariance", "pose", "pose.pose"
     ),
-    ("geometry_msgs/PoseStamped", "geometry_msgs/PointStamped"): _part(
+    ("geometry_msgs/PoseStamped", "geometry_msgs/PointStamped"): _copy_part(
         "the position", "point", "pose.position"
     ),
-    ("geometry_msgs/PointStamped", "geometry_msgs/PoseStamped"): _part(
+    ("geometry_msgs/PointStamped", "geometry_msgs/PoseStamped"): _copy_part(
         "the point as a pose without a turn", "pose.position", "point"
     ),
     ("geometry_msgs/Twist", "geometry_msgs/TwistStamped"): Process(

@@ -37,7 +37,7 @@ class Recipe(NamedTuple):
 
 def find(full_name: str) -> Recipe | None:
     """Return the recipe of a message by ``package/msg/Name``; ``None`` if there is none."""
-    recipe: Recipe | None = _in(full_name, "RECIPES")
+    recipe: Recipe | None = _lookup(full_name, "RECIPES")
     frame = conventions.of_message(full_name).frame
     return recipe._replace(frame=frame) if recipe is not None and frame else recipe
 
@@ -83,17 +83,17 @@ class ActionRecipe(NamedTuple):
 
 def find_service(full_name: str) -> ServiceRecipe | None:
     """Return the recipe of a service by ``package/srv/Name``; ``None`` if there is none."""
-    recipe: ServiceRecipe | None = _in(full_name, "SERVICES")
+    recipe: ServiceRecipe | None = _lookup(full_name, "SERVICES")
     return recipe
 
 
 def find_action(full_name: str) -> ActionRecipe | None:
     """Return the recipe of an action by ``package/action/Name``; ``None`` if there is none."""
-    recipe: ActionRecipe | None = _in(full_name, "ACTIONS")
+    recipe: ActionRecipe | None = _lookup(full_name, "ACTIONS")
     return recipe
 
 
-def _in(full_name: str, table: str) -> Any:  # noqa: ANN401  of the type that the table has
+def _lookup(full_name: str, table: str) -> Any:  # noqa: ANN401  of the type that the table has
     package, _, name = full_name.split("/")
     module = f"{__package__}.recipes.{package}"
     if find_spec(module) is None:

@@ -40,7 +40,7 @@ def asked(types: Types, section: Section) -> SectionPayload:
 def answered(types: Types, section: Section, given: Sequence[Section]) -> SectionPayload:
     """Return the section that a server sends: a response or a result, computed from its input."""
     fields = tuple(item for item in section.fields if not _is_failure(section, item))
-    values = {field.name: _answer(field, given) for field in fields}
+    values = {field.name: _computed_value(field, given) for field in fields}
     return _filled(types, section._replace(fields=fields), values)
 
 
@@ -86,7 +86,7 @@ def _owner(types: Types, section: Section) -> str:
     return f"{types.own_name}.{section.name.capitalize()}"
 
 
-def _answer(field: Field, given: Sequence[Section]) -> str | None:
+def _computed_value(field: Field, given: Sequence[Section]) -> str | None:
     """Return the value of a field computed from other sections, if there is one."""
     for item in given:
         same = item.field(field.name)

@@ -141,10 +141,10 @@ def parts(given: object) -> tuple[dict[str, object], ...]:
         InputError: one is neither.
     """
     items = given if isinstance(given, list | tuple) else [given]
-    return tuple(_part(item) for item in items)
+    return tuple(_part_entry(item) for item in items)
 
 
-def _part(item: object) -> dict[str, object]:
+def _part_entry(item: object) -> dict[str, object]:
     if isinstance(item, Mapping):
         if "kind" not in item:
             raise InputError(f"{dict(item)!r} has no key 'kind'")
@@ -161,11 +161,11 @@ def _part(item: object) -> dict[str, object]:
         key, equals, value = word.partition("=")
         if not equals:
             raise InputError(f"{word!r} in {item!r} is not QUESTION=ANSWER, such as rate=5")
-        entry[key] = [*_listed(entry[key]), value] if key in entry else value
+        entry[key] = [*_as_list(entry[key]), value] if key in entry else value
     return entry
 
 
-def _listed(value: object) -> list[object]:
+def _as_list(value: object) -> list[object]:
     return value if isinstance(value, list) else [value]
 
 
@@ -213,35 +213,35 @@ def quality(given: object) -> Qos:
     return qos(_string(given))
 
 
-def _anywhere(parse: Callable[[Any], object]) -> Callable[[object, str], object]:
+def _ignoring_directory(parse: Callable[[Any], object]) -> Callable[[object, str], object]:
     """Give a parser that does not depend on a directory the signature of the others."""
     return lambda given, _: parse(given)
 
 
 TYPES: Mapping[str, Callable[[object, str], object]] = {
-    "text": _anywhere(text),
-    "person": _anywhere(person),
-    "address": _anywhere(address),
-    "license": _anywhere(text),
-    "package": _anywhere(lambda given: names.package_name(_string(given))),
-    "node": _anywhere(lambda given: names.node_name(_string(given))),
-    "topic": _anywhere(lambda given: names.topic(_string(given))),
-    "service_name": _anywhere(lambda given: names.topic(_string(given), "service")),
-    "frame": _anywhere(lambda given: names.frame(_string(given))),
-    "action_name": _anywhere(lambda given: names.topic(_string(given), "action")),
-    "interface": _anywhere(lambda given: names.interface_name(_string(given))),
-    "program": _anywhere(lambda given: names.program_name(_string(given))),
+    "text": _ignoring_directory(text),
+    "person": _ignoring_directory(person),
+    "address": _ignoring_directory(address),
+    "license": _ignoring_directory(text),
+    "package": _ignoring_directory(lambda given: names.package_name(_string(given))),
+    "node": _ignoring_directory(lambda given: names.node_name(_string(given))),
+    "topic": _ignoring_directory(lambda given: names.topic(_string(given))),
+    "service_name": _ignoring_directory(lambda given: names.topic(_string(given), "service")),
+    "frame": _ignoring_directory(lambda given: names.frame(_string(given))),
+    "action_name": _ignoring_directory(lambda given: names.topic(_string(given), "action")),
+    "interface": _ignoring_directory(lambda given: names.interface_name(_string(given))),
+    "program": _ignoring_directory(lambda given: names.program_name(_string(given))),
     "message": message,
     "service": service_type,
     "action": action_type,
-    "qos": _anywhere(quality),
-    "rate": _anywhere(rate),
-    "flag": _anywhere(flag),
-    "dependencies": _anywhere(dependencies),
+    "qos": _ignoring_directory(quality),
+    "rate": _ignoring_directory(rate),
+    "flag": _ignoring_directory(flag),
+    "dependencies": _ignoring_directory(dependencies),
     "fields": fields,
-    "parts": _anywhere(parts),
-    "distributions": _anywhere(distros),
-    "several": _anywhere(nothing),
+    "parts": _ignoring_directory(parts),
+    "distributions": _ignoring_directory(distros),
+    "several": _ignoring_directory(nothing),
 }
 """The types of questions: parsers of answers, for packages in a directory."""
 

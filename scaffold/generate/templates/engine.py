@@ -62,7 +62,7 @@ class LocalEngine:
         self._loader = _Loader(roots, directories, is_tutorial=is_tutorial)
 
     @cached_property
-    def _plain(self) -> Jinja:
+    def _text_environment(self) -> Jinja:
         jinja = Sandbox(
             loader=self._loader,
             undefined=_Undefined,
@@ -88,12 +88,12 @@ class LocalEngine:
     def _xml(self) -> Jinja:
         """The same for XML files: whatever a template prints there is escaped."""
         kept = Compiled("tutorial_xml" if self._is_tutorial else "brief_xml")
-        return self._plain.overlay(finalize=filters.xml, bytecode_cache=kept)
+        return self._text_environment.overlay(finalize=filters.xml, bytecode_cache=kept)
 
     def has(self, name: str) -> bool:
         """Tell whether there is a file, such as ``launch/_readme.md.jinja``."""
         try:
-            self._plain.get_template(name)
+            self._text_environment.get_template(name)
         except TemplateNotFound:
             return False
         return True
@@ -107,7 +107,7 @@ class LocalEngine:
         if "{" not in source:
             return source
         with _TemplateErrors(source):
-            return self._plain.get_template(self._loader.named(source)).render(context)
+            return self._text_environment.get_template(self._loader.named(source)).render(context)
 
     def file(self, name: str, context: Mapping[str, Any]) -> str:
         """Render a file by its name, such as ``package/README.md.jinja``.
@@ -115,7 +115,7 @@ class LocalEngine:
         Raises:
             ContentError: it cannot be rendered.
         """
-        jinja = self._xml if name.removesuffix(ENDING).endswith(".xml") else self._plain
+        jinja = self._xml if name.removesuffix(ENDING).endswith(".xml") else self._text_environment
         with _TemplateErrors(name):
             return jinja.get_template(name).render(context)
 

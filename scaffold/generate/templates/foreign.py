@@ -51,17 +51,17 @@ class ForeignEngine:
 
     def has(self, name: str) -> bool:
         """Tell whether there is a file, such as ``launch/_readme.md.jinja``."""
-        return bool(self._ask("has", name))
+        return bool(self._request("has", name))
 
     def text(self, source: str, context: Mapping[str, Any]) -> str:
         """Render a short text; raises ContentError."""
-        return str(self._ask("text", source, context))
+        return str(self._request("text", source, context))
 
     def file(self, name: str, context: Mapping[str, Any]) -> str:
         """Render a file by its name; raises ContentError."""
-        return str(self._ask("file", name, context))
+        return str(self._request("file", name, context))
 
-    def _ask(self, *request: object) -> object:
+    def _request(self, *request: object) -> object:
         """Send a request to the process, and return its answer.
 
         Raises:

@@ -25,7 +25,7 @@ def serve() -> None:
     engine = LocalEngine(roots, directories, is_tutorial=is_tutorial)
     _limit(resource.RLIMIT_CORE, 0)
     _limit(resource.RLIMIT_AS, memory)
-    send(_answer(value=True), out)
+    send(_response(value=True), out)
     while (request := receive(source)) is not None:
         used = resource.getrusage(resource.RUSAGE_SELF)
         _limit(resource.RLIMIT_CPU, int(used.ru_utime + used.ru_stime) + seconds)
@@ -45,13 +45,13 @@ def _rendered(engine: LocalEngine, request: bytes, characters: int) -> bytes:
     try:
         value = getattr(engine, task)(name, *context)
     except ContentError as error:
-        return _answer(error=str(error)[:characters])
+        return _response(error=str(error)[:characters])
     except MemoryError:
-        return _answer(error=f"template {name!r}: {TOO_MUCH_MEMORY}")
+        return _response(error=f"template {name!r}: {TOO_MUCH_MEMORY}")
     if isinstance(value, str) and len(value) > characters:
-        return _answer(error=f"template {name!r}: renders more than {characters} characters")
-    return _answer(value=value)
+        return _response(error=f"template {name!r}: renders more than {characters} characters")
+    return _response(value=value)
 
 
-def _answer(**entry: Any) -> bytes:  # noqa: ANN401  whatever JSON has
+def _response(**entry: Any) -> bytes:  # noqa: ANN401  whatever JSON has
     return json.dumps(entry).encode()

@@ -104,11 +104,11 @@ def combined(texts: Sequence[str]) -> str:
     """Combine the texts of two branches: the lines of both, common ones once."""
     first, *others = texts
     for other in others:
-        first = _both(first.splitlines(keepends=True), other.splitlines(keepends=True))
+        first = _union(first.splitlines(keepends=True), other.splitlines(keepends=True))
     return first
 
 
-def _both(ours: list[str], theirs: list[str]) -> str:
+def _union(ours: list[str], theirs: list[str]) -> str:
     counts = Counter(theirs)
     if sum(counts[line] for line in ours) > _MOST_EQUAL:
         return "".join(ours)

@@ -32,7 +32,7 @@ def joined(old: Provenance, drafted: Drafted) -> Provenance:
     if not old.merged or len(parts) > _MOST_PARTS:
         return old
     try:
-        if any(_gave(old, drafted(ours), drafted(theirs)) for ours, theirs in _sides(parts)):
+        if any(_is_merge_of(old, drafted(ours), drafted(theirs)) for ours, theirs in _sides(parts)):
             now = drafted(parts)
             common = {path: now[path] for path in old.merged if path in now}
             lost = {path: hashes for path, hashes in old.lost.items() if path not in common}
@@ -49,7 +49,7 @@ def _sides(parts: Parts) -> Iterator[tuple[Parts, Parts]]:
             yield parts[:end], [*parts[:common], *parts[end:]]
 
 
-def _gave(old: Provenance, ours: Mapping[str, str], theirs: Mapping[str, str]) -> bool:
+def _is_merge_of(old: Provenance, ours: Mapping[str, str], theirs: Mapping[str, str]) -> bool:
     """Tell whether the merged record is that of two branches with these files."""
     return all(
         {hash_of(side.get(path, "").encode()) for side in (ours, theirs)} == set(hashes)

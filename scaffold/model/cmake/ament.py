@@ -185,14 +185,14 @@ def installs_directory(package: Package, directory: str) -> bool | None:
         for item in install.items:
             if item.path is None:
                 unknown = unknown or install.kind in {"DIRECTORY", "FILES"}
-            elif (_covers(item, directory) and install.kind == "DIRECTORY") or (
+            elif (_includes(item, directory) and install.kind == "DIRECTORY") or (
                 install.kind in {"FILES", "PROGRAMS"} and item.path.startswith(f"{directory}/")
             ):
                 return True
     return None if unknown or has_unknown_commands(package) else False
 
 
-def _covers(item: InstallItem, directory: str) -> bool:
+def _includes(item: InstallItem, directory: str) -> bool:
     path = item.path or ""
     return path in {directory, "."} or directory.startswith(f"{path}/")
 

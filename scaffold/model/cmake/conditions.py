@@ -118,30 +118,30 @@ class Condition:
 
     def decide(self) -> Decision:
         """Return whether it is true on the target."""
-        result = self._all()
-        while self._take("OR"):
-            result = _either(result, self._all())
+        result = self._conjunction()
+        while self._accept("OR"):
+            result = _or(result, self._conjunction())
         return result
 
-    def _all(self) -> Decision:
+    def _conjunction(self) -> Decision:
         result = self._single()
-        while self._take("AND"):
-            result = _not(_either(_not(result), _not(self._single())))
+        while self._accept("AND"):
+            result = _not(_or(_not(result), _not(self._single())))
         return result
 
     def _single(self) -> Decision:
-        if self._take("NOT"):
+        if self._accept("NOT"):
             return _not(self._single())
-        if self._take("("):
+        if self._accept("("):
             inner = self.decide()
-            self._take(")")
+            self._accept(")")
             return inner
         words: list[Word] = []
         while self._words and self._words[0].text not in {"AND", "OR", ")"}:
             words.append(self._words.pop(0))
         return _test(words, self._scope)
 
-    def _take(self, text: str) -> bool:
+    def _accept(self, text: str) -> bool:
         if self._words[:1] == [Word(text, is_quoted=False)]:
             del self._words[0]
             return True
@@ -153,7 +153,7 @@ def _test(words: Sequence[Word], scope: Scope) -> Decision:
         case ["DEFINED", variable] if variable in OF_DISTRIBUTION:
             return Decision(holds=True, is_asked=True)
         case [_]:
-            return _truth(words[0], scope)
+            return _truth_of(words[0], scope)
         case [name, operator, _] if operator.startswith("VERSION_"):
             return _version(name, operator.removeprefix("VERSION_"), words, scope)
         case [_, operator, _]:
@@ -204,7 +204,7 @@ def _operand(word: Word, scope: Scope) -> Known:
     return value if is_variable else scope.expand(word.text)
 
 
-def _truth(word: Word, scope: Scope) -> Decision:
+def _truth_of(word: Word, scope: Scope) -> Decision:
     operand = _operand(word, scope)
     if operand.value is None or not operand.is_asked:
         return UNDECIDED
@@ -240,7 +240,7 @@ def _version(left: str, operator: str, words: Sequence[Word], scope: Scope) -> D
     released = target().fact("released").get(package)
     if released is None or not _VERSION.fullmatch(wanted) or operator not in _TEXTS:
         return UNDECIDED
-    ours, theirs = _numbers(released), _numbers(wanted)
+    ours, theirs = _version_key(released), _version_key(wanted)
     if ours[:_FIXED_PARTS] == theirs[:_FIXED_PARTS]:
         return _between_releases(operator, theirs)
     if ours < theirs and target().name in ALIASES:  # which may be later than the known version
@@ -256,12 +256,12 @@ def _between_releases(operator: str, wanted: tuple[int, ...]) -> Decision:
     return Decision(operator == "GREATER_EQUAL", is_asked=True)
 
 
-def _numbers(version: str) -> tuple[int, ...]:
+def _version_key(version: str) -> tuple[int, ...]:
     numbers = [int(part) for part in version.split(".")]
     return (*numbers, *[0] * (4 - len(numbers)))
 
 
-def _either(left: Decision, right: Decision) -> Decision:
+def _or(left: Decision, right: Decision) -> Decision:
     is_asked = left.is_asked or right.is_asked
     if left.holds or right.holds:
         return Decision(holds=True, is_asked=is_asked)

@@ -121,7 +121,7 @@ class _Walk:
                 self._forget(command)
             elif command.name.startswith("end") and command.name[3:] in _BODIES:
                 yield from self._close(command)
-            elif _leaves(command) and self._is_sure:
+            elif _ends_file(command) and self._is_sure:
                 holder = self._function
                 if holder is None:
                     yield self._line(command) + 1, len(self._lists.source.lines)
@@ -146,7 +146,7 @@ class _Walk:
         elif command.name == "else":
             block.enter_last(line)
         else:
-            words = [_word(argument) for argument in command.arguments]
+            words = [_as_word(argument) for argument in command.arguments]
             block.enter(Condition(words, self._scope).decide(), line)
 
     def _close(self, command: Command) -> Iterator[Lines]:
@@ -180,12 +180,12 @@ class _Walk:
     def _follow(self, command: Command) -> None:
         match command.name, [argument.value for argument in command.arguments]:
             case "set", [name, *rest] if not {"CACHE", "PARENT_SCOPE"} & {*rest}:
-                self._set(name, self._joined(command.arguments[1:]))
+                self._set(name, self._list_value(command.arguments[1:]))
             case "unset", [name]:
                 self._set(name, Known(""))
             case "list", ["APPEND", name, *_]:
-                before, added = self._scope.lookup(name), self._joined(command.arguments[2:])
-                self._set(name, _listed(before, added))
+                before, added = self._scope.lookup(name), self._list_value(command.arguments[2:])
+                self._set(name, _appended(before, added))
             case "string", ["COMPARE", operator, _, _, name]:
                 left, right = (self._scope.expand(one.text) for one in command.arguments[2:4])
                 decision = compare(operator, left, right)
@@ -214,7 +214,7 @@ class _Walk:
             if not argument.quoted and self._scope.is_set(argument.value):
                 self._scope.set(argument.value, UNKNOWN)
 
-    def _joined(self, arguments: list[Argument]) -> Known:
+    def _list_value(self, arguments: list[Argument]) -> Known:
         known = [
             Known(argument.text) if argument.bracket else self._scope.expand(argument.text)
             for argument in arguments
@@ -229,18 +229,18 @@ class _Walk:
         return _line(self._lists, command)
 
 
-def _word(argument: Argument) -> Word:
+def _as_word(argument: Argument) -> Word:
     return Word(argument.text, is_quoted=argument.quoted or argument.bracket)
 
 
-def _leaves(command: Command) -> bool:
+def _ends_file(command: Command) -> bool:
     """Tell whether no command of the file runs after another one."""
     return command.name == "return" or (
         command.name == "message" and command.values[:1] == ["FATAL_ERROR"]
     )
 
 
-def _listed(before: Known, added: Known) -> Known:
+def _appended(before: Known, added: Known) -> Known:
     if before.value is None or added.value is None:
         return UNKNOWN
     value = ";".join(filter(None, (before.value, added.value)))

@@ -172,7 +172,7 @@ class _Lexer:
         if self.attempts > _ATTEMPTS:
             self._add("bad", start)
             return len(text)
-        start = self._blame(start)
+        start = self._unclosed_string(start)
         self.blamed = start
         line_end = text.find("\n", start)
         line = text[start : len(text) if line_end < 0 else line_end]
@@ -180,7 +180,7 @@ class _Lexer:
         self._add("bad", start)
         return start + max(len(line.rstrip(" \t\r)")), 1)
 
-    def _blame(self, last: int) -> int:
+    def _unclosed_string(self, last: int) -> int:
         """Return the start of the first string that contains a command; drop what follows."""
         kinds, starts = self.tokens.kinds, self.tokens.starts
         for number, kind in enumerate(kinds):

@@ -183,7 +183,7 @@ class Command:
     @property
     def blocks(self) -> tuple[Command, ...]:
         """The commands that opened the blocks around it, the outermost first."""
-        return tuple(self._around())[::-1]
+        return tuple(self._ancestors())[::-1]
 
     @property
     def values(self) -> list[str]:
@@ -213,7 +213,7 @@ class Command:
         """Tell whether a keyword is among the arguments."""
         return any(argument.value == keyword for argument in self.arguments)
 
-    def _around(self) -> Iterator[Command]:
+    def _ancestors(self) -> Iterator[Command]:
         parent = self.parent
         while parent is not None:
             yield parent
@@ -292,10 +292,10 @@ class _Parser:
                 fresh_line = False
                 self._command(number)
             elif kind not in _BLANK:
-                self._stray(number)
+                self._skip_stray(number)
                 fresh_line = True
 
-    def _stray(self, number: int) -> None:
+    def _skip_stray(self, number: int) -> None:
         """Skip a token that cannot start a command, and the rest of its line."""
         if self.kinds[number] == "close":
             self._complain(number, 'no "(" belongs to this ")"')
@@ -402,7 +402,7 @@ class _Nesting:
                     self._complain(command, "else() was the last branch of this if()")
                 self.branches[-1] = command
             elif fits:
-                self._pop()
+                self._close_block()
             elif command.name in _OPENERS:
                 self.blocks.append(command)
                 self.branches.append(command)
@@ -424,12 +424,12 @@ class _Nesting:
             return False
         line = self.source.position(end.start)[0]
         while self.blocks[-1].name != opener:
-            block = self._pop()
+            block = self._close_block()
             message = f"end{block.name}() expected before the {end.name}() of line {line}"
             self._complain(block, message)
         return True
 
-    def _pop(self) -> Command:
+    def _close_block(self) -> Command:
         block = self.blocks.pop()
         self.branches.pop()
         self.open_names[block.name] -= 1

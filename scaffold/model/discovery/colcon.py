@@ -64,7 +64,7 @@ def package_around(disk: Disk, directory: str) -> str | None:
         disk: Records what was accessed.
         directory: An absolute path.
     """
-    for parent in _upwards(directory):
+    for parent in _parents(directory):
         if disk.is_file(os.path.join(parent, MANIFEST)):
             return parent
     return None
@@ -79,7 +79,7 @@ def sources_around(disk: Disk, directory: str) -> str | None:
         disk: Records what was accessed.
         directory: An absolute path without links.
     """
-    candidates = [upward for upward in _upwards(directory) if os.path.basename(upward) == SOURCES]
+    candidates = [upward for upward in _parents(directory) if os.path.basename(upward) == SOURCES]
     for sources in candidates if len(candidates) > 1 else ():
         top = os.path.dirname(sources)
         if any(disk.is_directory(os.path.join(top, result)) for result in _RESULTS):
@@ -132,11 +132,11 @@ def packages_in(disk: Disk, directory: str, *, most: int) -> list[str]:
 
 def repository_around(disk: Disk, directory: str) -> str | None:
     """Return the top of the git repository at or above a directory."""
-    tops = (item for item in _upwards(directory) if disk.exists(os.path.join(item, ".git")))
+    tops = (item for item in _parents(directory) if disk.exists(os.path.join(item, ".git")))
     return next(tops, None)
 
 
-def _upwards(directory: str) -> list[str]:
+def _parents(directory: str) -> list[str]:
     result = [directory]
     while result[-1] != os.path.dirname(result[-1]):
         result.append(os.path.dirname(result[-1]))

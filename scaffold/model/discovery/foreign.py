@@ -122,7 +122,7 @@ class Foreign:
 
     def _is_submodule(self, disk: Disk, path: str) -> bool:
         return any(
-            path in self._submodules_of(disk, above) for above in _upwards(os.path.dirname(path))
+            path in self._submodules_of(disk, above) for above in _parents(os.path.dirname(path))
         )
 
     def _submodules_of(self, disk: Disk, directory: str) -> frozenset[str]:
@@ -228,7 +228,7 @@ def _text(disk: Disk, path: str) -> str:
 # -- paths
 
 
-def _upwards(path: str) -> Iterator[str]:
+def _parents(path: str) -> Iterator[str]:
     while True:
         yield path
         parent = os.path.dirname(path)
@@ -240,7 +240,7 @@ def _upwards(path: str) -> Iterator[str]:
 def _downwards(top: str, path: str) -> list[str]:
     """Return the paths from below a directory down to another path."""
     result = []
-    for at in _upwards(path):
+    for at in _parents(path):
         if at == top:
             break
         result.append(at)

@@ -97,7 +97,7 @@ def find(
     for package in (*(target.package for target in targets), *excluded.values()):
         workspace.add(package)
     top = [disk.real(os.curdir)] if whole_packages else []
-    workspace.around = _surroundings(disk, workspace, directories, top)
+    workspace.around = _unchecked_neighbors(disk, workspace, directories, top)
     return sorted(targets, key=lambda target: target.package.directory)
 
 
@@ -150,7 +150,7 @@ def _packages_of(disk: Disk, paths: Sequence[str]) -> list[str]:
     return [*result]
 
 
-def _surroundings(
+def _unchecked_neighbors(
     disk: Disk, workspace: Workspace, given: Sequence[str], tops: Sequence[str]
 ) -> UncheckedPackages | None:
     """Return the packages next to those given, unless the whole workspace was given.

@@ -135,15 +135,15 @@ def _dirname(text: str) -> str:
     return text.rpartition("/")[0]
 
 
-def _same(text: str) -> str:
+def _identity(text: str) -> str:
     return text
 
 
 _PATH_FUNCTIONS: Mapping[str, Callable[[str], str]] = {
     "os.path.dirname": _dirname,
-    "os.path.abspath": _same,
-    "os.path.realpath": _same,
-    "os.path.normpath": _same,
+    "os.path.abspath": _identity,
+    "os.path.realpath": _identity,
+    "os.path.normpath": _identity,
 }
 
 

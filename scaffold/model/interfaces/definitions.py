@@ -240,11 +240,11 @@ class Definitions:
         result: list[tuple[float, bool, str]] = []
         for full_name in self.all_names():
             package, kind, name = full_name.split("/")
-            likeness = _likeness(wanted.name, name)
+            likeness = _similarity(wanted.name, name)
             if likeness < _ALIKE:
                 continue
             if wanted.package:
-                likeness += _likeness(wanted.package, package)
+                likeness += _similarity(wanted.package, package)
             if wanted.kind == kind:
                 likeness += _SAME_KIND
             result.append((-likeness, _is_copy(full_name), full_name))
@@ -289,7 +289,7 @@ _FAR = 0.5
 """Suggestions that are less similar than the best one by more than this are dropped."""
 
 
-def _likeness(text: str, other: str) -> float:
+def _similarity(text: str, other: str) -> float:
     from difflib import SequenceMatcher
 
     return SequenceMatcher(None, text.lower(), other.lower()).ratio()

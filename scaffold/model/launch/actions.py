@@ -123,7 +123,7 @@ def describe(launch: LaunchFile, node: ast.expr) -> str:
     if any(_is_action_class(name) for name in names):
         return "this is a class"
     if isinstance(node, ast.Call):
-        return _called(launch, node)
+        return _described(launch, node)
     return _literal(node)
 
 
@@ -153,7 +153,7 @@ def _literal(node: ast.expr) -> str:
     return kind
 
 
-def _called(launch: LaunchFile, node: ast.Call) -> str:
+def _described(launch: LaunchFile, node: ast.Call) -> str:
     names = launch.module.qualified_names(node.func)
     if any(name.startswith(("launch.events.", "launch_ros.events.")) for name in names):
         return "this is an event"

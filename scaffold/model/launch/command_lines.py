@@ -74,17 +74,17 @@ def command_lines(package: Package, program: str) -> Iterator[CommandLine]:
         for call in launch.find(*NODES):
             if launch.text(call, "executable") == program:
                 for line in _in_python(launch, call, "arguments"):
-                    yield line._replace(words=_own(line.words))
+                    yield line._replace(words=_program_words(line.words))
     for file in markup_files(package):
         for node in file.nodes:
             given = node.arguments
             if node.executable is not None and node.executable.value == program and given:
-                words = _own(_split(given))
+                words = _program_words(_split(given))
                 yield CommandLine(given.location, given.location, words, attribute=given)
     for line in processes(package):
         texts = [word.text for word in line.words[:4]]
         if texts[:2] == _RUN and texts[3:] == [program]:
-            yield line._replace(words=_own(line.words[4:]))
+            yield line._replace(words=_program_words(line.words[4:]))
 
 
 def processes(package: Package) -> Iterator[CommandLine]:
@@ -128,7 +128,7 @@ def _text(word: str) -> str:
     return UNSAID if "$(" in word else word
 
 
-def _own(words: Sequence[Word]) -> Sequence[Word]:
+def _program_words(words: Sequence[Word]) -> Sequence[Word]:
     """Return the words for the program, without ROS arguments."""
     result: list[Word] = []
     is_for_ros = False

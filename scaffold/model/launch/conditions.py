@@ -37,10 +37,10 @@ UNKNOWN = Text(HOLE)
 
 def truth(text: Text) -> bool | None:
     """Return whether a condition is true on the target; ``None`` if that is open."""
-    return _holds(text) if text.is_asked else None
+    return _boolean(text) if text.is_asked else None
 
 
-def _holds(text: Text) -> bool | None:
+def _boolean(text: Text) -> bool | None:
     value = text.value.strip().lower()
     return True if value in _TRUE else False if value in _FALSE else None
 
@@ -69,7 +69,7 @@ def applied(kind: str, operands: Sequence[Text]) -> Text:
         operands: Its arguments.
     """
     is_asked = any(operand.is_asked for operand in operands)
-    values = [_holds(operand) for operand in operands]
+    values = [_boolean(operand) for operand in operands]
     match kind, operands:
         case "env", [name, *_]:
             return of_environment(name.value)

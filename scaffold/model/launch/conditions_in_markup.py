@@ -38,7 +38,7 @@ class Variables:
                 yield UNKNOWN
                 return
             yield Text(value[at:start])
-            name, *operands = [*_words(value[start + 2 : end])] or [""]
+            name, *operands = [*_substitution_words(value[start + 2 : end])] or [""]
             if name == "var" and operands:
                 yield self._variable(operands[0], depth)
             else:
@@ -75,7 +75,7 @@ def _closing(value: str, at: int) -> int:
     return -1
 
 
-def _words(value: str) -> Iterator[str]:
+def _substitution_words(value: str) -> Iterator[str]:
     """Yield the name and the arguments of a substitution, without their quotes."""
     word, quote = "", ""
     at = 0

@@ -55,14 +55,14 @@ def may_be_set_elsewhere(package: Package, launch: LaunchFile, name: str) -> boo
     basename = launch.path.rpartition("/")[2]
     including = [
         text
-        for _, text in _others(package, launch)
+        for _, text in _other_launch_files(package, launch)
         if basename in text or (package.name in text and _may_compute(text, basename))
     ]
     if any(name in text for text in including):
         return True
     return bool(including) and any(
         name in text and any(other in item for item in including)
-        for other, text in _others(package, launch)
+        for other, text in _other_launch_files(package, launch)
     )
 
 
@@ -71,7 +71,7 @@ def _may_compute(text: str, basename: str) -> bool:
     return any(basename.endswith(match[1]) for match in _COMPUTED.finditer(text))
 
 
-def _others(package: Package, launch: LaunchFile) -> Iterator[tuple[str, str]]:
+def _other_launch_files(package: Package, launch: LaunchFile) -> Iterator[tuple[str, str]]:
     """Yield name and text of the other launch files of the workspace."""
     for other in package.workspace:
         for path in other.files:

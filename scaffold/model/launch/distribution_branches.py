@@ -56,10 +56,10 @@ def _in_python(launch: LaunchFile) -> Iterator[Stretch]:
         node = call.given.get("condition")
         if node is not None and conditions.holds(node) is False:
             yield _stretch(launch.location(call.call))
-            yield from _held(launch, call)
+            yield from _group_actions(launch, call)
 
 
-def _held(launch: LaunchFile, group: LaunchCall) -> Iterator[Stretch]:
+def _group_actions(launch: LaunchFile, group: LaunchCall) -> Iterator[Stretch]:
     """Yield the actions of a group that are created before it and only used there."""
     actions = group.given.get("actions")
     for item in actions.elts if isinstance(actions, ast.List) else ():

@@ -103,7 +103,7 @@ def _step(launch: LaunchFile, call: LaunchCall) -> Step:
     if call.kind == "OpaqueFunction":
         return Step(call, tuple(_performed(launch, call)) if "condition" not in call.given else ())
     parts = [call.given["condition"]] if "condition" in call.given else list(call.given.values())
-    read = [item for part in parts for item in _reads(launch, part, 0)]
+    read = [item for part in parts for item in _configurations_in(launch, part, 0)]
     return Step(call, tuple(read))
 
 
@@ -117,10 +117,10 @@ def _performed(launch: LaunchFile, call: LaunchCall) -> Iterator[LaunchCall]:
             return  # it may set a configuration
         match statement.value:
             case ast.Call(func=ast.Attribute(value=holder, attr="perform")):
-                yield from _reads(launch, holder, 0)
+                yield from _configurations_in(launch, holder, 0)
 
 
-def _reads(launch: LaunchFile, node: ast.expr, depth: int) -> Iterator[LaunchCall]:
+def _configurations_in(launch: LaunchFile, node: ast.expr, depth: int) -> Iterator[LaunchCall]:
     """Yield the launch configurations without a default in an expression, through names."""
     for part in ast.walk(node):
         if isinstance(part, ast.Call):
@@ -131,4 +131,4 @@ def _reads(launch: LaunchFile, node: ast.expr, depth: int) -> Iterator[LaunchCal
         elif isinstance(part, ast.Name) and depth < _DEEPEST:
             value = launch.module.index.only_value(part)
             if value is not None:
-                yield from _reads(launch, value, depth + 1)
+                yield from _configurations_in(launch, value, depth + 1)

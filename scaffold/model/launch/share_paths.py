@@ -114,7 +114,7 @@ def _is_only_read(file: LaunchFile, node: ast.expr) -> bool:
         for call in module.walk(ast.Call)
         if not texts.isdisjoint(map(module.text, (*call.args, *_owner(call))))
     ]
-    return bool(calls) and all(map(_reads, calls))
+    return bool(calls) and all(map(_is_read, calls))
 
 
 def _owner(call: ast.Call) -> Iterator[ast.expr]:
@@ -123,7 +123,7 @@ def _owner(call: ast.Call) -> Iterator[ast.expr]:
         yield call.func.value
 
 
-def _reads(call: ast.Call) -> bool:
+def _is_read(call: ast.Call) -> bool:
     """Tell whether a call reads the file passed to it."""
     name = getattr(call.func, "attr", getattr(call.func, "id", ""))
     if name != "open":
@@ -306,7 +306,7 @@ def _reason(owner: Package, path: str, files: dict[str, str]) -> str | None:
     where = [file for file in owner.files if _name(file) == _name(path)]
     installed = sorted(name for name, source in files.items() if source in where)
     if installed:
-        return _instead(owner, path, installed)
+        return _installed_alternative(owner, path, installed)
     if where:
         first = path if path in where else where[0]
         if _nothing_of(first, files):
@@ -335,7 +335,7 @@ def _is_converted(owner: Package, path: str) -> bool:
     )
 
 
-def _instead(owner: Package, path: str, installed: list[str]) -> str:
+def _installed_alternative(owner: Package, path: str, installed: list[str]) -> str:
     """Return the installed file of the same name: the only one, or the closest."""
     if len(installed) == 1:
         return f"it is installed as share/{owner.name}/{installed[0]}"

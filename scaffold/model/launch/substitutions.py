@@ -103,7 +103,7 @@ def _in_call(launch: LaunchFile, call: ast.Call) -> Iterator[TextUse]:
             for node in [*call.args, *(word.value for word in call.keywords)]:
                 yield from _single(launch, node, "in format()")
         case ast.Attribute(value=ast.Constant(value=str()), attr="join"):
-            for node in _joined(call):
+            for node in _parts_of(call):
                 yield from _single(launch, node, "in join()")
         case ast.Attribute(value=holder, attr=method):
             kind = _kind(launch, holder)
@@ -113,7 +113,7 @@ def _in_call(launch: LaunchFile, call: ast.Call) -> Iterator[TextUse]:
                 yield TextUse(call, kind, "without a context")
 
 
-def _joined(call: ast.Call) -> list[ast.expr]:
+def _parts_of(call: ast.Call) -> list[ast.expr]:
     match call.args:
         case [ast.List(elts=items) | ast.Tuple(elts=items)]:
             return items
@@ -266,13 +266,13 @@ def _is_set(name: ast.Name) -> bool:
 def _text(launch: LaunchFile, node: ast.expr | None) -> str | Unknown:
     """Return the text of an expression, with the defaults of the launch arguments in it."""
     if not isinstance(node, ast.List):
-        return _part(launch, node)
-    parts = [_part(launch, item) for item in node.elts]
+        return _part_text(launch, node)
+    parts = [_part_text(launch, item) for item in node.elts]
     texts = [part for part in parts if isinstance(part, str)]
     return "".join(texts) if len(texts) == len(parts) else UNKNOWN
 
 
-def _part(launch: LaunchFile, node: ast.expr | None) -> str | Unknown:
+def _part_text(launch: LaunchFile, node: ast.expr | None) -> str | Unknown:
     call = launch.call_of(node)
     if call is not None and call.kind == "LaunchConfiguration":
         return launch.default_of(node)

@@ -42,7 +42,7 @@ def insert(
 
 def insert_after(document: Document, element: Element, markup: str) -> Edit:
     """Add markup after an element, on a separate line if the element has one."""
-    return _after(document, element, markup)
+    return _insert_after(document, element, markup)
 
 
 def _insert_into(document: Document, parent: Element, markup: str) -> Edit:
@@ -50,7 +50,7 @@ def _insert_into(document: Document, parent: Element, markup: str) -> Edit:
     source = document.source
     children = parent.children
     if children:
-        return _after(document, children[-1], markup)
+        return _insert_after(document, children[-1], markup)
     outer = _indent_of(document, parent)
     unit = _indentation(document)
     body = f"{source.newline}{outer}{unit}{markup}{source.newline}{outer}"
@@ -157,13 +157,13 @@ def place(document: Document, tag: str, text: str, markup: str) -> Edit:
         if all(item <= two for item, two in pairwise(texts)):
             for element in run:
                 if element.text > text:
-                    return _before(document, element, markup)
-        return _after(document, run[-1], markup)
+                    return _insert_before(document, element, markup)
+        return _insert_after(document, run[-1], markup)
     anchor = _predecessor(children, tag)
     if anchor is not None:
-        return _after(document, anchor, markup)
+        return _insert_after(document, anchor, markup)
     if children:
-        return _before(document, children[0], markup)
+        return _insert_before(document, children[0], markup)
     return _insert_into(document, document.root, markup)
 
 
@@ -192,7 +192,7 @@ def _custom(tag: str) -> int:
     return _DEPENDENCIES.index(tag) if tag in _DEPENDENCIES else 0
 
 
-def _after(document: Document, element: Element, markup: str) -> Edit:
+def _insert_after(document: Document, element: Element, markup: str) -> Edit:
     source = document.source
     at = _rest_of_line(document, element)
     if at is None:
@@ -201,7 +201,7 @@ def _after(document: Document, element: Element, markup: str) -> Edit:
     return Edit(source.path, at, at, text)
 
 
-def _before(document: Document, element: Element, markup: str) -> Edit:
+def _insert_before(document: Document, element: Element, markup: str) -> Edit:
     source = document.source
     at = element.start
     first = source.text.rfind("\n", 0, at) + 1

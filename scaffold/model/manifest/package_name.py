@@ -25,9 +25,9 @@ def _other_name(package: Package) -> str | None:
     except ViewError:
         return None
     other = _built_name(package)
-    if not other or not declared or _plain(other) == _plain(declared):
+    if not other or not declared or _normalized(other) == _normalized(declared):
         return None
-    if _witnesses(package, other) > _witnesses(package, declared):
+    if _other_uses(package, other) > _other_uses(package, declared):
         return other
     return None
 
@@ -43,7 +43,7 @@ def _built_name(package: Package) -> str | None:
     return name if isinstance(name, str) else None
 
 
-def _witnesses(package: Package, name: str) -> int:
+def _other_uses(package: Package, name: str) -> int:
     """Count the other uses of a name in the package."""
     return sum(
         (
@@ -62,5 +62,5 @@ def _script_directory(package: Package) -> str:
         return ""
 
 
-def _plain(name: str) -> str:
+def _normalized(name: str) -> str:
     return name.replace("-", "_")

@@ -83,9 +83,12 @@ class Structure:
         """The elements that the format does not have."""
         elements = [] if self.is_manifest else [self.root]
         elements += [child for child in self.children if child.tag not in self.sections]
-        return [Unknown(element, self._since(element.tag)) for element in elements[:_MOST_UNKNOWN]]
+        return [
+            Unknown(element, self._first_format(element.tag))
+            for element in elements[:_MOST_UNKNOWN]
+        ]
 
-    def _since(self, tag: str) -> int | None:
+    def _first_format(self, tag: str) -> int | None:
         return next((n for n in FORMATS if n > self.format and tag in _sections(n)), None)
 
     @cached_property
@@ -143,9 +146,9 @@ class Structure:
         """Text between elements, in the root and in ``export``."""
         parents = [self.root] if self.is_manifest else []
         parents += [child for child in self.known if child.tag == "export"]
-        return sorted(at for parent in parents for at in self._stray(parent))
+        return sorted(at for parent in parents for at in self._stray_text(parent))
 
-    def _stray(self, parent: Element) -> Iterator[Location]:
+    def _stray_text(self, parent: Element) -> Iterator[Location]:
         for is_text, items in groupby(parent.content, lambda item: isinstance(item, Text)):
             runs = [i for i in items if isinstance(i, Text) and i.text.strip(BLANK)]
             if is_text and runs:
@@ -163,10 +166,10 @@ class Structure:
             (element, attribute)
             for element in elements
             for attribute in element.attributes.values()
-            if not self._knows(element, attribute)
+            if not self._is_allowed(element, attribute)
         ]
 
-    def _knows(self, element: Element, attribute: Attribute) -> bool:
+    def _is_allowed(self, element: Element, attribute: Attribute) -> bool:
         name = attribute.name
         if name in self.attributes(element):
             return True

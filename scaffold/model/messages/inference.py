@@ -372,10 +372,10 @@ class MessageTypes:
 
     def _is_asked(self, scope: ast.AST, name: str) -> bool:
         """Tell whether code tests the type of an object, which may then be any."""
-        return (scope, name) in self._asked
+        return (scope, name) in self._type_checked_names
 
     @cached_property
-    def _asked(self) -> frozenset[tuple[ast.AST, str]]:
+    def _type_checked_names(self) -> frozenset[tuple[ast.AST, str]]:
         result: set[tuple[ast.AST, str]] = set()
         for call in self.module.walk(ast.Call):
             if not (isinstance(call.func, ast.Name) and call.func.id in _ASKS_TYPE and call.args):
@@ -400,7 +400,7 @@ class MessageTypes:
         return sorted(result, key=lambda item: (item.value.lineno, item.value.col_offset))
 
     def _assigned_attributes(self) -> Iterator[Assigned]:
-        for store in self._stores():
+        for store in self._attribute_stores():
             if store.value is None or self.is_tolerated(store.node):
                 continue
             owner = self.type_of(store.node.value)
@@ -408,7 +408,7 @@ class MessageTypes:
             if owner and field:
                 yield Assigned(owner, field, store.value, store.node.value)
 
-    def _stores(self) -> Iterator[Store]:
+    def _attribute_stores(self) -> Iterator[Store]:
         for name in sorted({node.attr for node in self.module.walk(ast.Attribute)}):
             yield from self.file.evaluator.stores(name)
 

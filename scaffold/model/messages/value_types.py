@@ -119,7 +119,7 @@ class ValueTypes:
                     inner = self.of(operand)
                     kind = inner if inner in _NUMBERS else None
                 case ast.IfExp():
-                    kind = self._agreed([node.body, node.orelse])
+                    kind = self._common_type([node.body, node.orelse])
                 case ast.BinOp():
                     kind = self._of_operation(node)
                 case ast.Attribute():
@@ -131,7 +131,7 @@ class ValueTypes:
     def _of_call(self, node: ast.Call) -> str | None:
         name = self._module.qualified_name(node.func) or ""
         if name in {"abs", "min", "max"} and len(node.args) > (name != "abs") and not node.keywords:
-            kind = self._agreed(node.args)
+            kind = self._common_type(node.args)
             return kind if kind in _NUMBERS else None
         if name == "round" and len(node.args) == 1:
             return "int" if self.of(node.args[0]) in _NUMBERS else None
@@ -158,7 +158,7 @@ class ValueTypes:
         ]
         if not bindings or any(b.kind != "assignment" or b.value is None for b in bindings):
             return None
-        return self._agreed([b.value for b in bindings if b.value is not None])
+        return self._common_type([b.value for b in bindings if b.value is not None])
 
     def _of_attribute(self, node: ast.Attribute) -> str | None:
         """Return the type of a field, or of an attribute of ``self`` used as a counter."""
@@ -183,9 +183,9 @@ class ValueTypes:
                 return None
             else:
                 values.append(store.value)
-        return self._agreed(values)
+        return self._common_type(values)
 
-    def _agreed(self, values: Sequence[ast.expr]) -> str | None:
+    def _common_type(self, values: Sequence[ast.expr]) -> str | None:
         kinds = {self.of(value) for value in values}
         return kinds.pop() if len(kinds) == 1 else None
 

@@ -345,7 +345,7 @@ class Reach(Enum):
     NEVER = "never"
 
 
-def _most(reaches: Iterable[Reach]) -> Reach:
+def _strongest(reaches: Iterable[Reach]) -> Reach:
     """Return the strongest reach of several places."""
     reached = set(reaches)
     order = (Reach.ALWAYS, Reach.PERHAPS)
@@ -372,7 +372,7 @@ class PublishReach:
         calls = publish_calls(self._file, publisher)
         if calls is None:
             return Reach.PERHAPS
-        return _most(self._reach_of_call(call, _MAX_DEPTH) for call in calls)
+        return _strongest(self._reach_of_call(call, _MAX_DEPTH) for call in calls)
 
     def _reach_of_call(self, call: ast.Call, depth: int) -> Reach:
         for parent in self._module.parents(call):
@@ -387,7 +387,7 @@ class PublishReach:
             return Reach.ALWAYS
         if self._is_behind_spin(function, call):
             return Reach.PERHAPS
-        leaving = self._leaving(function, call)
+        leaving = self._leaving_statements(function, call)
         if any(self._module.parent(node) is function for node in leaving):
             return Reach.NEVER
         return Reach.PERHAPS if leaving else self._reach_of_function(function, depth)
@@ -407,7 +407,7 @@ class PublishReach:
                 reached.add(Reach.ALWAYS if ticks else Reach.PERHAPS)
         if not self._alone or self._mentions(function) > len(calls) + passed:
             reached.add(Reach.PERHAPS)
-        return _most(reached)
+        return _strongest(reached)
 
     def _is_behind_spin(self, function: FunctionNode, call: ast.Call) -> bool:
         """Tell whether a function spins forever before a call."""
@@ -429,7 +429,7 @@ class PublishReach:
             if self._file.callback(call.func).function is function:
                 yield call
 
-    def _leaving(self, function: FunctionNode, call: ast.Call) -> list[ast.AST]:
+    def _leaving_statements(self, function: FunctionNode, call: ast.Call) -> list[ast.AST]:
         """Return the statements that may leave a function before a call."""
         nodes: list[ast.Return | ast.Raise | ast.Yield | ast.Await] = [
             *self._module.walk(ast.Return),

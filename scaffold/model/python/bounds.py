@@ -26,14 +26,14 @@ def why_unchecked(index: ScopeIndex) -> str:
     """
     size = len(index.nodes)
     if size > MAX_NODES:
-        return _refusal(f"a syntax tree of {size} nodes", MAX_NODES)
+        return _limit_message(f"a syntax tree of {size} nodes", MAX_NODES)
     longest = _longest_block(index) if size > MAX_STATEMENTS else 0
     if longest > MAX_STATEMENTS:
-        return _refusal(f"{longest} statements in one block", MAX_STATEMENTS)
+        return _limit_message(f"{longest} statements in one block", MAX_STATEMENTS)
     return ""
 
 
-def _refusal(much: str, most: int) -> str:
+def _limit_message(much: str, most: int) -> str:
     return f"{much}; the limit is {most}: the file is not checked"
 
 

@@ -23,7 +23,7 @@ def stretches_not_run(module: PythonModule) -> Iterator[Stretch]:
     """Yield the ranges of code that does not run on the target distribution."""
     if not module.mentions(*ASKED):
         return
-    for first, last in chain(_dead(module), _dead_parts(module), _skipped(module)):
+    for first, last in chain(_skipped_branches(module), _dead_parts(module), _skipped(module)):
         start, end = module.location(first), module.location(last)
         if isinstance(first, ast.expr):
             yield start.line, start.column, end.end_line, end.end_column
@@ -39,7 +39,7 @@ def is_run(module: PythonModule, at: Location) -> bool:
     return not any(item[:2] <= place < item[2:] for item in stretches_not_run(module))
 
 
-def _dead(module: PythonModule) -> Iterator[tuple[ast.AST, ast.AST]]:
+def _skipped_branches(module: PythonModule) -> Iterator[tuple[ast.AST, ast.AST]]:
     """Yield the first and last nodes of branches that do not run."""
     branches: list[ast.If | ast.While | ast.IfExp] = [*module.walk(ast.If), *module.walk(ast.While)]
     for node in (*branches, *module.walk(ast.IfExp)):
@@ -72,7 +72,7 @@ def _dead_parts(module: PythonModule) -> Iterator[tuple[ast.AST, ast.AST]]:
 
 def _left_out(module: PythonModule, node: ast.stmt) -> Iterator[tuple[ast.AST, ast.AST]]:
     """Yield the statements after one that leaves its block on the target."""
-    if not _leaves(module, node):
+    if not _leaves_block(module, node):
         return
     field, number = module.index.place(node)
     block = getattr(module.index.parent(node), field, None)
@@ -80,14 +80,14 @@ def _left_out(module: PythonModule, node: ast.stmt) -> Iterator[tuple[ast.AST, a
         yield block[number + 1], block[-1]
 
 
-def _leaves(module: PythonModule, statement: ast.stmt) -> bool:
+def _leaves_block(module: PythonModule, statement: ast.stmt) -> bool:
     """Tell whether a statement leaves its block on the target."""
     if isinstance(statement, ast.If):
         decided = holds(module, statement.test)
         branches = [statement.body, statement.orelse]
         if decided is not None:
             branches = [statement.body if decided else statement.orelse]
-        return all(branch and _leaves(module, branch[-1]) for branch in branches)
+        return all(branch and _leaves_block(module, branch[-1]) for branch in branches)
     if isinstance(statement, ast.Assert):
         return holds(module, statement.test) is False
     return leaves_block(module, statement)

@@ -128,11 +128,11 @@ class _DistributionEvaluator(Evaluator):
             case ast.Call(func=func, args=[ast.Constant(value=key), *_]) if (
                 key in _OF_ENVIRONMENT and self.module.qualified_name(func) == _GETTER
             ):
-                return self._asked(key)
+                return self._environment_value(key)
             case ast.Call(
                 func=ast.Attribute(attr="get", value=holder), args=[ast.Constant(value=key), *_]
             ) if key in _OF_ENVIRONMENT and self._is_environment(holder):
-                return self._asked(key)
+                return self._environment_value(key)
             case ast.Call(
                 func=ast.Attribute(attr="startswith" | "endswith" as method, value=holder),
                 args=[argument],
@@ -151,7 +151,7 @@ class _DistributionEvaluator(Evaluator):
             case ast.Call(func=ast.Attribute(attr="perform", value=holder)) if (
                 self._is_substitution(holder)
             ):
-                return self._asked(VARIABLE)
+                return self._environment_value(VARIABLE)
         for argument in node.args:
             self.evaluate(argument)  # evaluated for its notes
         return UNKNOWN
@@ -211,7 +211,7 @@ class _DistributionEvaluator(Evaluator):
         self.note("sys.version_info")
         return value
 
-    def _asked(self, variable: object) -> str:
+    def _environment_value(self, variable: object) -> str:
         self.note(str(variable))
         return "2" if variable == _ROS_VERSION else target().name
 
@@ -221,7 +221,7 @@ class _DistributionEvaluator(Evaluator):
                 key in _OF_ENVIRONMENT
             ):
                 if self._is_environment(value):
-                    return self._asked(key)
+                    return self._environment_value(key)
             case ast.Subscript(
                 value=holder,
                 slice=ast.Slice(lower=None, upper=ast.Constant(value=int(end)), step=None),

@@ -275,9 +275,9 @@ class Evaluator:
         if list_literal(self.module, node) is not None:
             items = self.elements(node)
             return [item.value for item in items.items] if items.complete else UNKNOWN
-        return self._agreed(node, bindings)
+        return self._common_value(node, bindings)
 
-    def _agreed(self, node: ast.Name, bindings: Sequence[Binding]) -> object:
+    def _common_value(self, node: ast.Name, bindings: Sequence[Binding]) -> object:
         """Return the value that all assignments of a name agree on."""
         if any(binding.kind == "import" for binding in bindings):
             return self._imported(node)
@@ -449,7 +449,7 @@ class Evaluator:
             keywords = {word.arg or "**": self.evaluate(word.value) for word in node.keywords}
             return FUNCTIONS[name](args, keywords)
         if name == "os.path.join":
-            return self._joined(node)
+            return self._joined_path(node)
         if isinstance(node.func, ast.Attribute) and name is None:
             value = self._method(node, node.func)
             if value is not UNKNOWN:
@@ -471,7 +471,7 @@ class Evaluator:
         with self._bound(function, given):
             return self.evaluate(returned)
 
-    def _joined(self, node: ast.Call) -> object:
+    def _joined_path(self, node: ast.Call) -> object:
         parts: list[object] = []
         for arg in node.args:
             if isinstance(arg, ast.Starred):

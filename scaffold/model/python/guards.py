@@ -261,7 +261,7 @@ def values_asked(module: PythonModule, test: ast.expr) -> list[ast.expr]:
         values[value] = None
         if value is test or _is_question(value):
             for node in ast.walk(value):
-                pending += _behind(module, node)
+                pending += _sources_of(module, node)
     return [*values]
 
 
@@ -273,7 +273,7 @@ def _is_question(value: ast.expr) -> bool:
     return isinstance(value, kinds)
 
 
-def _behind(module: PythonModule, node: ast.AST) -> Iterator[ast.expr]:
+def _sources_of(module: PythonModule, node: ast.AST) -> Iterator[ast.expr]:
     """Yield the values of a name or an attribute, and those returned by a function."""
     match node:
         case ast.Name(id=name):

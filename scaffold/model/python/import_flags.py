@@ -28,7 +28,7 @@ def asks_which_release(module: PythonModule, condition: Condition, package: str)
             continue
         if any(_imports(handler.body, package) for handler in attempt.handlers):
             return True
-        if any(_is_said_by_failure(module, attempt, name) for name in _settled(condition)):
+        if any(_is_said_by_failure(module, attempt, name) for name in _required_names(condition)):
             return True
     return False
 
@@ -61,17 +61,17 @@ def _imports(body: Sequence[ast.stmt], package: str) -> bool:
     return False
 
 
-def _settled(condition: Condition) -> Iterator[Condition]:
+def _required_names(condition: Condition) -> Iterator[Condition]:
     """Yield the names in a condition that must be true, or false, for it to hold."""
     needed = condition.needed
     match condition.test:
         case ast.Name():
             yield condition
         case ast.UnaryOp(op=ast.Not(), operand=operand):
-            yield from _settled(Condition(operand, not needed))
+            yield from _required_names(Condition(operand, not needed))
         case ast.BoolOp(op=op, values=values) if isinstance(op, ast.And) is needed:
             for value in values:
-                yield from _settled(Condition(value, needed))
+                yield from _required_names(Condition(value, needed))
         case ast.Compare(
             left=ast.Name() as name,
             ops=[ast.Is() | ast.IsNot() | ast.Eq() | ast.NotEq() as operator],
@@ -86,7 +86,7 @@ def _is_said_by_failure(module: PythonModule, attempt: ast.Try, name: Condition)
     by_field: defaultdict[str, set[bool | None]] = defaultdict(set)
     for binding in _bindings(module, name.test):
         field = _field_in(module, attempt, binding.node)
-        by_field["body" if field == "orelse" else field].add(_truth(binding))
+        by_field["body" if field == "orelse" else field].add(_truth_of(binding))
     failed = by_field["handlers"] or by_field[""]
     return failed == {name.needed} and by_field["body"] == {not name.needed}
 
@@ -103,7 +103,7 @@ def _field_in(module: PythonModule, attempt: ast.Try, node: ast.AST) -> str:
     return ""
 
 
-def _truth(binding: Binding) -> bool | None:
+def _truth_of(binding: Binding) -> bool | None:
     match binding.value:
         case ast.Constant(value=value):
             return bool(value)

@@ -116,7 +116,7 @@ class ScopeIndex:
         """
         span = self._spans.get(node)
         if span is None:
-            inside = [*_inside(node)]
+            inside = [*_preorder(node)]
             for kind in kinds:
                 yield from (inner for inner in inside if type(inner) is kind)
             return
@@ -373,7 +373,7 @@ def _places(parent: ast.AST) -> dict[ast.AST, tuple[str, int]]:
     return result
 
 
-def _inside(node: ast.AST) -> Iterator[ast.AST]:
+def _preorder(node: ast.AST) -> Iterator[ast.AST]:
     """Yield a node and its descendants in preorder."""
     pending = [node]
     while pending:

@@ -291,7 +291,7 @@ def _converted(args: Sequence[object], keywords: Mapping[str, object], kind: typ
         return UNKNOWN
 
 
-def _listed(args: Sequence[object], keywords: Mapping[str, object]) -> object:
+def _list_result(args: Sequence[object], keywords: Mapping[str, object]) -> object:
     """``list``, ``tuple``, ``sorted`` and ``set`` are treated alike."""
     del keywords
     values = args[0] if args else []
@@ -326,9 +326,9 @@ FUNCTIONS: Mapping[str, _Function] = {
     "int": lambda args, keywords: _converted(args, keywords, int),
     "float": lambda args, keywords: _converted(args, keywords, float),
     "bool": lambda args, keywords: _converted(args, keywords, bool),
-    "list": _listed,
-    "tuple": _listed,
-    "sorted": _listed,
+    "list": _list_result,
+    "tuple": _list_result,
+    "sorted": _list_result,
     "len": _length,
     "abs": lambda args, _: _numeric(args, abs),
     "round": lambda args, _: _numeric(args, round),

@@ -29,7 +29,7 @@ def changed_calls(module: PythonModule) -> Iterator[ChangedUse]:
         return
     file = RclpyFile.of(module)
     for call in module.walk(ast.Call):
-        called = _called(file, call)
+        called = _names_of_callee(file, call)
         for change in changes:
             name = next((name for name in change.names if name in called), "")
             if name and _is_meant(file, call, change) and _runs_on_both(module, call, name):
@@ -37,7 +37,7 @@ def changed_calls(module: PythonModule) -> Iterator[ChangedUse]:
                 yield ChangedUse(change, at, change.names[0].rpartition(".")[2], "")
 
 
-def _called(file: RclpyFile, call: ast.Call) -> set[str]:
+def _names_of_callee(file: RclpyFile, call: ast.Call) -> set[str]:
     names = set(file.module.qualified_names(call.func))
     match call.func:
         case ast.Attribute(attr="__init__", value=ast.Call(func=ast.Name(id="super"), args=[])):

@@ -293,7 +293,7 @@ def is_asked_for(module: PythonModule, node: ast.AST, name: str, replacement: st
                 return True
         if asks_which_release(module, condition, name.partition(".")[0]):
             return True
-    return any(_is_unsure_case(module, parent, child) for parent, child in _around(module, node))
+    return any(_is_unsure_case(module, parent, child) for parent, child in _ancestors(module, node))
 
 
 def is_tried(module: PythonModule, call: ast.Call, keyword: str) -> bool:
@@ -313,7 +313,7 @@ def is_tried(module: PythonModule, call: ast.Call, keyword: str) -> bool:
     )
 
 
-def _around(module: PythonModule, node: ast.AST) -> Iterator[tuple[ast.AST, ast.AST]]:
+def _ancestors(module: PythonModule, node: ast.AST) -> Iterator[tuple[ast.AST, ast.AST]]:
     """Yield the ancestors of a node, each with the child on the path."""
     for parent in module.parents(node):
         yield parent, node

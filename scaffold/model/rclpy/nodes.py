@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from scaffold.source import Location
 
 
-def _own(kind: type[AnyEntity]) -> cached_property[Sequence[AnyEntity]]:
+def _own_entities(kind: type[AnyEntity]) -> cached_property[Sequence[AnyEntity]]:
     """Return the property of a node with what it creates of a kind, its base classes aside."""
     return cached_property(
         lambda node: [
@@ -49,23 +49,23 @@ class NodeDefinition:
         self.location = location
         self.is_lifecycle = False
 
-    publishers = _own(Publisher)
+    publishers = _own_entities(Publisher)
     """Its publishers, without those of base classes."""
-    subscriptions = _own(Subscription)
+    subscriptions = _own_entities(Subscription)
     """Its subscriptions."""
-    services = _own(Service)
+    services = _own_entities(Service)
     """The services it offers."""
-    clients = _own(Client)
+    clients = _own_entities(Client)
     """The services it calls."""
-    action_servers = _own(ActionServer)
+    action_servers = _own_entities(ActionServer)
     """The actions it offers."""
-    action_clients = _own(ActionClient)
+    action_clients = _own_entities(ActionClient)
     """The actions it calls."""
-    timers = _own(Timer)
+    timers = _own_entities(Timer)
     """Its timers."""
-    parameters = _own(Parameter)
+    parameters = _own_entities(Parameter)
     """The parameters it declares."""
-    parameter_reads = _own(ParameterRead)
+    parameter_reads = _own_entities(ParameterRead)
     """Its parameter reads."""
     # -- arguments of its constructor
 

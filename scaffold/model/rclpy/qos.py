@@ -47,11 +47,11 @@ class Qos(NamedTuple):
 def qos_of(evaluator: AttributeEvaluator, node: ast.expr) -> Qos:
     """Return the quality of service of an expression."""
     at = evaluator.module.location(node)
-    qos = _plain(evaluator, evaluator.single_value(node), at)
+    qos = _literal_qos(evaluator, evaluator.single_value(node), at)
     return _with_later_changes(evaluator, qos, node)
 
 
-def _plain(evaluator: AttributeEvaluator, node: ast.expr, at: Location) -> Qos:
+def _literal_qos(evaluator: AttributeEvaluator, node: ast.expr, at: Location) -> Qos:
     value = evaluator.evaluate(node)
     if type(value) is int:
         return Qos(at, None, value, *PROFILES["default"][1:])

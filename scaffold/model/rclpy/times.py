@@ -42,7 +42,7 @@ def _clock_of(file: RclpyFile, node: ast.expr, depth: int) -> str | None:
             return NUMBER if type(value) in {int, float} else None
         case ast.BinOp(left=left, op=ast.Add() | ast.Sub(), right=right):
             is_span = class_of(file, right) == "rclpy.duration.Duration"
-            return _only(clocks_of(file, left, depth + 1)) if is_span else None
+            return _common_clock(clocks_of(file, left, depth + 1)) if is_span else None
         case ast.Call():
             return _clock_of_call(file, node, depth)
     return None
@@ -59,16 +59,16 @@ def _clock_of_call(file: RclpyFile, node: ast.Call, depth: int) -> str | None:
             clocks = {
                 origin: _type_of_clock(file, origin) for origin in file.evaluator.origins(clock)
             }
-            return _only(clocks)
+            return _common_clock(clocks)
     function = file.callback(node.func).function
     if isinstance(function, ast.FunctionDef) and not function.decorator_list:
         values = [statement.value for statement in returned(function)]
-        kinds = [_only(clocks_of(file, x, depth + 1)) if x else None for x in values]
+        kinds = [_common_clock(clocks_of(file, x, depth + 1)) if x else None for x in values]
         return kinds[0] if kinds and len({*kinds}) == 1 else None
     return None
 
 
-def _only(clocks: Mapping[ast.expr, str | None]) -> str | None:
+def _common_clock(clocks: Mapping[ast.expr, str | None]) -> str | None:
     kinds = {*clocks.values()}
     return kinds.pop() if len(kinds) == 1 else None
 

@@ -130,12 +130,12 @@ def _is_named_in(package: Package, module: PythonModule, names: tuple[str, ...])
             text = package.data(path).decode(errors="replace")
         except ViewError:
             return True
-        if all(name in text for name in names) and _uses(without_comments(text), names):
+        if all(name in text for name in names) and _has_names(without_comments(text), names):
             return True
     return False
 
 
-def _uses(text: str, names: tuple[str, ...]) -> bool:
+def _has_names(text: str, names: tuple[str, ...]) -> bool:
     """Tell whether a text has all of some names, and the last one not as its own function."""
     own = len(re.findall(rf"\bdef\s+{re.escape(names[-1])}\b", text))
     return _named_in(text, *names) > 0 and _named_in(text, names[-1]) > own

@@ -42,13 +42,13 @@ class RosdepKeys:
             if any(_has_key(source, key) for source in self._sources):
                 self._results[key] = True
             else:
-                everything = self._everything()
+                everything = self._all_keys()
                 if everything is None:
                     return None
                 self._results[key] = key in everything
         return self._results[key]
 
-    def _everything(self) -> frozenset[str] | None:
+    def _all_keys(self) -> frozenset[str] | None:
         if self._all is None:
             all_keys: set[str] = set()
             for source in self._sources:

@@ -86,7 +86,7 @@ def abandoned() -> Iterator[list[tuple[Path, Entries]]]:
     parent = directory()
     try:
         for path in _files(parent) if parent else ():
-            descriptor = _take(path)
+            descriptor = _lock_stale(path)
             if descriptor is not None:
                 held.append(descriptor)
                 ledgers.append((path, _read(path, descriptor)))
@@ -128,7 +128,7 @@ def _create(mark: str, scratch: Path | None) -> tuple[Path, int] | None:
     return None
 
 
-def _take(path: Path) -> int | None:
+def _lock_stale(path: Path) -> int | None:
     """Open and lock a ledger of a dead run of this user; ``None`` for any other."""
     try:
         descriptor = os.open(path, os.O_RDONLY | os.O_CLOEXEC | os.O_NOFOLLOW | os.O_NONBLOCK)

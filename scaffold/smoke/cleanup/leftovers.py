@@ -141,17 +141,17 @@ def _unlock(root: Path) -> None:
 def _end(entries: ledger.Entries, patience: float = _PATIENCE) -> None:
     """End the processes of a dead run, after waiting for its living supervisors."""
     deadline = time.monotonic() + patience
-    while _living(entries) and time.monotonic() < deadline:
+    while _live_pids(entries) and time.monotonic() < deadline:
         time.sleep(0.05)
     deadline = time.monotonic() + marks.GRACE_OF_KILL
-    while (pids := _living(entries)) and time.monotonic() < deadline:
+    while (pids := _live_pids(entries)) and time.monotonic() < deadline:
         for pid in pids:
             with suppress(OSError):
                 os.kill(pid, signal.SIGKILL)
         time.sleep(0.01)
 
 
-def _living(entries: ledger.Entries) -> set[int]:
+def _live_pids(entries: ledger.Entries) -> set[int]:
     table = process_table.snapshot()
     recorded = {
         pid

@@ -50,10 +50,10 @@ def _acquire(path: Path, wait: float, tell: Callable[[str], None]) -> int:
     deadline = time.monotonic() + wait
     has_told = False
     while True:
-        descriptor = _try(path)
+        descriptor = _try_lock(path)
         if descriptor is not None:
             return descriptor
-        holder = _holder(path)
+        holder = _lock_holder(path)
         if time.monotonic() >= deadline:
             raise InputError(
                 f"'{path.parent}' is in use by another smoke ({holder}): wait for it, or choose "
@@ -65,7 +65,7 @@ def _acquire(path: Path, wait: float, tell: Callable[[str], None]) -> int:
         time.sleep(_PERIOD)
 
 
-def _try(path: Path) -> int | None:
+def _try_lock(path: Path) -> int | None:
     """Try to lock the file; record the process that holds it."""
     flags = os.O_RDWR | os.O_CREAT | os.O_CLOEXEC | os.O_NOFOLLOW
     descriptor = os.open(path, flags, 0o644)
@@ -81,7 +81,7 @@ def _try(path: Path) -> int | None:
     return descriptor
 
 
-def _holder(path: Path) -> str:
+def _lock_holder(path: Path) -> str:
     try:
         text = path.read_text(encoding="utf-8", errors="replace")
     except OSError:

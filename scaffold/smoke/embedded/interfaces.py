@@ -71,7 +71,7 @@ async def provide(
     new = [name for name in missing if name not in known]
     if not new:
         return ready
-    reason = _obstacle(environment)
+    reason = _missing_requirement(environment)
     if reason:
         announce(f"{', '.join(new)}: not among the ROS wheels, and not built: {reason}")
         return ready
@@ -86,7 +86,7 @@ async def provide(
     for line in _failures(builds):
         announce(line)
     built = [name for name in new if builds[name].ok]
-    prefixes = [_kept(layout.install / name, places[name]) for name in built]
+    prefixes = [_moved_to_cache(layout.install / name, places[name]) for name in built]
     return with_prefixes(ready, prefixes)
 
 
@@ -131,7 +131,7 @@ def _place(environment: Environment, bundle: Bundle, *, complete: bool) -> Path 
     return Path(cache, PLACE, digest.hexdigest()[:16])
 
 
-def _obstacle(environment: Environment) -> str:
+def _missing_requirement(environment: Environment) -> str:
     if not os.path.exists(os.path.join(environment.prefix, _GENERATOR)):
         command = wheels.command(distributions.target())
         return f"the interface generators are missing; run: {command}"
@@ -149,7 +149,7 @@ def _failures(builds: Mapping[str, Build]) -> Iterator[str]:
             yield f"{name}: not among the ROS wheels, and cannot be built: {last}"
 
 
-def _kept(built: Path, place: Path | None) -> Path:
+def _moved_to_cache(built: Path, place: Path | None) -> Path:
     """Move a package to the cache; return its directory."""
     if place is None:
         return built

@@ -36,10 +36,10 @@ def reserved() -> Iterator[int]:
         EnvironmentMissingError: all domains are in use.
     """
     with socket.socket(socket.AF_INET, socket.SOCK_STREAM) as lock:
-        yield _take(lock)
+        yield _claim(lock)
 
 
-def _take(lock: socket.socket) -> int:
+def _claim(lock: socket.socket) -> int:
     busy = domains_in_use()
     numbers = [number for number in range(FIRST, LAST + 1) if number not in busy]
     # In random order, as other programs often choose the first free domain.

@@ -94,7 +94,7 @@ class Stations:
         Raises:
             ObserverError: its observer does not start.
         """
-        stack, station = await self._next(variables)
+        stack, station = await self._next_station(variables)
         async with stack:
             yield station
 
@@ -107,7 +107,7 @@ class Stations:
                 if not isinstance(outcome, BaseException):
                     await outcome[0].aclose()
 
-    async def _next(self, variables: Mapping[str, str]) -> tuple[AsyncExitStack, Isolation]:
+    async def _next_station(self, variables: Mapping[str, str]) -> tuple[AsyncExitStack, Isolation]:
         if not self._waiting:
             return await self._open(variables)
         task = self._waiting.pop(0)

@@ -70,15 +70,15 @@ class Probe:
             now = time.monotonic()
             if now >= next_look:
                 next_look = now + GRAPH_PERIOD
-                self._look()
+                self._inspect_graph()
             self._stimuli.go_on()
             for command in commands.read():
-                self._obey(json.loads(command))
+                self._handle(json.loads(command))
         self._executor.shutdown(timeout_sec=1.0)
         self._node.destroy_node()
         self._rclpy.try_shutdown()
 
-    def _obey(self, command: dict[str, Any]) -> None:
+    def _handle(self, command: dict[str, Any]) -> None:
         kind = command["command"]
         if kind == "report":
             self._report()
@@ -111,7 +111,7 @@ class Probe:
 
     # -- the graph
 
-    def _look(self) -> None:
+    def _inspect_graph(self) -> None:
         """Read the graph, subscribe to new topics, report changes."""
         nodes = sorted(
             f"{namespace.rstrip('/')}/{name}"
@@ -150,7 +150,7 @@ class Probe:
         ]
         offered = sorted({info.topic_type for info in publishers}) or sorted(types)
         if publishers:
-            self._watch(name, offered[0], publishers)
+            self._choose_qos_and_subscribe(name, offered[0], publishers)
             self._publishers[name] = max(self._publishers.get(name, 0), len(publishers))
         endpoints = [
             *(endpoint("publisher", info) for info in publishers[:MOST_ENDPOINTS]),
@@ -167,9 +167,9 @@ class Probe:
 
     # -- messages
 
-    def _watch(self, name: str, type_name: str, publishers: list[Ros]) -> None:
+    def _choose_qos_and_subscribe(self, name: str, type_name: str, publishers: list[Ros]) -> None:
         """Subscribe with a QoS compatible with every publisher of the topic."""
-        profile = self._weakest(publishers)
+        profile = self._common_qos(publishers)
         topic = self._topics.setdefault(name, Topic())
         depth = topic.fitting_depth()
         # Latched messages have arrived already when the queue is shortened.
@@ -200,7 +200,7 @@ class Probe:
 
         return self._node.create_subscription(message_type, name, receive, qos, raw=True)
 
-    def _weakest(self, publishers: list[Ros]) -> tuple[bool, bool]:
+    def _common_qos(self, publishers: list[Ros]) -> tuple[bool, bool]:
         """Return whether all publishers are reliable, and whether all are transient local."""
         profiles = [info.qos_profile for info in publishers]
         reliable = self._qos.ReliabilityPolicy.RELIABLE

@@ -68,7 +68,7 @@ class _Inquiry:
         if self._answer is None:
             self._answer = self._list.call_async(self._services.ListParameters.Request())
         elif self._answer.done():
-            self._take(self._answer.result())
+            self._receive(self._answer.result())
 
     def _is_quiet(self) -> bool:
         if self._ready_since is None:
@@ -77,7 +77,7 @@ class _Inquiry:
             return False
         return time.monotonic() >= self._ready_since + QUIET
 
-    def _take(self, answer: Ros) -> None:
+    def _receive(self, answer: Ros) -> None:
         if hasattr(answer, "result"):
             self._names = sorted(answer.result.names)[:MOST_PARAMETERS]
             request = self._services.GetParameters.Request(names=self._names)

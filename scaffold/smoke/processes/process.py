@@ -171,7 +171,7 @@ class Running:
         with suppress(OSError):
             async for line in self._events:
                 event = json.loads(line)
-                self._take(event)
+                self._handle(event)
                 is_finished = is_finished or "left" in event
         self.lost_supervisor = not is_finished and not self._is_closing
         if self.exit_code is None:
@@ -180,7 +180,7 @@ class Running:
         self._is_started.set()
         self._is_ended.set()
 
-    def _take(self, event: Mapping[str, Any]) -> None:
+    def _handle(self, event: Mapping[str, Any]) -> None:
         if "started" in event:
             self.group = event["started"]
             self.started = time.monotonic()

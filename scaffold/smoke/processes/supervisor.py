@@ -120,7 +120,7 @@ class Supervisor:
             path for path in removed if not shared_memory.is_of_middleware(os.path.basename(path))
         ]
         used = [name for name in self._segments if not shared_memory.is_of_middleware(name)]
-        self._tell({"left": left, "leaked": sorted(leaked), "used": sorted(used)})
+        self._notify({"left": left, "leaked": sorted(leaked), "used": sorted(used)})
 
     # -- requests of smoke
 
@@ -134,9 +134,9 @@ class Supervisor:
             return
         *lines, self._received = (self._received + data).split(b"\n")
         for line in lines:
-            self._obey(json.loads(line))
+            self._handle(json.loads(line))
 
-    def _obey(self, request: Mapping[str, Any]) -> None:
+    def _handle(self, request: Mapping[str, Any]) -> None:
         if "command" in request:
             self._start(request)
         elif "signal" in request:
@@ -158,18 +158,18 @@ class Supervisor:
                 setsigdef=[*_OWN_SIGNALS, signal.SIGCHLD],
             )
         except OSError as error:
-            self._tell({"errno": error.errno})
+            self._notify({"errno": error.errno})
             self._end_of_command()
             return
         _leave_pipes()
         self._next_listing = 0.0
-        self._tell({"started": self._child})
+        self._notify({"started": self._child})
 
     def _signal(self, number: int) -> None:
         if self._child and not self._ended:
             _send(self._child, number, group=True)
 
-    def _tell(self, event: Mapping[str, object]) -> None:
+    def _notify(self, event: Mapping[str, object]) -> None:
         try:
             self._control.sendall(json.dumps(event).encode() + b"\n")
         except OSError:
@@ -187,7 +187,7 @@ class Supervisor:
             if not pid:
                 return
             if pid == self._child:
-                self._tell({"ended": os.waitstatus_to_exitcode(status)})
+                self._notify({"ended": os.waitstatus_to_exitcode(status)})
                 self._end_of_command()
 
     def _end_of_command(self) -> None:
@@ -254,27 +254,27 @@ class Supervisor:
     def _await_children(self, seconds: float) -> None:
         """Give the descendants of the command time to end by themselves."""
         deadline = time.monotonic() + seconds
-        while time.monotonic() < deadline and self._living():
+        while time.monotonic() < deadline and self._descendants():
             time.sleep(PERIOD)
 
-    def _living(self) -> list[Process]:
+    def _descendants(self) -> list[Process]:
         self._reap()
         return table.descendants(os.getpid())
 
     def _end_all(self) -> list[str]:
         """End all descendants; return the command lines of those that outlived the command."""
-        living = self._hold()
+        living = self._stop_descendants()
         left = [table.command_line(process.pid)[:SHOWN_COMMAND] for process in living]
         for process in living:
             _send(process.pid, signal.SIGTERM)
             _send(process.pid, signal.SIGCONT)
         deadline = time.monotonic() + GRACE
-        while self._living() and time.monotonic() < deadline:
+        while self._descendants() and time.monotonic() < deadline:
             self._watch_segments()
             time.sleep(PERIOD / 5)
-        self._hold()
+        self._stop_descendants()
         deadline = time.monotonic() + GRACE_OF_KILL
-        while (living := self._living()) and time.monotonic() < deadline:
+        while (living := self._descendants()) and time.monotonic() < deadline:
             # The kernel kills a group at once, even one that forks all the time.
             for group in {process.group for process in living} - {os.getpgrp()}:
                 _send(group, signal.SIGKILL, group=True)
@@ -283,13 +283,13 @@ class Supervisor:
             self._reap()
         return left
 
-    def _hold(self) -> list[Process]:
+    def _stop_descendants(self) -> list[Process]:
         """Stop all descendants and note their segments; return the processes.
 
         A running one could create a segment unnoticed and end without removing it. Stopped between
         creating and mapping a segment, it still has the file open.
         """
-        living = self._living()
+        living = self._descendants()
         for process in living:
             _send(process.pid, signal.SIGSTOP)
         deadline = time.monotonic() + GRACE_OF_STOP

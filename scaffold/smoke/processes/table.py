@@ -53,7 +53,7 @@ def descendants(root: int, table: Mapping[int, Process] | None = None) -> list[P
     children: dict[int, list[Process]] = {}
     for process in (snapshot() if table is None else table).values():
         children.setdefault(process.parent, []).append(process)
-    return [process for process in _below(root, children) if process.is_alive]
+    return [process for process in _descendants(root, children) if process.is_alive]
 
 
 def command_line(pid: int) -> str:
@@ -69,7 +69,7 @@ def command_line(pid: int) -> str:
     return f"process {pid}"
 
 
-def _below(root: int, children: Mapping[int, list[Process]]) -> Iterator[Process]:
+def _descendants(root: int, children: Mapping[int, list[Process]]) -> Iterator[Process]:
     waiting = [root]
     while waiting:
         for process in children.get(waiting.pop(), ()):

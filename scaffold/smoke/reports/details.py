@@ -139,10 +139,10 @@ def _log(log: Log) -> Iterator[str]:
 
 
 def _levels(counts: Mapping[str, int]) -> str:
-    return ", ".join(_words(counts.items()))
+    return ", ".join(_level_counts(counts.items()))
 
 
-def _words(items: Iterable[tuple[str, int]]) -> Iterator[str]:
+def _level_counts(items: Iterable[tuple[str, int]]) -> Iterator[str]:
     nouns = {"warn": "warning", "error": "error", "fatal": "fatal error"}
     for level, number in items:
         if number:

@@ -20,7 +20,7 @@ def report(result: Smoke, out: TextIO, *, verbose: bool = False) -> None:
     """Write a workflow command for each problem, and the text report."""
     if result.ended_early:
         title = {"title": "smoke ended early"}
-        out.write(command("error", _plain(title), printable(result.ended_early)))
+        out.write(command("error", _printable(title), printable(result.ended_early)))
     for package in result.packages:
         out.writelines(_annotations(package))
     # The output of executables may look like a command.
@@ -48,19 +48,19 @@ def job_summary(result: Smoke) -> str:
 def _annotations(package: PackageResult) -> Iterator[str]:
     if not package.build.ok and not package.build.interrupted:
         properties = {"file": package.manifest, "title": f"{package.name} does not build"}
-        yield command("error", _plain(properties), _lines(package.build.errors))
+        yield command("error", _printable(properties), _lines(package.build.errors))
     for case in package.tests.failed if package.tests else ():
         properties = {"file": package.manifest, "title": f"{package.name}: {case.name} failed"}
-        yield command("error", _plain(properties), _lines(case.message))
+        yield command("error", _printable(properties), _lines(case.message))
     for executable in package.runs:
         title = f"{package.name} {executable.name}"
         properties = {"file": executable.source or package.manifest, "title": title}
         for problem in executable.problems:
             message = _lines((problem.message, *problem.output))
-            yield command("error", _plain(properties), message)
+            yield command("error", _printable(properties), message)
 
 
-def _plain(properties: dict[str, str]) -> dict[str, object]:
+def _printable(properties: dict[str, str]) -> dict[str, object]:
     return {name: printable(value) for name, value in properties.items() if value}
 
 

@@ -63,7 +63,7 @@ def of_observation(seen: Observation) -> Graph | None:
     if not shown:
         return None
     arrows = [pair for pair in arrows if pair[0] in shown and pair[1] in shown]
-    boxes = _placed(_layers(shown, arrows), arrows)
+    boxes = _layout(_layers(shown, arrows), arrows)
     return Graph(
         width=max(box.x + box.width for box in boxes.values()) + _MARGIN,
         height=max(box.y + box.height for box in boxes.values()) + _MARGIN,
@@ -125,7 +125,7 @@ def _is_reachable(following: dict[Name, list[Name]], begin: Name, end: Name) -> 
     return False
 
 
-def _placed(layers: Iterable[list[Name]], arrows: Sequence[Arrow]) -> dict[Name, Box]:
+def _layout(layers: Iterable[list[Name]], arrows: Sequence[Arrow]) -> dict[Name, Box]:
     """Place the layers next to each other, with names at the height of their neighbors."""
     boxes: dict[Name, Box] = {}
     x = float(_MARGIN)

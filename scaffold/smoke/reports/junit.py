@@ -52,7 +52,7 @@ def _executable(package: PackageResult, executable: Executable, *, verbose: bool
     name = f"smoke {executable.name}"
     case = junit.case_of(package.name, name, problems, outcome, executable.source)
     case.set("time", f"{executable.seconds:.3f}")
-    ET.SubElement(case, "system-out").text = "\n".join(_seen(executable, verbose=verbose))
+    ET.SubElement(case, "system-out").text = "\n".join(_output_lines(executable, verbose=verbose))
     return case
 
 
@@ -69,6 +69,6 @@ def _tests(package: PackageResult) -> Iterator[ET.Element]:
         yield case
 
 
-def _seen(executable: Executable, *, verbose: bool) -> Iterator[str]:
+def _output_lines(executable: Executable, *, verbose: bool) -> Iterator[str]:
     for line in lines_of(executable, verbose=verbose):
         yield printable(line)

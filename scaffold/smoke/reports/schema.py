@@ -20,7 +20,7 @@ _PLAIN: dict[object, dict[str, Any]] = {
 def schema() -> dict[str, Any]:
     """Return the schema; other fields are allowed, as new ones may come."""
     definitions: dict[str, Any] = {}
-    reference = _of(shape.Report, definitions)
+    reference = _schema_of(shape.Report, definitions)
     return {
         "$schema": "http://json-schema.org/draft-07/schema#",
         "title": "The report of `ros2-scaffold smoke --format json`",
@@ -29,18 +29,18 @@ def schema() -> dict[str, Any]:
     }
 
 
-def _of(kind: Any, definitions: dict[str, Any]) -> dict[str, Any]:  # noqa: ANN401  a type, of any form
+def _schema_of(kind: Any, definitions: dict[str, Any]) -> dict[str, Any]:  # noqa: ANN401  a type, of any form
     if is_typeddict(kind):
         return _definition(kind, definitions)
     origin, arguments = get_origin(kind), get_args(kind)
     if origin is list:
-        return {"type": "array", "items": _of(arguments[0], definitions)}
+        return {"type": "array", "items": _schema_of(arguments[0], definitions)}
     if origin is dict:
-        return {"type": "object", "additionalProperties": _of(arguments[1], definitions)}
+        return {"type": "object", "additionalProperties": _schema_of(arguments[1], definitions)}
     if origin is Literal:
         return {"enum": list(arguments)}
     if origin is UnionType or arguments:
-        return {"anyOf": [_of(item, definitions) for item in arguments]}
+        return {"anyOf": [_schema_of(item, definitions) for item in arguments]}
     return _PLAIN[kind]
 
 
@@ -53,7 +53,7 @@ def _definition(kind: Any, definitions: dict[str, Any]) -> dict[str, Any]:  # no
             "type": "object",
             "required": sorted(kind.__required_keys__),
             "properties": {
-                key: _of(value, definitions) for key, value in get_type_hints(kind).items()
+                key: _schema_of(value, definitions) for key, value in get_type_hints(kind).items()
             },
         }
     return {"$ref": f"#/definitions/{name}"}

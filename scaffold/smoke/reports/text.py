@@ -31,7 +31,7 @@ def report(result: Smoke, out: TextIO, *, verbose: bool = False) -> None:
         out: The stream.
         verbose: Whether measurements, quality of service, parameters and logs are shown.
     """
-    paint = _painter(out)
+    paint = _colorizer(out)
     lines = _lines(without_escapes(result), paint, verbose=verbose)
     width = columns.of_terminal(out)
     for line in lines:
@@ -58,13 +58,13 @@ def without_escapes(value: Value) -> Value:
     return cast("Value", cleaned)
 
 
-def _plain(text: str, color: str) -> str:  # noqa: ARG001  as if it had one
+def _uncolored(text: str, color: str) -> str:  # noqa: ARG001  as if it had one
     return text
 
 
 def lines_of(executable: Executable, *, verbose: bool) -> list[str]:
     """Return the lines about an executable."""
-    return list(_details(executable, _plain, verbose=verbose))
+    return list(_details(executable, _uncolored, verbose=verbose))
 
 
 def _lines(result: Smoke, paint: Paint, *, verbose: bool) -> Iterator[str]:
@@ -194,7 +194,7 @@ def _indented(lines: Iterator[str] | tuple[str, ...], depth: int) -> Iterator[st
         yield " " * depth + line
 
 
-def summary(result: Smoke, paint: Paint = _plain) -> str:
+def summary(result: Smoke, paint: Paint = _uncolored) -> str:
     """Return one line with counts of runs and failures."""
     executables = [executable for package in result.packages for executable in package.executables]
     is_one = sum(bool(package.runs) for package in result.packages) == 1
@@ -225,8 +225,8 @@ def _listed(names: list[str]) -> str:
     return f"{shown} and {more} more" if more > 0 else shown
 
 
-def _painter(out: TextIO) -> Paint:
+def _colorizer(out: TextIO) -> Paint:
     """Return a function that wraps text in a color when a terminal shows it."""
     if out.isatty() and not os.environ.get("NO_COLOR"):
         return lambda text, color: f"\033[{color}m{text}\033[0m"
-    return _plain
+    return _uncolored

@@ -93,7 +93,7 @@ class _Reader:
                 self._stimulus(*pair) for pair in self._pairs(keys.get("publish"), "publish")
             ),
             duration=duration if own is None else own,
-            exit_code=self._optional(keys, "exit_code", self._whole),
+            exit_code=self._optional(keys, "exit_code", self._integer),
             skip=bool(self._optional(keys, "skip", self._boolean)),
             transitions=self._transitions(keys),
         )
@@ -171,13 +171,13 @@ class _Reader:
         if len(parts) == _TYPE_PARTS - 1:
             parts.insert(1, kind)
         if len(parts) != _TYPE_PARTS or parts[1] != kind or not all(map(str.isidentifier, parts)):
-            self._wrong(node, f"a type such as 'package/{kind}/Name'")
+            self._refuse_value(node, f"a type such as 'package/{kind}/Name'")
         return "/".join(parts)
 
     def _rate(self, node: YamlNode) -> float:
         number = self._value(node)
         if not _is_number(number) or number <= 0:
-            self._wrong(node, f"a rate in hertz above 0, or {_ANY!r}")
+            self._refuse_value(node, f"a rate in hertz above 0, or {_ANY!r}")
         return float(number)
 
     def _fraction(self, node: YamlNode) -> float:
@@ -188,53 +188,53 @@ class _Reader:
             value = self._value(node)
             number = float(value) if _is_number(value) else None
         if number is None or not 0 < number <= 1:
-            self._wrong(node, "a tolerance above 0 up to 1, or a percentage such as '5 %'")
+            self._refuse_value(node, "a tolerance above 0 up to 1, or a percentage such as '5 %'")
         return number
 
     def _positive(self, node: YamlNode) -> float:
         number = self._value(node)
         if not _is_number(number) or not 0 < number < float("inf"):
-            self._wrong(node, "a number above 0")
+            self._refuse_value(node, "a number above 0")
         return float(number)
 
     def _number(self, node: YamlNode) -> float:
         number = self._value(node)
         if not _is_number(number):
-            self._wrong(node, "a number")
+            self._refuse_value(node, "a number")
         return float(number)
 
-    def _whole(self, node: YamlNode) -> int:
+    def _integer(self, node: YamlNode) -> int:
         number = self._value(node)
         if not isinstance(number, int) or isinstance(number, bool):
-            self._wrong(node, "a whole number")
+            self._refuse_value(node, "a whole number")
         return number
 
     def _boolean(self, node: YamlNode) -> bool:
         value = self._value(node)
         if not isinstance(value, bool):
-            self._wrong(node, "true or false")
+            self._refuse_value(node, "true or false")
         return value
 
     def _string(self, node: YamlNode) -> str:
         value = self._value(node)
         if not isinstance(value, str):
-            self._wrong(node, "a string")
+            self._refuse_value(node, "a string")
         return value
 
     def _strings(self, node: YamlNode) -> list[str]:
         if not isinstance(node, Sequence):
-            self._wrong(node, "a list of strings")
+            self._refuse_value(node, "a list of strings")
         return [str(self._scalar(item)) for item in node.items]
 
     def _scalar(self, node: YamlNode) -> str:
         if not isinstance(node, Scalar):
-            self._wrong(node, "a string")
+            self._refuse_value(node, "a string")
         return node.text
 
     def _fields(self, node: YamlNode) -> Mapping[str, Any]:
         value = self._value(node)
         if not isinstance(value, dict):
-            self._wrong(node, "fields with their values")
+            self._refuse_value(node, "fields with their values")
         return value
 
     def _parameters(self, node: YamlNode) -> Mapping[str, Any]:
@@ -247,7 +247,7 @@ class _Reader:
                 if isinstance(value, Mapping):
                     waiting.append((f"{prefix}{name}.", value))
                 elif value is None:
-                    self._wrong(node, f"parameters with values; {prefix}{name} has none")
+                    self._refuse_value(node, f"parameters with values; {prefix}{name} has none")
                 else:
                     result[f"{prefix}{name}"] = value
         return result
@@ -257,12 +257,12 @@ class _Reader:
         if isinstance(node, Alias):
             self.refuse(node.location.line, f"the alias *{node.name}: write its value instead")
         if isinstance(node, Scalar):
-            return self._plain(node)
+            return self._scalar_value(node)
         if isinstance(node, Sequence):
             return [self._value(item) for item in node.items]
         return {key.text: self._value(item) for key, item in self._pairs(node, "a mapping")}
 
-    def _plain(self, node: Scalar) -> object:
+    def _scalar_value(self, node: Scalar) -> object:
         from yaml import SafeLoader, ScalarNode
 
         if not node.is_plain or node.tag is not None:
@@ -286,7 +286,7 @@ class _Reader:
         return result
 
     def _pairs(self, node: YamlNode | None, holder: str) -> list[tuple[Scalar, YamlNode]]:
-        if node is None or (isinstance(node, Scalar) and self._plain(node) is None):
+        if node is None or (isinstance(node, Scalar) and self._scalar_value(node) is None):
             return []
         if not isinstance(node, YamlMapping):
             self.refuse(node.location.line, f"{holder} needs keys with values")
@@ -310,7 +310,7 @@ class _Reader:
             self.refuse(holder.location.line, f"{kind} needs the key {name!r}")
         return keys[name]
 
-    def _wrong(self, node: YamlNode, wanted: str) -> NoReturn:
+    def _refuse_value(self, node: YamlNode, wanted: str) -> NoReturn:
         if isinstance(node, Scalar):
             self.refuse(node.location.line, f"{node.text!r} is not {wanted}")
         self.refuse(node.location.line, f"not {wanted}")

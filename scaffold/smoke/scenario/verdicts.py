@@ -73,14 +73,14 @@ def _of_field(
         yield Problem(f"{subject} was not seen: {why}")
         return
     if expected.changes is True and not seen.changes:
-        yield Problem(f"{subject} is always {_shown(seen.last)}: {FILE} expects it to change")
+        yield Problem(f"{subject} is always {_json(seen.last)}: {FILE} expects it to change")
     if expected.changes is False and seen.changes:
         yield Problem(
-            f"{subject} changes from {_shown(seen.first)} to {_shown(seen.last)}: "
+            f"{subject} changes from {_json(seen.first)} to {_json(seen.last)}: "
             f"{FILE} expects it to stay"
         )
-    if expected.has_equals and (seen.changes or not _fits(expected.equals, seen.last)):
-        yield Problem(f"{subject} is {_shown(seen.last)}: {FILE} expects {_shown(expected.equals)}")
+    if expected.has_equals and (seen.changes or not _matches(expected.equals, seen.last)):
+        yield Problem(f"{subject} is {_json(seen.last)}: {FILE} expects {_json(expected.equals)}")
     yield from _out_of_range(subject, expected, seen)
 
 
@@ -90,7 +90,7 @@ def _out_of_range(
     if expected.minimum is None and expected.maximum is None:
         return
     if seen.least is None or seen.greatest is None:
-        yield Problem(f"{subject} is {_shown(seen.last)}: {FILE} expects a number")
+        yield Problem(f"{subject} is {_json(seen.last)}: {FILE} expects a number")
         return
     if expected.minimum is not None and seen.least < expected.minimum:
         yield Problem(f"{subject} is {seen.least:g}: {FILE} expects at least {expected.minimum:g}")
@@ -108,24 +108,24 @@ def _of_call(call: Call, answer: Answer | None) -> Iterator[Problem]:
     else:
         for name, expected in call.answer.items():
             value = (answer.value or {}).get(name)
-            if not _fits(expected, value):
+            if not _matches(expected, value):
                 yield Problem(
-                    f"{call.kind} {call.name} returned {name}: {_shown(value)}: "
-                    f"{FILE} expects {_shown(expected)}"
+                    f"{call.kind} {call.name} returned {name}: {_json(value)}: "
+                    f"{FILE} expects {_json(expected)}"
                 )
 
 
-def _fits(expected: object, seen: object) -> bool:
+def _matches(expected: object, seen: object) -> bool:
     """Tell whether a value is as expected; other fields are ignored."""
     if isinstance(expected, Mapping):
         return isinstance(seen, Mapping) and all(
-            name in seen and _fits(value, seen[name]) for name, value in expected.items()
+            name in seen and _matches(value, seen[name]) for name, value in expected.items()
         )
     if isinstance(expected, list):
         return (
             isinstance(seen, (list, tuple))
             and len(seen) == len(expected)
-            and all(map(_fits, expected, seen))
+            and all(map(_matches, expected, seen))
         )
     if isinstance(expected, float) or isinstance(seen, float):
         return _is_close(expected, seen)
@@ -139,5 +139,5 @@ def _is_close(expected: object, seen: object) -> bool:
     return math.isclose(expected, seen, rel_tol=1e-6, abs_tol=1e-9)
 
 
-def _shown(value: Any) -> str:  # noqa: ANN401  of a message
+def _json(value: Any) -> str:  # noqa: ANN401  of a message
     return dumps(value, ensure_ascii=False)

@@ -74,7 +74,7 @@ def with_arguments(data: bytes, module: str = "", received: Sequence[Passed] = (
     for call in received:
         calls.setdefault(call.function.removeprefix(f"{module}."), []).append(call)
     for function in _functions(text):
-        followed = _follow(text, function, calls.get(function.name, ()), lines)
+        followed = _add_lines_of(text, function, calls.get(function.name, ()), lines)
         taken[function.start] = followed
         annotations += filter(None, followed.values())
     passed = [*_passed(text, data, module, lines)]
@@ -115,18 +115,20 @@ def _passed(text: str, data: bytes, module: str, lines: dict[int, list[str]]) ->
             if value and not _CONSTANT.fullmatch(value) and not _OTHER_SCOPE.search(value)
         }
         if kept:
-            _keep(text, place, {name: words[key] for key, name in kept.items()}, lines)
+            _store_values(text, place, {name: words[key] for key, name in kept.items()}, lines)
         yield Passed(call.function, module, {**words, **kept})
 
 
-def _keep(text: str, place: int, values: Mapping[str, str], lines: dict[int, list[str]]) -> None:
+def _store_values(
+    text: str, place: int, values: Mapping[str, str], lines: dict[int, list[str]]
+) -> None:
     """Add a line before a statement that stores values in global names."""
     indent = text[place : place + len(text[place:]) - len(text[place:].lstrip(" "))]
     kept = "; ".join(f"{name} = [{value}]" for name, value in values.items())
     lines.setdefault(place, []).append(f"{indent}global {', '.join(values)}; {kept}")
 
 
-def _follow(
+def _add_lines_of(
     text: str, function: _Function, received: Sequence[Passed], lines: dict[int, list[str]]
 ) -> Mapping[str, tuple[int, int] | None]:
     """Add the lines before the calls of a function, and the one at its start.
@@ -148,7 +150,7 @@ def _follow(
                 source = [*kept][-1]
             sources.setdefault(parameter, []).append(source)
         if kept:
-            _keep(text, place, kept, lines)
+            _store_values(text, place, kept, lines)
     imports: list[str] = []
     for call in received:
         for parameter, value in parameters.given(call.given).items():

@@ -152,7 +152,7 @@ def _types_given(
     for keyword, position in callbacks.items():
         for key in (keyword, str(position)):
             if key in arguments:
-                yield key, _given(function, keyword, written)
+                yield key, _parameter_types(function, keyword, written)
 
 
 def _annotated(
@@ -252,7 +252,7 @@ def _of_typed(
         argument = arguments.get(keyword, arguments.get(str(position), ""))
         callback = _CALLBACK.fullmatch(argument)
         if callback is not None:
-            yield callback[1], _given(function, keyword, type_)
+            yield callback[1], _parameter_types(function, keyword, type_)
         if argument and (callback is None or f"def {callback[1]}(" not in segment):
             yield None
 
@@ -289,7 +289,7 @@ def _is_of_goal(segment: str, end: int) -> bool:
     return bool(assigned) and ".send_goal_async(" in assigned[-1]
 
 
-def _given(function: str, keyword: str, type_: str) -> tuple[str, ...]:
+def _parameter_types(function: str, keyword: str, type_: str) -> tuple[str, ...]:
     if function == "create_subscription":
         return (type_,)
     if function == "create_service":

@@ -87,7 +87,7 @@ def kept_values(text: str) -> Iterator[Kept]:
             continue
         added = _added(text, name, start, end)
         if added and len(added) <= _MOST_ADDED:
-            yield _kept(text, number, matches, added)
+            yield _kept_container(text, number, matches, added)
 
 
 def definitions() -> str:
@@ -100,7 +100,7 @@ def _helper(match: re.Match[str]) -> str:
     return "_ros2_deque" if "deque" in value else _HELPERS[value[0]]
 
 
-def _kept(
+def _kept_container(
     text: str,
     number: int,
     matches: Sequence[re.Match[str]],

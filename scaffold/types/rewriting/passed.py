@@ -170,12 +170,12 @@ def callers(package: Package, path: str) -> tuple[str, ...]:
 @fact
 def _all_called(package: Package) -> Mapping[str, frozenset[str]]:
     """Return the functions of other modules that each module of a package calls, if any."""
-    called = {path: _called(package, path) for path in package.python_files}
+    called = {path: _called_functions(package, path) for path in package.python_files}
     return {path: names for path, names in called.items() if names}
 
 
 @fact
-def _called(package: Package, path: str) -> frozenset[str]:
+def _called_functions(package: Package, path: str) -> frozenset[str]:
     module = module_of(package, path)
     if not module:
         return frozenset()

@@ -126,7 +126,7 @@ def _rows(
     """Yield the values of the loop variables around a place, for each row."""
     rows: list[dict[str, ast.expr]] = [{}]
     for loop in place.loops:
-        bound = [_bound(loop.target, row) for row in _table(loop.iter, place, values)]
+        bound = [_loop_values(loop.target, row) for row in _table(loop.iter, place, values)]
         rows = [{**row, **more} for row in rows for more in bound] or rows
         if len(rows) > _MOST_ROWS:
             return
@@ -163,7 +163,7 @@ def _table(
     return []
 
 
-def _bound(target: ast.expr, value: ast.expr) -> dict[str, ast.expr]:
+def _loop_values(target: ast.expr, value: ast.expr) -> dict[str, ast.expr]:
     """Return the value of each loop variable in one row."""
     if isinstance(target, ast.Name):
         return {target.id: value}
@@ -174,7 +174,7 @@ def _bound(target: ast.expr, value: ast.expr) -> dict[str, ast.expr]:
             ast.Tuple(elts=entries) | ast.List(elts=entries),
         ) if len(names) == len(entries):
             for name, entry in zip(names, entries, strict=True):
-                result.update(_bound(name, entry))
+                result.update(_loop_values(name, entry))
     return result
 
 

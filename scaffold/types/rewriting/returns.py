@@ -97,8 +97,8 @@ def results(
         body = function_body(text, function.start("name"), start)
         if "return " not in body and "yield " not in body:
             continue
-        kept = [*_kept(body, start, taken.get(function.end(), ()))]
-        shapes = {_shape(item.value, body, attributes) for item in kept}
+        kept = [*_returned_values(body, start, taken.get(function.end(), ()))]
+        shapes = {_common_creation(item.value, body, attributes) for item in kept}
         is_one = len(shapes) == 1 and "" not in shapes
         type_ = _type(kept, is_async=bool(function["async"])) if is_one else ""
         if type_:
@@ -152,7 +152,7 @@ def _is_only_one(text: str, function: re.Match[str], count: Mapping[str, int]) -
     return count[name] - setters == 1
 
 
-def _kept(body: str, start: int, taken: Collection[str]) -> Iterator[_Kept]:
+def _returned_values(body: str, start: int, taken: Collection[str]) -> Iterator[_Kept]:
     """Yield the values that a function returns or yields; none if one of them is not plain.
 
     Args:
@@ -243,7 +243,7 @@ class _Attributes:
     def _values(self) -> Mapping[str, set[str]]:
         values: dict[str, set[str]] = {}
         for match in _ATTRIBUTE.finditer(self._text):
-            values.setdefault(match[1], set()).add(_form(match[2].strip()))
+            values.setdefault(match[1], set()).add(_callee(match[2].strip()))
         return values
 
     def is_of_one(self, name: str) -> bool:
@@ -252,9 +252,9 @@ class _Attributes:
         return len(values) <= 1 and "" not in values
 
 
-def _shape(value: str, body: str, attributes: _Attributes) -> str:
+def _common_creation(value: str, body: str, attributes: _Attributes) -> str:
     """Return how a value is created; empty if there are several ways, as with a factory."""
-    form = _form(value)
+    form = _callee(value)
     of_self = _OF_SELF.match(value)
     if of_self is not None:
         return form if attributes.is_of_one(of_self[1]) else ""
@@ -262,14 +262,14 @@ def _shape(value: str, body: str, attributes: _Attributes) -> str:
     if root is None or not form:
         return form
     given = [item for targets, item in _assignments(body) if root[0] in targets]
-    forms = {_form(item) for item in given} - {"None"}
+    forms = {_callee(item) for item in given} - {"None"}
     own = [match[1] for match in map(_OF_SELF.match, given) if match]
     return (
         form if len(forms) <= 1 and all(map(attributes.is_of_one, own)) and "" not in forms else ""
     )
 
 
-def _form(value: str) -> str:
+def _callee(value: str) -> str:
     """Return the callee that creates a value, without arguments; empty for a conditional one."""
     if _EITHER.search(value):
         return ""

@@ -71,7 +71,7 @@ def _annotations(index: ScopeIndex) -> Iterator[tuple[str, ast.expr]]:
             if not is_text or (argument.arg not in written and not _is_of_base(argument)):
                 yield "parameter", argument.annotation
     for variable in index.all_of(ast.AnnAssign):
-        if _is_made_so(variable) or _is_of_record(index, variable):
+        if _has_matching_factory(variable) or _is_set_by_constructor(index, variable):
             continue
         yield "declaration" if variable.value is None else "variable", variable.annotation
 
@@ -122,7 +122,7 @@ def _referred_to(index: ScopeIndex) -> set[str]:
     return names | {node.id for node in index.all_of(ast.Name) if id(node) not in callees}
 
 
-def _is_made_so(variable: ast.AnnAssign) -> bool:
+def _has_matching_factory(variable: ast.AnnAssign) -> bool:
     """Tell whether the default of a dataclass field is created by the annotated class."""
     match variable.value:
         case ast.Call(keywords=[ast.keyword(arg="default_factory", value=factory)]):
@@ -130,7 +130,7 @@ def _is_made_so(variable: ast.AnnAssign) -> bool:
     return False
 
 
-def _is_of_record(index: ScopeIndex, variable: ast.AnnAssign) -> bool:
+def _is_set_by_constructor(index: ScopeIndex, variable: ast.AnnAssign) -> bool:
     """Tell whether a variable is a field that the constructor of a dataclass or tuple sets."""
     class_ = index.parent(variable)
     if variable.value is not None or not isinstance(class_, ast.ClassDef):
@@ -140,11 +140,14 @@ def _is_of_record(index: ScopeIndex, variable: ast.AnnAssign) -> bool:
     if names.isdisjoint({"dataclass", "NamedTuple"}):
         return False
     return not any(
-        _is_other(value, variable.annotation) for value in _given(index, class_, variable)
+        _is_other(value, variable.annotation)
+        for value in _constructor_arguments(index, class_, variable)
     )
 
 
-def _given(index: ScopeIndex, class_: ast.ClassDef, field: ast.AnnAssign) -> Iterator[ast.expr]:
+def _constructor_arguments(
+    index: ScopeIndex, class_: ast.ClassDef, field: ast.AnnAssign
+) -> Iterator[ast.expr]:
     """Yield the constructor arguments for a field of a class."""
     fields = [line.target for line in class_.body if isinstance(line, ast.AnnAssign)]
     name, position = ast.unparse(field.target), fields.index(field.target)

@@ -39,7 +39,7 @@ def generic_heads(text: str) -> Mapping[int, list[str]]:
             if f"{name}(" not in text:
                 continue
             body = body or results.body_of(text, function)
-            if re.search(_CALLED.format(name), body) and _makes(name, function, body):
+            if re.search(_CALLED.format(name), body) and _returns_call_of(name, function, body):
                 result[function.start()] = [_head(function, name)]
     return result
 
@@ -55,7 +55,7 @@ def definitions() -> str:
     return _DEFINITIONS
 
 
-def _makes(name: str, function: re.Match[str], body: str) -> bool:
+def _returns_call_of(name: str, function: re.Match[str], body: str) -> bool:
     """Tell whether all values that a function returns are results of calling a parameter."""
     if re.search(rf"(?<![\w.]){name}[ \t]*(?::[^=\n]*)?=(?!=)|\b(?:for|as)[ \t]+{name}\b", body):
         return False

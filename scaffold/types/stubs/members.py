@@ -133,12 +133,12 @@ def overload_problem(package: Package, callee: str, call: ast.Call) -> str:
     problems = [
         problem
         for function in _functions(package, callee)
-        if (problem := _problem(function, _positional(function, callee), call)) is not None
+        if (problem := _call_problem(function, _positional(function, callee), call)) is not None
     ]
     return min(problems, key=len) if problems and all(problems) else ""
 
 
-def _problem(
+def _call_problem(
     function: ast.FunctionDef | ast.AsyncFunctionDef, names: Sequence[str], call: ast.Call
 ) -> str | None:
     """Return the missing or surplus arguments of a call; ``None`` if a signature takes anything."""

@@ -46,7 +46,9 @@ def _blocks(text: PythonText, tree: ast.Module) -> Iterator[list[_Import]]:
     """Yield blocks of imports with only blank lines between them."""
     block: list[_Import] = []
     for node in tree.body:
-        plain = _plain(text, node) if isinstance(node, (ast.Import, ast.ImportFrom)) else None
+        plain = (
+            _fixable_import(text, node) if isinstance(node, (ast.Import, ast.ImportFrom)) else None
+        )
         follows = block and _only_blank(text, block[-1].statement, plain)
         if block and not follows:
             yield block
@@ -64,7 +66,7 @@ def _only_blank(text: PythonText, before: Statement, item: _Import | None) -> bo
     return not any(line.strip() for line in between)
 
 
-def _plain(text: PythonText, node: ast.Import | ast.ImportFrom) -> _Import | None:
+def _fixable_import(text: PythonText, node: ast.Import | ast.ImportFrom) -> _Import | None:
     """Return a statement alone on its lines; ``None`` if it must not be changed.
 
     Comments on its lines move with it, but keep the order of its names.

@@ -79,7 +79,7 @@ class _State:
 
     def _is_in_function(self, logical: LogicalLine) -> bool:
         """Search upwards for the block around the definition, by indentation."""
-        around, level = self._around, logical.indent
+        around, level = self._indentations, logical.indent
         row = logical.end_row - AT_TOP
         while row >= 0:
             width, above = around[row]
@@ -91,7 +91,7 @@ class _State:
         return False
 
     @cached_property
-    def _around(self) -> list[tuple[int, int]]:
+    def _indentations(self) -> list[tuple[int, int]]:
         """Return the indentation of each line, and the nearest line above with less.
 
         Blank lines have infinite indentation.

@@ -180,10 +180,10 @@ class _Walk:
             or (token.string == "if" and not self.chances)
         ):
             self._allow(token.end[1] + 1, True)  # noqa: FBT003  a value, not a switch
-        elif token.string == ":" and self._rest(token).isspace():
+        elif token.string == ":" and self._rest_of_line(token).isspace():
             bracket.rows.append(self.row)
 
-    def _rest(self, token: Token) -> str:
+    def _rest_of_line(self, token: Token) -> str:
         return self.logical.lines[token.end[0] - 1][token.end[1] :]
 
     def _note_brackets(self, token: Token) -> None:

@@ -114,7 +114,7 @@ class _Scan:
             if token.type == OP and token.string in (",", ";", ":") and self._is_tight(token):
                 yield token.start, "E231", f"missing whitespace after '{token.string}'"
             if self.wanted:
-                yield from self._behind(token)
+                yield from self._check_after_operator(token)
             elif token.type in (OP, NAME) and self.before is not None:
                 yield from self._in_front(token, self.before)
             self.before = token
@@ -144,7 +144,7 @@ class _Scan:
             return self.braces[-1:] != ["["] and self.braces[-2:] != ["f", "{"]
         return not (token.string == "," and following in ")]")
 
-    def _behind(self, token: Token) -> Iterator[tuple[Position, str, str]]:
+    def _check_after_operator(self, token: Token) -> Iterator[tuple[Position, str, str]]:
         """Check the token after an operator."""
         before, wanted = self.before, self.wanted
         if before is None:

@@ -28,7 +28,7 @@ def check(text: PythonText, options: Options) -> Iterator[Finding]:
         if has_spaces:
             yield from _spaces(logical)
         if has_breaks and logical.tokens[0].start[0] != logical.end_row:
-            yield from _breaks(logical)
+            yield from _operator_line_breaks(logical)
         if most is not None:
             yield from _long_text(logical, most)
 
@@ -43,7 +43,7 @@ def _spaces(logical: LogicalLine) -> Iterator[Finding]:
             yield Finding("E241", row, column + 1, f"several spaces {position}")
 
 
-def _breaks(logical: LogicalLine) -> Iterator[Finding]:
+def _operator_line_breaks(logical: LogicalLine) -> Iterator[Finding]:
     """Yield the line breaks before and after binary operators."""
     is_broken, is_unary = False, True
     before: Token | None = None

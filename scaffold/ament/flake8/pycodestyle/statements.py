@@ -55,17 +55,17 @@ def check(text: PythonText) -> Iterator[Finding]:
         (r"^except\s*:", bare_except),
     ):
         for logical in text.lines_with(pattern):
-            yield from _placed(logical, judge(logical.text))
+            yield from _located_findings(logical, judge(logical.text))
     for logical in text.logical_lines:
         if logical.first in _BLOCK_KEYWORDS and logical.last != ":":
-            yield from _placed(logical, compounds(logical.text))
+            yield from _located_findings(logical, compounds(logical.text))
     for logical in _continued(text):
         yield from needless_backslashes(logical)
     for logical in text.lines_with(r"\b[lOI]\b"):
         yield from ambiguous_names(logical)
     if linters.of_target().since("pycodestyle", 2, 12):
         for logical in text.lines_with(r"^@\s"):
-            yield from _placed(logical, spaced_decorator(logical.text))
+            yield from _located_findings(logical, spaced_decorator(logical.text))
     yield from late_imports(text)
 
 
@@ -89,7 +89,7 @@ def _continued(text: PythonText) -> Iterator[LogicalLine]:
                 yield logical
 
 
-def _placed(logical: LogicalLine, faults: Faults) -> Iterator[Finding]:
+def _located_findings(logical: LogicalLine, faults: Faults) -> Iterator[Finding]:
     """Yield the findings in a logical line at their places in the file, with fixes."""
     brackets = _Brackets(logical)
     for offset, code, message in faults:

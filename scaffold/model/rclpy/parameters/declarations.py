@@ -74,7 +74,7 @@ class Declarations:
             target, loop = loop, index.parent(loop)
         if not isinstance(loop, ast.For | ast.comprehension) or loop.target is not target:
             return [{}]
-        turns = self._turns(loop.iter)
+        turns = self._loop_items(loop.iter)
         if isinstance(target, ast.Name):
             return [{target.id: turn} for turn in turns] or [{}]
         rows: list[Mapping[str, ast.expr]] = []
@@ -87,7 +87,7 @@ class Declarations:
             rows.append({name.id: part for name, part in pairs if isinstance(name, ast.Name)})
         return rows or [{}]
 
-    def _turns(self, node: ast.expr) -> Sequence[ast.expr]:
+    def _loop_items(self, node: ast.expr) -> Sequence[ast.expr]:
         """Return the items of a list, or the pairs of a dictionary; empty if there may be more."""
         match node:
             case ast.Call(func=ast.Attribute(attr="items", value=ast.Dict() as pairs), args=[]):

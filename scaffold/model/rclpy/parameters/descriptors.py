@@ -97,10 +97,10 @@ def message_made(file: RclpyFile, node: ast.expr, kind: str) -> dict[str, ast.ex
         The fields; ``None`` if it is no such message, or if more may be set.
     """
     if not isinstance(node, ast.Name):
-        return _keywords(file, _kept(file, node), kind)
+        return _keywords(file, _only_value(file, node), kind)
     first = _assigned_before(file, node)
     if first is None or first.value is None:
-        return _keywords(file, _kept(file, node), kind)
+        return _keywords(file, _only_value(file, node), kind)
     fields = _keywords(file, first.value, kind)
     if fields is None:
         return None
@@ -109,7 +109,7 @@ def message_made(file: RclpyFile, node: ast.expr, kind: str) -> dict[str, ast.ex
             same = file.module.index.lookup(use.id, use)
             if same is None or all(item is not first for item in same[1]):
                 continue
-            if not _take(file, use, first, fields):
+            if not _record_use(file, use, first, fields):
                 return None
     return fields
 
@@ -126,7 +126,7 @@ def _keywords(file: RclpyFile, node: ast.expr, kind: str) -> dict[str, ast.expr]
     return {word.arg: word.value for word in node.keywords if word.arg is not None}
 
 
-def _kept(file: RclpyFile, node: ast.expr) -> ast.expr:
+def _only_value(file: RclpyFile, node: ast.expr) -> ast.expr:
     """Return the only value of a name or attribute, if its parts are not changed."""
     if isinstance(node, ast.Name):
         uses: list[ast.AST] = [*file.module.index.names(node.id)]
@@ -170,7 +170,9 @@ def _is_between(use: ast.Name, first: ast.AST, last: ast.Name) -> bool:
     return use is not last and _line(first) < use.lineno <= last.lineno
 
 
-def _take(file: RclpyFile, use: ast.Name, first: Binding, fields: dict[str, ast.expr]) -> bool:
+def _record_use(
+    file: RclpyFile, use: ast.Name, first: Binding, fields: dict[str, ast.expr]
+) -> bool:
     """Record the fields set by a use of the message; return false if unknown."""
     module = file.module
     parent = module.parent(use)
@@ -191,10 +193,10 @@ def _take(file: RclpyFile, use: ast.Name, first: Binding, fields: dict[str, ast.
     if isinstance(parent, ast.Tuple | ast.List):
         return True
     call = above if isinstance(parent, ast.keyword) else parent
-    return isinstance(call, ast.Call) and _keeps(call)
+    return isinstance(call, ast.Call) and _leaves_unchanged(call)
 
 
-def _keeps(call: ast.Call) -> bool:
+def _leaves_unchanged(call: ast.Call) -> bool:
     """Tell whether a call does not change the fields of its arguments."""
     name = call.func.attr if isinstance(call.func, ast.Attribute) else ""
     name = call.func.id if isinstance(call.func, ast.Name) else name

@@ -44,7 +44,7 @@ def parameter_read(file: RclpyFile, node: ast.expr) -> tuple[NodeDefinition | No
     """
     made = file.evaluator.single_value(node)
     if isinstance(made, ast.Subscript):
-        return _listed(file, made)
+        return _indexed_parameter(file, made)
     if not isinstance(made, ast.Call):
         return None, UNKNOWN
     func = file.method_of(made)
@@ -54,7 +54,9 @@ def parameter_read(file: RclpyFile, node: ast.expr) -> tuple[NodeDefinition | No
     return file.owner_of(func.value), file.evaluator.text(named[0]) if named else UNKNOWN
 
 
-def _listed(file: RclpyFile, node: ast.Subscript) -> tuple[NodeDefinition | None, str | Unknown]:
+def _indexed_parameter(
+    file: RclpyFile, node: ast.Subscript
+) -> tuple[NodeDefinition | None, str | Unknown]:
     """Return the parameter of ``self.get_parameters(['rate', 'mode'])[0]``."""
     call = file.evaluator.single_value(node.value)
     index = file.evaluator.evaluate(node.slice)

@@ -232,7 +232,7 @@ class Expansion:
         name = str(self._values.of(element, "name", frame))
         holder.attributes[name] = str(self._values.of(element, "value", frame))
 
-    def _make(self, element: Element, holder: Part, frame: Frame) -> None:
+    def _make_part(self, element: Element, holder: Part, frame: Frame) -> None:
         tag = str(self._values.of(element, "xacro:name", frame))
         part = Part(tag, element, frame.file, holder, is_certain=frame.is_certain)
         self._set_attributes(part, frame)
@@ -277,7 +277,7 @@ _HANDLERS: Mapping[str, _Handler] = {
     "xacro:unless": Expansion._condition,  # noqa: SLF001
     "xacro:insert_block": Expansion._insert,  # noqa: SLF001
     "xacro:attribute": Expansion._set_attribute,  # noqa: SLF001
-    "xacro:element": Expansion._make,
+    "xacro:element": Expansion._make_part,  # noqa: SLF001
     "xacro:call": Expansion._call_dynamic,  # noqa: SLF001
 }
 
