@@ -51,6 +51,15 @@ class PackageDataMissing(Rule):
             },
         ),
         Example(
+            "only read where Python is given the source file",
+            {
+                **_FILES,
+                "talker/text.py": "from pathlib import Path\n\nif __name__ == '__main__':\n"
+                "    print((Path(__file__).parent / 'words.txt').read_text())\n",
+                "setup.py": _SETUP.format(""),
+            },
+        ),
+        Example(
             "excluded",
             {**_FILES, "setup.py": _SETUP.format("")},
             "setup.py:5:14: talker/text.py:3 reads talker/words.txt, which is not installed; add "

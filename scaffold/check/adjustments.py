@@ -8,7 +8,7 @@ from collections.abc import Collection, Iterable, Iterator, Mapping
 
 from scaffold.ament.codes import STYLE
 from scaffold.ament.settings import settings_of
-from scaffold.check.rules.engine_rules import RuleCrashed
+from scaffold.check.rules.engine_rules import RuleCrashed, UnparsableFile
 from scaffold.configuration.exclusion import Exclusion
 from scaffold.diagnostic import Diagnostic, Severity
 from scaffold.model.discovery.foreign import ENVIRONMENTS, Foreign
@@ -30,8 +30,8 @@ from scaffold.source import ViewError
 _OF_LINTERS = ("E9", "F")
 _OF_PROGRAMS = ("IM", "LF", "MS", "ND", "TY")
 """Areas of rules about run-time behavior."""
-_OF_DATA = ("PF", "UR")
-"""Areas of rules about data files of programs."""
+_OF_DATA = ("PF", "UR", UnparsableFile.code)
+"""Areas and codes of rules about data files of programs."""
 _ENDINGS_OF_DATA = (".yaml", ".yml", ".urdf", ".xacro", ".sdf")
 _RAISED_ANYWAY = "F901"
 """``raise NotImplemented()`` raises another exception."""

@@ -221,7 +221,8 @@ def test_main_guard_of_a_launch_file(package: Path, capsys: pytest.CaptureFixtur
         ("error", "def tell", "def on_configure"),
         ("error", "def tell", "def destroy_node"),
         ("error", "(Node)", "(Node, Speaker)"),
-        ("error", "    def tell", "    @property\n    def tell"),
+        ("error", "    def tell", "    @cached\n    def tell"),
+        ("warning", "    def tell", "    @property\n    def tell"),
         ("error", "def main", "def talk"),
         ("warning", "# nothing", "# tell"),
     ],
@@ -348,6 +349,9 @@ def test_robot_that_is_not_launched(package: Path, capsys: pytest.CaptureFixture
     write(package / "setup.py", SETUP.replace(")\n", data))
     write(package / "launch" / "talk.launch.py", LAUNCH.format("'urdf/arm.urdf'"))
     assert severities(capsys, "UR001") == {"urdf/arm.urdf": "error", "urdf/hand.urdf": "warning"}
+    for name in ("arm", "hand"):
+        write(package / "urdf" / f"{name}.urdf", "<!-- nothing -->\n")
+    assert severities(capsys, "SC001,UR") == {"urdf/arm.urdf": "error", "urdf/hand.urdf": "warning"}
 
 
 @pytest.mark.parametrize(

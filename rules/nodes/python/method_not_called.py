@@ -55,7 +55,10 @@ class MethodNotCalled(RclpyRule):
 
     code = "ND093"
     name = "method-not-called"
-    other_severities = {Severity.WARNING: "it is a shutdown after the spin, where the program ends"}
+    other_severities = {
+        Severity.WARNING: "it is a shutdown after the spin, where the program ends, or a message "
+        "that is not logged"
+    }
     examples = (
         Example("called", {"talker.py": _NODE.format("()", "()", "()", "()", "()")}),
         Example(
@@ -72,17 +75,22 @@ class MethodNotCalled(RclpyRule):
             {
                 "talker.py": "import rclpy\nfrom rclpy.node import Node\n\n\ndef main():\n"
                 "    rclpy.init()\n    node = Node('talker')\n    rclpy.spin(node)\n"
-                "    node.destroy_node\n    rclpy.shutdown\n\n\n"
+                "    node.get_logger().info\n    node.destroy_node\n    rclpy.shutdown\n\n\n"
                 "class Listener(Node):\n    def __init__(self):\n"
                 "        super().__init__('listener')\n        rclpy.shutdown()\n"
             },
             Report(
                 "9:5",
-                "'destroy_node' is a method that is not called; write destroy_node()",
+                "'info' is a method that is not called; write info()",
                 severity=Severity.WARNING,
             ),
             Report(
                 "10:5",
+                "'destroy_node' is a method that is not called; write destroy_node()",
+                severity=Severity.WARNING,
+            ),
+            Report(
+                "11:5",
                 "rclpy.shutdown is not called; add the parentheses",
                 severity=Severity.WARNING,
             ),
@@ -171,11 +179,13 @@ _PLACES = frozenset(
 
 def _level(file: RclpyFile, node: ast.Attribute) -> Severity:
     """Return what it means: what the end of a program leaves out, the system tidies up."""
-    is_of_end = node.attr in _TIDYING and isinstance(file.module.parent(node), ast.Expr)
-    is_late = is_of_end and only_while_stopping(file.module, node)
-    return Severity.WARNING if is_late else Severity.ERROR
+    if not isinstance(file.module.parent(node), ast.Expr):
+        return Severity.ERROR
+    is_late = node.attr in _TIDYING and only_while_stopping(file.module, node)
+    return Severity.WARNING if is_late or node.attr in _LOGGING else Severity.ERROR
 
 
+_LOGGING = frozenset({"debug", "info", "warn", "warning", "error", "fatal"})
 _TIDYING = frozenset({"shutdown", "try_shutdown", "destroy_node"})
 _OF_THREADS = {
     "threading.Event": frozenset({"set", "clear"}),

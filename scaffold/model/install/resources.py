@@ -113,6 +113,8 @@ def _named_in(package: Package, module: PythonModule) -> Iterator[OwnFile]:
     nodes += module.walk(ast.JoinedStr)
     seen: set[str] = set()
     for node in nodes:
+        if _is_in_main_guard(module, node):
+            continue
         value = evaluator.evaluate(node)
         text = value.text if isinstance(value, PathValue) else value
         if not isinstance(text, str) or not text.startswith(ROOT):
@@ -122,6 +124,12 @@ def _named_in(package: Package, module: PythonModule) -> Iterator[OwnFile]:
         if is_new and not _is_tried(module, node):
             seen.add(path)
             yield OwnFile(path, module.location(node))
+
+
+def _is_in_main_guard(module: PythonModule, node: ast.expr) -> bool:
+    """Tell whether code only runs where Python is given the source file."""
+    guard = module.main_guard_node
+    return guard is not None and guard.lineno <= node.lineno <= (guard.end_lineno or 0)
 
 
 def _is_tried(module: PythonModule, node: ast.expr) -> bool:

@@ -17,6 +17,8 @@ if TYPE_CHECKING:
     from scaffold.model.python.module import PythonModule
     from scaffold.model.python.scopes import FunctionNode
 
+_CALLBACK = re.compile(r"(?i)call_?back$|_cb$")
+"""Matches the names of methods that are handed over, and are not known to a base."""
 _WORD = re.compile(r"\w+")
 _DEFINITION = re.compile(r"\bdef\s+(\w+)")
 _ENTRIES = frozenset({"main", "generate_launch_description"})
@@ -66,7 +68,7 @@ def is_in_uncalled_function(package: Package, module: PythonModule, line: int) -
     if module.in_tests or (is_helper and not _helps_programs(package, module)):
         return False
     function = _outermost_function(module, line)
-    if function is None or function.decorator_list or not _is_called_by_name(module, function):
+    if function is None or _is_decorated(function) or not _is_called_by_name(module, function):
         return False
     if is_helper and module.enclosing_class(function) is not None:
         return False
@@ -108,6 +110,12 @@ def _outermost_function(module: PythonModule, line: int) -> FunctionNode | None:
     return None
 
 
+def _is_decorated(function: FunctionNode) -> bool:
+    """Tell whether something else than a name may lead to a function; it is all of a property."""
+    names = [getattr(item, "id", "") for item in function.decorator_list]
+    return any(name != "property" for name in names)
+
+
 def _is_called_by_name(module: PythonModule, function: FunctionNode) -> bool:
     """Tell whether a function is not called implicitly by Python, rclpy, or an unknown base."""
     if function.name in _ENTRIES or function.name.startswith("__"):
@@ -118,7 +126,7 @@ def _is_called_by_name(module: PythonModule, function: FunctionNode) -> bool:
     if class_.decorator_list or class_.keywords or has(NODE, function.name):
         return False
     bases = {module.qualified_name(base) for base in class_.bases}
-    return bases <= {NODE, "rclpy.Node", "object"}
+    return bases <= {NODE, "rclpy.Node", "object"} or bool(_CALLBACK.search(function.name))
 
 
 def _is_named_in(package: Package, module: PythonModule, names: tuple[str, ...]) -> bool:
