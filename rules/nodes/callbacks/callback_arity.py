@@ -191,6 +191,18 @@ class CallbackArity(RclpyRule):
             "RuntimeError",
         ),
         Example(
+            "a method without self",
+            {
+                "talker.py": "from rclpy.node import Node\n\n\n"
+                "class Talker(Node):\n"
+                "    def __init__(self):\n"
+                "        super().__init__('talker')\n"
+                "        self.create_timer(1.0, self.work)\n\n"
+                "    def work():\n        print('work')\n"
+            },
+            "7:32: callback 'work' lacks 'self': TypeError",
+        ),
+        Example(
             "the future of a client that a class gets with a node",
             {
                 "remote.py": "from std_srvs.srv import Trigger\n\n\n"
@@ -216,6 +228,9 @@ class CallbackArity(RclpyRule):
                 yield self.report(callback, f"{message}, but {given[1]}")
                 continue
             least, most = takes.start, takes.stop - 1
+            if least < 0:
+                yield self.report(callback, f"{_shown(callback)} lacks 'self': TypeError")
+                continue
             has = str(least) if least == most else f"{least} to {most}"
             noun = "argument" if has == "1" else "arguments"
             more = " more" if callback.is_partial else ""

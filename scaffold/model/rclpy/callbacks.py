@@ -174,6 +174,8 @@ def numbers_taken(callback: Callback) -> range | None:
     ):
         return None
     names = [item.arg for item in (*arguments.posonlyargs, *arguments.args)]
+    if callback.is_bound and not names:
+        return range(-1, 0)  # not even the object that it is bound to
     names = names[int(callback.is_bound) :]
     needed = names[: len(names) - len(arguments.defaults)]
     if callback.is_partial:
