@@ -37,9 +37,9 @@ _OF_SENSORS = frozenset(
     | {"sensor_msgs/msg/CameraInfo", "sensor_msgs/msg/Imu", "sensor_msgs/msg/PointCloud2"}
     | {"sensor_msgs/msg/NavSatFix", "sensor_msgs/msg/MagneticField"}
 )
-"""What Gazebo measures, and its own plugins never take from ROS."""
+"""Data of Gazebo sensors, which its own plugins never read from ROS."""
 _OF_PLUGINS = ("gz-sim", "gz-plugin", "gz_sim", "gz_plugin", "ignition-gazebo", "ignition-plugin")
-"""How the packages begin that CMake builds plugins of Gazebo with."""
+"""The prefixes of the CMake packages for building Gazebo plugins."""
 
 
 class BridgeDiffersFromNodes(Rule):
@@ -170,7 +170,7 @@ class BridgeDiffersFromNodes(Rule):
                     f"{entry.ros_topic!r} has type {type_.text} here, but {endpoint.interface} in "
                     f"{at.path}:{at.line}: they never connect"
                 )
-                is_set = endpoint.from_parameter is not None  # by whoever starts it with the bridge
+                is_set = endpoint.from_parameter is not None  # set at the start
                 yield self.report(type_, message, severity=Severity.WARNING if is_set else None)
 
     def _check_direction(self, package: Package) -> Iterator[Diagnostic]:
@@ -197,6 +197,6 @@ class BridgeDiffersFromNodes(Rule):
 
 
 def _has_plugin(package: Package) -> bool:
-    """Tell whether a package builds a plugin of Gazebo, which may take anything from ROS."""
+    """Tell whether a package builds a Gazebo plugin, which may read anything from ROS."""
     text = package.source("CMakeLists.txt").text if package.has("CMakeLists.txt") else ""
     return any(name in text for name in _OF_PLUGINS)

@@ -47,7 +47,7 @@ _LAUNCH = (
 )
 _OF_ROS = r"[A-Za-z]\w*(?:/\w+)+"
 _OF_GAZEBO = r"(?:gz|ignition)\.msgs\.\w+"
-_ARGUMENT = re.compile(  # linear: one sign begins it
+_ARGUMENT = re.compile(  # linear: it starts with a single character
     rf"(?<=[\w/~{{}}-])@(?:({_OF_ROS})[@\[\]]({_OF_GAZEBO})|({_OF_GAZEBO})[@\[\]]({_OF_ROS}))"
 )
 _OLD_TYPES = "ignition.msgs."
@@ -273,7 +273,7 @@ class BridgeEntryUnusable(Rule):
 
 
 def _types(match: re.Match[str]) -> tuple[str, str]:
-    """Return the two types of an argument, in their order."""
+    """Return the two types of an argument, in order."""
     return match[1] or match[3], match[2] or match[4]
 
 

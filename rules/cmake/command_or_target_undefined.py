@@ -32,7 +32,7 @@ _OF_ROS1 = {
     "roslaunch_add_file_check": "add_launch_test",
 }
 _MAX_LENGTH_DIFFERENCE = 2
-"""More letters than that are not a typo."""
+"""A larger difference in length is not a typo."""
 PROVIDERS = {
     "add_launch_test": ("launch_testing_ament_cmake", "ros_testing"),
     "add_ros_test": ("ros_testing",),
@@ -59,7 +59,7 @@ PROVIDERS = {
     "rclcpp_components_register_nodes": ("rclcpp_components",),
     "rosidl_generate_interfaces": ("rosidl_default_generators", "rosidl_core_generators"),
 }
-"""The packages that bring a command."""
+"""The packages that provide a command."""
 
 _BRING_NOTHING = (
     "ament_cmake",
@@ -76,7 +76,7 @@ _BRING_NOTHING = (
     "tf2",
     "tf2_ros",
 )
-"""Packages that bring none of these commands but their own, nor do message packages."""
+"""Packages that only provide their own commands, like message packages."""
 
 _CALL = "project(talker)\nfind_package(ament_cmake REQUIRED)\n{}()\n"
 _LISTS = "project(talker)\n{}ament_add_pytest_test(talk test/test_talk.py)\n"
@@ -261,7 +261,7 @@ class CommandOrTargetUndefined(Rule):
 
 
 def _closest(name: str) -> list[str]:
-    """Return the command that a name is a typo of, if there is one."""
+    """Return the command of which a name is a typo, if any."""
     if any(character.isdigit() for character in name):
         return []
     words = sorted(name.split("_"))

@@ -53,11 +53,11 @@ _LINKED = {
     "OpenCV": "${OpenCV_LIBS}",
     "console_bridge": "console_bridge::console_bridge",
 }
-"""What to link of packages that are not of ROS, and are found on every distribution."""
+"""The targets of non-ROS packages that exist on every distribution."""
 _WIDTH = 100
-"""The characters from which on the targets of a call get lines of their own."""
+"""The maximum width in characters; longer calls get one target per line."""
 _LATER = frozenset({"tf2_sensor_msgs"})
-"""Packages that look like interfaces, and export no targets on Humble."""
+"""Packages that look like interfaces but do not export targets on Humble."""
 
 
 class CommandRemoved(Rule):
@@ -303,7 +303,7 @@ class CommandRemoved(Rule):
                 yield self.report(command.name_location, message, fix, severity=severity)
 
     def _fix(self, package: Package, cmake: CMakeLists, command: Command) -> Fix | None:
-        """Link the targets of the packages, in the place of each name."""
+        """Replace each name by the targets of the package."""
         _, *rest = command.arguments
         items = [item for item in rest if item.value not in _KEYWORDS]
         linked = [_packages(cmake, command, item) for item in items]
@@ -341,7 +341,7 @@ def _is_asked_for(cmake: CMakeLists, command: Command) -> bool:
 
 
 def _packages(cmake: CMakeLists, command: Command, argument: Argument) -> list[str]:
-    """Return the packages that an argument names, itself or as a list; none if that is unclear."""
+    """Return the packages in an argument, a name or a list; empty if unclear."""
     names = cmake.expand_list([argument], command) or []
     is_clear = all(name.replace("_", "").isalnum() and name != "SYSTEM" for name in names)
     return names if is_clear else []

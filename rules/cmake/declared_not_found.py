@@ -15,7 +15,7 @@ _NOT_FOUND_BY_NAME = (
     "ament_index",
     "ament_lint",
     "eigen",
-    "ros_environment",  # gives variables such as ROS_DISTRO
+    "ros_environment",  # provides variables such as ROS_DISTRO
 )
 _MANIFEST = (
     '<package format="3">\n  <name>talker</name>\n'

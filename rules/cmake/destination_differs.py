@@ -148,7 +148,7 @@ class DestinationDiffers(Rule):
             yield self.report(argument, message, fix)
 
     def _is_meant_for_run(self, package: Package, install: Install, given: str) -> bool:
-        """Tell a node from a helper that is rightly elsewhere, such as an environment hook."""
+        """Tell whether a program is a node, not a helper such as an environment hook."""
         if given.startswith(("include", "etc", "/")) or "python" in given:
             return False
         paths = [item.path for item in install.items if item.path and package.has(item.path)]
@@ -158,7 +158,7 @@ class DestinationDiffers(Rule):
         return any(self._is_node(package, path) for path in paths)
 
     def _is_program(self, package: Package, path: str) -> bool:
-        """Tell whether a file is a node that is started, and installed nowhere else."""
+        """Tell whether a file is a started node that is not installed elsewhere."""
         if not self._is_node(package, path):
             return False
         module = package.module(path)
@@ -199,7 +199,7 @@ class DestinationDiffers(Rule):
             yield self.report(argument, message, Fix(f"install to {_WANTED}", (edit,)))
 
     def _holds_data(self, install: Install, placed: set[str | None]) -> bool:
-        """Tell whether all that is installed is data for launching, and installed only here."""
+        """Tell whether only launch data is installed, and only here."""
         paths = [item.path for item in install.items]
         return bool(paths) and all(path in DIRECTORIES and path not in placed for path in paths)
 

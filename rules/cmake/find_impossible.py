@@ -120,5 +120,5 @@ class FindImpossible(Rule):
 
 
 def _is_of_ros(name: str) -> bool:
-    """Tell a package of ROS from a library, which may well have capitals in CMake."""
+    """Tell whether a package is one of ROS; libraries may have capital letters in CMake."""
     return name.startswith(("ament_", "rcl", "rosidl_")) or name.endswith(("_msgs", "_srvs"))

@@ -200,7 +200,7 @@ class FoundUndeclared(Rule):
             other = manifest.left_out({name}, "build", "build_export", "run", "test")
             if other is not None:
                 if [*package.cmake.conditions(found.command)]:
-                    continue  # which may be true where the dependency is there
+                    continue  # which may hold where the dependency is installed
                 reported.add(name)
                 message = (
                     f"finds {name!r}, and line {other.location.line} of package.xml declares it "
@@ -245,7 +245,7 @@ class FoundUndeclared(Rule):
 
 
 def _undeclared(package: Package) -> Iterator[FoundPackage]:
-    """Yield the packages of ROS that are looked for, and that no dependency brings along."""
+    """Yield the ROS packages that are searched for and that no dependency provides."""
     declared = {item.name for item in package.manifest.dependencies if item.may_be_active}
     dependencies = requirements.declared(package, for_tests=True)
     names = {package.name, *declared, *transitive_dependencies(declared), *dependencies.along}
@@ -253,11 +253,11 @@ def _undeclared(package: Package) -> Iterator[FoundPackage]:
     for found in package.cmake.found_packages:
         name, neighbor = found.name, package.workspace.get(found.name)
         if name == "rosidl_default_generators" and package.cmake.find("rosidl_generate_interfaces"):
-            continue  # interface-declarations-missing says it, with what else is missing
-        if name in names or f"lib{name}-dev" in declared:  # the package of the system that has it
+            continue  # interface-declarations-missing reports it, with other missing ones
+        if name in names or f"lib{name}-dev" in declared:  # the system package that contains it
             continue
         if neighbor is None and (name not in ROS_PACKAGES or removed_package(name)):
-            continue  # not known; or package-removed says it
+            continue  # unknown, or reported by package-removed
         yield found
 
 
@@ -269,7 +269,7 @@ def _tag(found: FoundPackage) -> str:
 
 
 def _there(package: Package) -> set[str]:
-    """Return the transitive dependencies of those for the build and the tests."""
+    """Return the transitive build and test dependencies."""
     manifest = package.manifest
     result: set[str] = set()
     pending = [
@@ -290,5 +290,5 @@ def _there(package: Package) -> set[str]:
                 pending += neighbour.manifest.run_names if neighbour is not None else ()
             except ViewError:
                 continue
-    # A package with messages depends on what is needed to use them.
+    # A package with messages depends on everything that is needed to use them.
     return result | transitive_dependencies(result) | {"rosidl_default_runtime"}

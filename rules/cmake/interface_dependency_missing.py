@@ -15,7 +15,7 @@ _LISTS = (
 )
 _FILES = {"msg/Beat.msg": "std_msgs/Header header\ngeometry_msgs/Point point\n"}
 _TOOLS = ("ament_cmake", "ament_lint", "rosidl_", "Python3", "Eigen3")
-"""What brings no interfaces along, except for those that all interfaces use."""
+"""Packages that provide no interfaces, except for those that all interfaces use."""
 _ALWAYS = frozenset({"action_msgs", "builtin_interfaces", "service_msgs"})
 _ALWAYS |= {"unique_identifier_msgs", "type_description_interfaces", "rcl_interfaces"}
 _LISTS_FOUND = (
@@ -125,7 +125,7 @@ def _used(package: Package, call: Generation) -> Iterator[tuple[str, str, int]]:
 
 
 def _reached(definitions: Definitions, names: list[str]) -> set[str] | None:
-    """Return the packages that some packages use, themselves included; ``None``: not known."""
+    """Return some packages with their dependencies; ``None`` if unknown."""
     result = {"service_msgs", "action_msgs", "builtin_interfaces", "unique_identifier_msgs"}
     pending = [*names]
     while pending:
@@ -144,7 +144,7 @@ def _reached(definitions: Definitions, names: list[str]) -> set[str] | None:
 
 
 def _names_found(cmake: CMakeLists) -> set[str] | None:
-    """Return what is found; ``None`` if a name is not known."""
+    """Return the found packages; ``None`` if a name is not known."""
     names: set[str] = set()
     for command in cmake.find("find_package"):
         expanded = cmake.expand_list(command.arguments[:1], command)
@@ -155,7 +155,7 @@ def _names_found(cmake: CMakeLists) -> set[str] | None:
 
 
 def _available(package: Package, required: set[str] | None) -> set[str] | None:
-    """Return what is found, with what comes along; ``None`` if more may come along."""
+    """Return the found packages with their dependencies; ``None`` if there may be more."""
     if required is None:
         return None
     definitions = package.workspace.interfaces

@@ -154,7 +154,7 @@ class MinimumVersionUnfit(Rule):
 
 
 def _verdict(version: str, numbers: tuple[int, int]) -> tuple[str, str, Severity | None]:
-    """Return a message, the version to write and another severity; no message if all is well."""
+    """Return a message, the version to write and the severity; no message if it is valid."""
     stops = target().fact("build.cmake_minimum_error_below")
     warns = target().fact("build.cmake_minimum_warning_below")
     cmake = _cmake()
@@ -175,7 +175,7 @@ def _cmake() -> str:
 
 
 def _numbers(version: str) -> tuple[int, int] | None:
-    """Return a version that is no range as numbers."""
+    """Return a version as numbers; ranges are not supported."""
     matched = re.fullmatch(r"(\d{1,9})\.(\d{1,9})(?:\.[\d.]*)?", version)
     if matched is None or ".." in version:
         return None

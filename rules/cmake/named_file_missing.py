@@ -25,7 +25,7 @@ _MAKERS = (
     *("configure_file", "file", "execute_process", "externalproject_add"),
     *("fetchcontent_declare", "include"),
 )
-"""Commands after which there may be more files than git has."""
+"""Commands that may create files that git does not have."""
 _MAKERS_OF_SOURCES = (
     *_MAKERS,
     *("add_custom_command", "add_custom_target", "generate_parameter_library"),
@@ -34,7 +34,7 @@ _MAKERS_OF_DIRECTORIES = (*_MAKERS, "fetchcontent_makeavailable")
 _KEYWORDS = frozenset(
     {"PACKAGE_DIR", "VERSION", "SETUP_CFG", "DESTINATION", "SCRIPTS_DESTINATION", "SKIP_COMPILE"}
 )
-"""Those of ament_python_install_package."""
+"""The keywords of ament_python_install_package."""
 _LISTS = "project(talker)\nadd_executable(talker {})\n"
 _LISTS_SUBDIRECTORIES = "project(talker)\nadd_subdirectory({})\n"
 _TESTING = ("ament_add_pytest_test", "add_launch_test", "add_ros_test")
@@ -224,7 +224,7 @@ class NamedFileMissing(Rule):
             return None
         nested = [f"{directory}/" for directory in package.tree.nested]
         if any(f"{path}/".startswith(item) or item.startswith(f"{path}/") for item in nested):
-            return None  # the files of a package inside of this one are its own
+            return None  # the files of a nested package are its own
         if install.kind == "DIRECTORY":
             return self._directory_problem(package, path)
         if package.has(path):

@@ -23,7 +23,7 @@ _LISTS = "project(talker)\ninstall(PROGRAMS talker/node.py DESTINATION lib/${PRO
 _NODE = "#!/usr/bin/env python3\n"
 _CAUSE = "not executable"
 _COPIED = ("RENAME", "PERMISSIONS", "CONFIGURATIONS", "COMPONENT")
-"""With one of these CMake itself installs the file, and sets the bit."""
+"""Keywords with which CMake installs a copy and sets the executable bit."""
 _NODE_KIND = (
     "#!/usr/bin/env python3\nimport rclpy\n\nif __name__ == '__main__':\n    rclpy.init()\n"
 )
@@ -282,7 +282,7 @@ class ProgramNotExecutable(Rule):
         )
 
     def _script(self, package: Package, path: str, kind: str) -> str:
-        """Return the node that a path is, or the first in a directory."""
+        """Return the node at a path, or the first one in a directory."""
         paths = [path]
         if kind == "DIRECTORY":
             paths = [file for file in package.files if file.startswith(f"{path}/")]
@@ -340,7 +340,7 @@ class ProgramNotExecutable(Rule):
 
 
 def _is_run_by_cmake(package: Package, path: str) -> bool:
-    """Tell whether a file of CMake names a script where it is installed, to run it itself."""
+    """Tell whether a CMake file refers to an installed script in order to run it."""
     place = f"/{package.cmake.project_name}/{path.rpartition('/')[2]}"
     return any(
         place in package.source(file).text
@@ -350,7 +350,7 @@ def _is_run_by_cmake(package: Package, path: str) -> bool:
 
 
 def _starts_python(line: str) -> bool:
-    """Tell whether a shebang starts Python 3 wherever ROS 2 is installed."""
+    """Tell whether a shebang starts Python 3 on all systems with ROS 2."""
     words = line.removeprefix("#!").split()
     if words[:1] == ["/usr/bin/env"] and len(words) > 1:
         if words[1] == "-S":

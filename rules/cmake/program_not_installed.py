@@ -10,7 +10,7 @@ from scaffold.api.install import is_started, paths_imported_by
 from scaffold.api.launch import package_uses
 
 _TRIALS = ("test", "example")
-"""Prefixes of the names of programs for their author only."""
+"""Prefixes of the names of programs for the author only."""
 _NODE = (
     "#!/usr/bin/env python3\nimport rclpy\n\n\ndef main():\n    rclpy.init()\n\n\n"
     "if __name__ == '__main__':\n    main()\n"
@@ -207,7 +207,7 @@ class ProgramNotInstalled(Rule):
             yield self.report(place, message, severity=severity)
 
     def _is_misspelled(self, package: Package, path: str) -> bool:
-        """Tell whether an installed file that does not exist must be this one."""
+        """Tell whether a missing installed file must be this one."""
         missing = [program.path for program in programs(package) if not package.has(program.path)]
         return bool(closest_name(package, path, missing, 0.8))
 
@@ -217,7 +217,7 @@ class ProgramNotInstalled(Rule):
             return
         targets = [install for install in cmake.installs if install.kind == "TARGETS"]
         installed = {item.value for target in targets for item in target.items}
-        # An application that installs nothing at all has not forgotten this one.
+        # An application without any install commands has not forgotten this one.
         if not installed or None in installed:
             return
         for command in cmake.find("add_executable"):
@@ -253,7 +253,7 @@ class ProgramNotInstalled(Rule):
 
 
 def _is_named(package: Package, path: str) -> bool:
-    """Tell whether something that users start or read names a program."""
+    """Tell whether anything that users start or read mentions a program."""
     name = path.rpartition("/")[2].encode()
     return any(name in package.data(item) for item in package.files if item.endswith(_FOR_USERS))
 

@@ -119,7 +119,7 @@ class ProjectNameDiffers(Rule):
             return
         projects = [call.arguments[0] for call in package.cmake.find("project") if call.arguments]
         if any(package.cmake.expand(project) == name for project in projects):
-            return  # the others are for other ways to build it
+            return  # the others are for other build systems
         line = package.manifest.all("name")[0].location.line
         message = f"the project is {written!r}, the package {name!r} (package.xml, line {line})"
         argument = package.cmake.find("project")[0].arguments[0]

@@ -61,14 +61,14 @@ class CircularImport(Rule):
 
 
 def _takes_names(package: Package, node: Import, path: str) -> bool:
-    """Tell whether an import takes what the module makes after its own imports."""
+    """Tell whether an import needs names that the module defines after its own imports."""
     late = _late_names(package, path)
     return any(name.name in late for name in node.names)
 
 
 @fact
 def _late_names(package: Package, path: str) -> frozenset[str]:
-    """Return the names that a module makes after its own imports."""
+    """Return the names that a module defines after its own imports."""
     module = package.module(path)
     last = max((other.location.line for other in module.imports if other.top_level), default=0)
     return frozenset(

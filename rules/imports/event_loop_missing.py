@@ -11,13 +11,13 @@ from scaffold.api.python import PythonModule, conditions_on, is_handled
 from scaffold.api.rclpy import is_asked_for
 
 _FIRST = (3, 14)
-"""The Python from which on getting the current event loop does not create one."""
+"""The first Python in which getting the current event loop does not create one."""
 _NAME = "asyncio.get_event_loop"
 _SETTER = "set_event_loop"
 _MAKERS = ("nest_asyncio", "qasync", "uvloop")
-"""What makes a loop the current one, or changes which one that is."""
+"""Modules that set the current loop or the policy."""
 _RUNNERS = ("asyncio.run", "run_until_complete", "run_forever", "create_task")
-"""What runs a loop, from which nodes may be spun."""
+"""Functions that run a loop, in which nodes may be spun."""
 _MAIN = (
     "import asyncio\n{}\n\nasync def work():\n    loop = asyncio.get_event_loop()\n"
     "    await loop.run_in_executor(None, print)\n\n\n"
@@ -160,7 +160,7 @@ class EventLoopMissing(PythonRule):
 
 
 def _sets_loop(module: PythonModule) -> bool:
-    """Tell whether a file sets a loop, or a policy that may: those of asyncio do not."""
+    """Tell whether a file sets a loop, or a policy other than those of asyncio."""
     policies = [
         policy
         for call in module.calls_of("asyncio.set_event_loop_policy")
@@ -172,12 +172,12 @@ def _sets_loop(module: PythonModule) -> bool:
 
 
 def _is_at_start(module: PythonModule, call: ast.Call) -> bool:
-    """Tell whether a call is run by a program before it has a loop, in a function of main too."""
+    """Tell whether a program runs a call before it has a loop, also in a function of main."""
     if _is_of_program(module, call):
         return True
     around = _functions_around(module, call)
     if len(around) != 1 or conditions_on(module, call):
-        return False  # what a function is given may decide whether it asks
+        return False  # arguments may decide whether the function gets the loop
     name = _name_called(module, around[0])
     if not name or not _is_plain(around[0]) or len(module.index.bindings(module.tree)[name]) > 1:
         return False
@@ -191,7 +191,7 @@ def _is_at_start(module: PythonModule, call: ast.Call) -> bool:
 
 
 def _name_called(module: PythonModule, function: ast.AST) -> str:
-    """Return by which name of the file a function is called, or the class that it constructs."""
+    """Return the name in the file of a called function, or of the class that it constructs."""
     above = module.parent(function)
     if isinstance(above, ast.Module) and isinstance(function, ast.FunctionDef):
         return function.name
@@ -202,7 +202,7 @@ def _name_called(module: PythonModule, function: ast.AST) -> str:
 
 
 def _is_of_timer(module: PythonModule, method: str) -> bool:
-    """Tell whether a method is what a timer calls, and no loop of asyncio is around it."""
+    """Tell whether a method is a timer callback without a surrounding asyncio loop."""
     return not module.mentions(*_RUNNERS) and any(
         isinstance(call.func, ast.Attribute)
         and call.func.attr == "create_timer"
@@ -217,7 +217,7 @@ def _functions_around(module: PythonModule, node: ast.AST) -> list[ast.AST]:
 
 
 def _is_plain(node: ast.AST) -> bool:
-    """Tell whether a call of a function runs its body, there and then."""
+    """Tell whether a call of a function runs its body immediately."""
     return (
         isinstance(node, ast.FunctionDef)
         and not node.decorator_list
@@ -226,13 +226,13 @@ def _is_plain(node: ast.AST) -> bool:
 
 
 def _runs_into_it(module: PythonModule, site: ast.Call) -> bool:
-    """Tell whether the call of a function that asks is run, and not prepared for the failure."""
+    """Tell whether a call of a function that gets the loop is run without handling the error."""
     is_prepared = is_handled(module, site, "RuntimeError") or is_asked_for(module, site, _NAME)
     return _is_of_program(module, site) and not is_prepared
 
 
 def _is_of_program(module: PythonModule, call: ast.Call) -> bool:
-    """Tell whether a call is run when the module is, or by its ``main`` that nothing awaits."""
+    """Tell whether a call is run at module level, or by a ``main`` that is not awaited."""
     around = _functions_around(module, call)
     main = module.functions.get("main")
     if not around or main is None:

@@ -10,7 +10,7 @@ from scaffold.api.distributions import target
 from scaffold.api.python import PythonModule
 
 _FIRST = (3, 14)
-"""The Python whose classes do not keep their annotations where objects find them."""
+"""The first Python in which instances do not have ``__annotations__``."""
 _NAME = "__annotations__"
 _CLASS = (
     "{}from dataclasses import dataclass\n\n\n"

@@ -32,9 +32,9 @@ _GONE: Mapping[str, tuple[str, str]] = {
     "cv2.cv": ("since OpenCV 3", "the names of cv2 itself"),
     "cv2.SIFT": ("since OpenCV 3", "cv2.SIFT_create()"),
 }
-"""What Python raises ``AttributeError`` for, since when, and what to write instead."""
+"""Removed names with the version and the replacement."""
 _BACK = frozenset({"numpy.bool", "numpy.long"})
-"""Names that NumPy 2 has again: they are types of its own."""
+"""Names that NumPy 2 has again, as other types."""
 _LATER: Mapping[str, str] = {
     **dict.fromkeys(("trapezoid",), "np.trapz()"),
     **{f"a{name}": f"np.arc{name}()" for name in ("cos", "sin", "tan", "cosh", "sinh", "tanh")},
@@ -52,7 +52,7 @@ _LATER: Mapping[str, str] = {
     "isdtype": "np.issubdtype()",
     "bitwise_left_shift": "np.left_shift()",
 }
-"""What NumPy has since 2.0; Ubuntu 24.04, which Jazzy is for, has 1.26."""
+"""Names added in NumPy 2.0; Ubuntu 24.04 (Jazzy) has 1.26."""
 
 
 _SECOND = (2,)
@@ -169,7 +169,7 @@ class NameGone(PythonRule):
 
 
 _ATTRIBUTES = frozenset(name.rpartition(".")[2] for name in (*_GONE, *_LATER))
-"""The last parts of the names, as few other attributes are called."""
+"""The last parts of the names, for a quick search."""
 
 
 def _numpy() -> tuple[int, ...]:
@@ -177,7 +177,7 @@ def _numpy() -> tuple[int, ...]:
 
 
 def _is_gone(name: str) -> bool:
-    """Tell whether the release of the target lacks a name, as far as releases differ in that."""
+    """Tell whether the release of the target lacks a name."""
     if name in _BACK and _numpy() >= _SECOND:
         return False
     word, number = _GONE[name][0].removeprefix("since ").split()
@@ -185,14 +185,14 @@ def _is_gone(name: str) -> bool:
 
 
 def _is_for_older(module: PythonModule, parent: ast.AST) -> bool:
-    """Tell whether a block runs only where the new name is not there either."""
+    """Tell whether a block only runs where the new name does not exist either."""
     if not isinstance(parent, ast.ExceptHandler) or parent.type is None:
         return False
     return "AttributeError" in module.text(parent.type)
 
 
 def _is_replaced(module: PythonModule, node: ast.Attribute) -> bool:
-    """Tell whether the module asks for a name, puts it there, or takes it for want of another."""
+    """Tell whether the module checks for a name, defines it, or uses it as a fallback."""
     if any(_is_for_older(module, parent) for parent in module.parents(node)):
         return True
     stores = [other for other in module.walk(ast.Attribute) if other.attr == node.attr]

@@ -211,7 +211,7 @@ class OwnImportMissing(Rule):
 
 
 def _cause(package: Package, where: str, node: Import, name: str) -> str:
-    """Return the cause that all findings share where files were moved one directory down."""
+    """Return the common cause of all findings if files were moved one directory down."""
     directory = moved_to(package, name)
     above, _, file = where.rpartition("/")
     above = above.rpartition("/")[0]

@@ -17,7 +17,7 @@ from scaffold.api.python import is_known
 
 Flaw = tuple[ast.expr, str]
 LOOSE = "choices must be a list of strings"
-"""How the message about what works, but lets wrong values pass, begins."""
+"""The start of the message about values that work, but are not checked."""
 """The place, and what is wrong there."""
 Judge = Callable[[LaunchFile, LaunchCall, ast.expr], Iterator[Flaw]]
 
@@ -27,7 +27,7 @@ _PAIRS = "launch takes pairs, {...}.items() or [('name', 'value')]"
 
 
 def flaws(launch: LaunchFile, call: LaunchCall) -> Iterator[Flaw]:
-    """Yield the arguments of a call, and the parts of them, that launch cannot use."""
+    """Yield the arguments of a call, and their parts, that launch cannot use."""
     judges = _ARGUMENTS.get(call.kind, {})
     for name, node in call.given.items():
         judge = _condition if name == "condition" else judges.get(name)
@@ -36,7 +36,7 @@ def flaws(launch: LaunchFile, call: LaunchCall) -> Iterator[Flaw]:
 
 
 def _texts(launch: LaunchFile, _: LaunchCall, node: ast.expr) -> Iterator[Flaw]:
-    """Judge what launch joins to a text."""
+    """Judge a list that launch joins to a text."""
     for part in node.elts if isinstance(node, ast.List | ast.Tuple) else [node]:
         yield from _text(launch, part)
 
@@ -56,12 +56,12 @@ def _is_number(node: ast.AST) -> bool:
 
 
 def _truth(launch: LaunchFile, _: LaunchCall, node: ast.expr) -> Iterator[Flaw]:
-    """Judge what a condition reads, for which another rule judges numbers."""
+    """Judge the value of a condition; another rule judges numbers."""
     yield from _text(launch, node, is_number_read=True)
 
 
 def _words(launch: LaunchFile, call: LaunchCall, node: ast.expr) -> Iterator[Flaw]:
-    """Judge a list of words of a command line; another rule has what is no list."""
+    """Judge a list of command-line words; another rule reports other types."""
     if isinstance(node, ast.List | ast.Tuple):
         yield from _texts(launch, call, node)
 
@@ -254,4 +254,4 @@ _ARGUMENTS: Mapping[str, Mapping[str, Judge]] = {
     "TimerAction": {"period": _period},
     "UnlessCondition": {"predicate_expression": _truth},
 }
-"""What judges an argument, by the class and the name of the argument."""
+"""The check of an argument, by class and argument name."""

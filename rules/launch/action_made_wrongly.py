@@ -39,7 +39,7 @@ _LAUNCH_ITEMS = (
     "    return LaunchDescription([{}])\n"
 )
 _ALONE = frozenset({"this is a list", "this is a tuple", "this is a function", "this is None"})
-"""What a handler takes instead of a list."""
+"""Types that a handler accepts instead of a list."""
 
 
 class ActionMadeWrongly(LaunchRule):
@@ -216,7 +216,7 @@ class ActionMadeWrongly(LaunchRule):
 
 
 def _setting_nothing(launch: LaunchFile, actions: ast.expr | None) -> LaunchCall | None:
-    """Return the last action of a group if it sets something for those that follow it."""
+    """Return the last action of a group if it only affects later actions."""
     if not isinstance(actions, ast.List) or len(actions.elts) < 2:  # noqa: PLR2004  one before it
         return None
     *before, last = [launch.call_of(item) for item in actions.elts]
@@ -237,7 +237,7 @@ def _problem(launch: LaunchFile, call: LaunchCall) -> str:
 
 
 def _is_script(launch: LaunchFile, call: LaunchCall) -> bool:
-    """Tell whether the named program is certainly not on ``PATH``."""
+    """Tell whether the program is certainly not on ``PATH``."""
     name = launch.text(call, "executable")
     return isinstance(name, str) and name.endswith(".py") and "/" not in name
 

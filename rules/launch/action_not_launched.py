@@ -142,7 +142,7 @@ class ActionNotLaunched(LaunchRule):
 
     def _check_once(self, launch: LaunchFile) -> Iterator[Diagnostic]:
         if len(launch.find("LaunchDescription")) > 1:
-            return  # each may be returned in another case
+            return  # each may be returned in a different case
         items: dict[ast.expr, Entity] = {item.node: item for item in entities(launch)}
         for name, made, loads in _nodes(launch):
             places = [items[load] for load in loads if load in items]
@@ -161,9 +161,9 @@ class ActionNotLaunched(LaunchRule):
 
 
 def _is_never_used(launch: LaunchFile, call: ast.Call) -> bool:
-    """Return whether a call is all that a local variable is for.
+    """Return whether a call is assigned to a local variable that is never used.
 
-    A variable that a comment mentions is switched off on purpose.
+    A variable in a comment is disabled on purpose.
     """
     module = launch.module
     match module.parent(call):
@@ -179,7 +179,7 @@ def _is_never_used(launch: LaunchFile, call: ast.Call) -> bool:
 
 
 def _nodes(launch: LaunchFile) -> Iterator[tuple[str, ast.Call, list[ast.Name]]]:
-    """Yield name, call and uses of the nodes that are assigned to a name of one value."""
+    """Yield the name, call and uses of nodes assigned to a variable with one value."""
     for call in launch.find(*_PROCESSES):
         holder = launch.module.parent(call.call)
         if not isinstance(holder, ast.Assign) or len(holder.targets) != 1:
@@ -196,7 +196,7 @@ def _nodes(launch: LaunchFile) -> Iterator[tuple[str, ast.Call, list[ast.Name]]]
 
 
 def _repeats(launch: LaunchFile, node: ast.expr) -> bool:
-    """Tell whether a statement may be executed several times, or not at all."""
+    """Tell whether a statement is in a loop or a condition."""
     kinds = (ast.For, ast.While, ast.If, ast.IfExp, ast.Try, ast.Match)
     return any(isinstance(parent, kinds) for parent in launch.module.parents(node))
 

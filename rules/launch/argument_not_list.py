@@ -222,4 +222,4 @@ _ARGUMENTS: dict[str, Callable[[LaunchFile, LaunchCall, str], _Judgement]] = {
     "remappings": _remappings,
     "launch_arguments": _of_include,
 }
-"""The arguments that launch goes through, each with what finds that it cannot."""
+"""The arguments that launch iterates over, each with its check."""

@@ -137,14 +137,14 @@ class ArgumentsDoNotFit(LaunchRule):
 
 
 def _renamed(call: LaunchCall, keyword: str) -> str:
-    """Return what a keyword was renamed to, as a message; empty for no such keyword."""
+    """Return the message about a renamed keyword; empty for other keywords."""
     if keyword not in _RENAMED or call.kind not in {*NODES, "ComposableNode"}:
         return ""
     return f"{call.kind} has no {keyword}: it was renamed to {_RENAMED[keyword]}"
 
 
 def _unknown(call: LaunchCall, keyword: str) -> str:
-    """Return that there never was such a keyword; empty if there is or was."""
+    """Return the message that a keyword never existed; empty if it did."""
     parameters = signature(call.kind)
     if parameters is None or keyword in parameters.names or keyword in _RENAMED:
         return ""
@@ -154,14 +154,14 @@ def _unknown(call: LaunchCall, keyword: str) -> str:
 
 
 def _is_meant(launch: LaunchFile, call: ast.Call, keyword: str) -> bool:
-    """Tell whether the author knows that a call may fail, or that it is for an old release."""
+    """Tell whether the code handles a failing call, or is for an old release."""
     if is_tried(launch.module, call, keyword):
         return True
     return keyword in _RENAMED and _is_for_release(launch, call)
 
 
 def _misfit(call: LaunchCall) -> str:
-    """Return what is wrong with the number of arguments; empty for nothing."""
+    """Return the problem with the number of arguments; empty if there is none."""
     parameters = signature(call.kind)
     if parameters is None or call.is_open:
         return ""
@@ -184,7 +184,7 @@ def _too_many(kind: str, positional: tuple[str, ...]) -> str:
 
 
 def _is_for_release(launch: LaunchFile, call: ast.Call) -> bool:
-    """Tell whether a call is run for another release of ROS only."""
+    """Tell whether a call is only run on another release of ROS."""
     return any(
         isinstance(parent, ast.If | ast.IfExp)
         and any(

@@ -207,7 +207,7 @@ def _problem(launch: LaunchFile, call: LaunchCall, node: ast.expr) -> str:
 
 
 def _by_python(launch: LaunchFile, node: ast.UnaryOp | ast.BoolOp) -> str:
-    """Return what is wrong about operators of Python on substitutions."""
+    """Return the problem with Python operators on substitutions."""
     values = [node.operand] if isinstance(node, ast.UnaryOp) else node.values
     for value in values:
         call = launch.call_of(value)

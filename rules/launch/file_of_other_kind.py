@@ -100,7 +100,7 @@ class FileOfOtherKind(LaunchRule):
 
 
 def _reads(launch: LaunchFile) -> Iterator[Location]:
-    """Yield the places where the text of a xacro file is taken."""
+    """Yield the places that read the text of a xacro file."""
     module = launch.module
     if module.mentions("xacro.process", "xacro.parse", "import xacro"):
         return

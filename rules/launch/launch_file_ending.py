@@ -13,7 +13,7 @@ _LAUNCH = (
 )
 
 _INCLUDED = frozenset({"include", "includes"})
-"""Directories of files that are included, not launched."""
+"""Directories of included files, which are not launched directly."""
 
 
 class LaunchFileEnding(LaunchRule):

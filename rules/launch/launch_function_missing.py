@@ -173,7 +173,7 @@ class LaunchFunctionMissing(LaunchRule):
 
 @fact
 def _loaded_files(package: Package) -> frozenset[str]:
-    """Return the names of the files that launch files load as modules, and not as launch files."""
+    """Return the names of the files that launch files import as modules."""
     return frozenset(
         text.value.rpartition("/")[2]
         for path in paths_importing(package, "runpy", "importlib")

@@ -164,7 +164,7 @@ class LaunchFunctionUnfit(LaunchRule):
 
 
 def _problem(call: LaunchCall, arguments: ast.arguments) -> str:
-    """Return how the arguments of a function differ from what it is given."""
+    """Return how the parameters of a function differ from the passed arguments."""
     args, kwargs = call.given.get("args"), call.given.get("kwargs")
     if isinstance(args, ast.Constant) and isinstance(args.value, str):
         return "gets a string letter by letter: args=... must be a list"
@@ -198,7 +198,7 @@ def _is_call_of_own(launch: LaunchFile, node: ast.expr) -> bool:
 
 
 def _callback_problem(launch: LaunchFile, node: ast.expr, count: int) -> str:
-    """Return what is wrong about a function that launch calls with so many arguments."""
+    """Return the problem with a function that launch calls with a number of arguments."""
     given = "the event" if count == 1 else "event and context"
     if isinstance(node, ast.Lambda):
         return "" if _takes(node.args, count) else f"launch calls this with {given}: TypeError"
@@ -214,7 +214,7 @@ def _callback_problem(launch: LaunchFile, node: ast.expr, count: int) -> str:
 
 
 def _takes(arguments: ast.arguments, count: int) -> bool:
-    """Tell whether a function can be called with so many arguments without names."""
+    """Tell whether a function can be called with this many positional arguments."""
     most = len(arguments.posonlyargs) + len(arguments.args)
     least = most - len(arguments.defaults)
     needed = sum(default is None for default in arguments.kw_defaults)

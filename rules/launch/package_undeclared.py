@@ -202,7 +202,7 @@ class PackageUndeclared(Rule):
 
 
 def _does(use: Reference) -> str:
-    """Return what a launch file does with a package."""
+    """Return how a launch file uses a package."""
     if use.program:
         return f"runs {use.program!r} of"
     return "looks for" if use.executable is None else "starts a node of"

@@ -77,7 +77,7 @@ class PathJoinedWrongly(LaunchRule):
 
 
 def _run_on_in_lists(launch: LaunchFile) -> Iterator[ast.expr]:
-    """Yield the parts of paths in lists that the directory in front of them runs into."""
+    """Yield the parts of paths in lists that lack a ``/`` after the directory."""
     for call in launch.calls:
         listed = next(iter(call.given.values()), None)
         if call.kind.endswith("Source") and isinstance(listed, ast.List):

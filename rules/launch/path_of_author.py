@@ -117,7 +117,7 @@ def _texts_in(package: Package, path: str) -> tuple[tuple[Location, str], ...]:
 
 
 def _is_description(launch: LaunchFile, node: ast.Constant) -> bool:
-    """Tell whether a text is for readers: `--show-args` prints what an argument is for."""
+    """Tell whether a text is a description, as printed by `--show-args`."""
     return any(
         isinstance(parent, ast.keyword) and parent.arg == "description"
         for parent in launch.module.parents(node)
@@ -125,7 +125,7 @@ def _is_description(launch: LaunchFile, node: ast.Constant) -> bool:
 
 
 def _parameters(package: Package) -> Iterator[tuple[Location, str]]:
-    """Yield the relative paths that launch files give as parameters."""
+    """Yield the relative paths that launch files pass as parameters."""
     for path in launch_paths(package):
         try:
             yield from _parameters_in(package, path)

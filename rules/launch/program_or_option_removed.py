@@ -35,7 +35,7 @@ _OF_SPAWN_ENTITY = {
     "-timeout": "leave it out",
     "-unpause": "leave it out",
 }
-"""What gazebo_ros had, and what to write instead."""
+"""Options of gazebo_ros, with their replacements."""
 
 
 _LAUNCH_DEPRECATED = (
@@ -199,7 +199,7 @@ class ProgramOrOptionRemoved(Rule):
 
 
 def _edit(package: Package, line: CommandLine, word: Word, old: str, new: str) -> Edit | None:
-    """Return the edit of the option, where it is written as it is read."""
+    """Return the edit of the option, if it is a literal without references."""
     if line.launch is not None and word.node is not None:
         module = line.launch.module
         start = module.span(word.node)[0] + 1  # after the quote
@@ -214,7 +214,7 @@ def _edit(package: Package, line: CommandLine, word: Word, old: str, new: str) -
 
 
 def _started(package: Package) -> Iterator[tuple[str, Location]]:
-    """Yield what launch files start, as ``package/program``, with the place."""
+    """Yield the programs started by launch files, as ``package/program``, with the place."""
     for use in package_uses(package):
         yield f"{use.name}/{use.executable}", use.executable_location
     for file in markup_files(package):

@@ -185,7 +185,7 @@ class RecordedTopicsUnnamed(Rule):
 
 
 def _unnamed(words: Sequence[Word]) -> list[Word]:
-    """Return the words that no option takes; none where an option is not known."""
+    """Return the positional words; empty if an option is unknown."""
     result: list[Word] = []
     takes: float = 0
     for word in words:
@@ -204,7 +204,7 @@ def _unnamed(words: Sequence[Word]) -> list[Word]:
 
 
 def _edit(package: Package, line: CommandLine, topic: Word) -> Edit | None:
-    """Return the edit that writes the option before a topic, where that is written in the call."""
+    """Return the edit that adds the option before a topic, if it is a literal."""
     if line.launch is not None and topic.node is not None:
         module = line.launch.module
         is_alone = sum(word.node is topic.node for word in line.words) == 1

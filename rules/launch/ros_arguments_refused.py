@@ -88,7 +88,7 @@ class RosArgumentsRefused(Rule):
 
 
 def _parsing(module: PythonModule) -> Iterator[ast.Call]:
-    """Yield where a program parses all of its command line."""
+    """Yield the places where a program parses its whole command line."""
     if module.mentions("remove_ros_args(", "parse_known", "sys.argv =", "argv.remove", "ros-args"):
         return
     made = {

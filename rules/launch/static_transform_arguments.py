@@ -64,9 +64,9 @@ _FLAGS = {
     8: ("--x", "--y", "--z", "--yaw", "--pitch", "--roll", *_FRAMES),
     9: ("--x", "--y", "--z", "--qx", "--qy", "--qz", "--qw", *_FRAMES),
 }
-"""By the number of arguments without names."""
+"""The flags, by the number of positional arguments."""
 _WIDTH = 99
-"""The characters of a line that ament_flake8 allows."""
+"""The maximum line length of ament_flake8."""
 
 
 class StaticTransformArguments(Rule):
@@ -241,7 +241,7 @@ class StaticTransformArguments(Rule):
                 continue
             edits: tuple[Edit, ...] = ()
             if any(word.is_no_number for word in words[: -len(_FRAMES)]):
-                pass  # arguments in another order, such as those of ROS 1
+                pass  # arguments in another order, as in ROS 1
             elif transform.attribute is not None:
                 edits = _in_markup(package, transform.attribute, words, flags)
             else:
@@ -253,7 +253,7 @@ class StaticTransformArguments(Rule):
 def _in_markup(
     package: Package, attribute: Attribute, words: Sequence[Word], flags: Sequence[str]
 ) -> tuple[Edit, ...]:
-    """Put the names into the value of an attribute, where it is written as it is read."""
+    """Add the flags to the value of an attribute, if it contains no references."""
     path = attribute.location.path
     start = start_of_value(package.source(path), attribute)
     if start is None:
@@ -286,7 +286,7 @@ def _in_python(transform: CommandLine, flags: Sequence[str]) -> tuple[Edit, ...]
 
 
 def _is_for_this_alone(launch: LaunchFile, expression: ast.expr | None, value: ast.expr) -> bool:
-    """Tell whether nothing else uses the list that a value is written in."""
+    """Tell whether nothing else uses the list of a value."""
     names = [node for node in ast.walk(expression or value) if isinstance(node, ast.Name)]
     around = [value, *launch.module.parents(value)]
     if expression not in around:
@@ -304,7 +304,7 @@ def _is_for_this_alone(launch: LaunchFile, expression: ast.expr | None, value: a
 
 
 def _in_text(launch: LaunchFile, node: ast.expr, flags: Sequence[str]) -> tuple[Edit, ...]:
-    """Put the names into the text of ``'...'.split()``; it gets too wide for one line."""
+    """Add the flags to the text of ``'...'.split()``, over several lines."""
     match node:
         case ast.Call(
             func=ast.Attribute(value=ast.Constant(value=str(text)) as written, attr="split"),
@@ -325,7 +325,7 @@ def _in_text(launch: LaunchFile, node: ast.expr, flags: Sequence[str]) -> tuple[
 def _in_holder(
     launch: LaunchFile, holder: ast.AST | None, pairs: Sequence[tuple[ast.expr, str]]
 ) -> Iterator[Edit]:
-    """Put the names before the values; in a list that gets too wide, each pair on a line."""
+    """Add the flags before the values; in a long list, one pair per line."""
     module, text = launch.module, launch.module.source.text
     spans = [module.span(value) for value, _ in pairs]
     added = [

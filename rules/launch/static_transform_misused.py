@@ -20,7 +20,7 @@ _VALUES = ("--x", "--y", "--z", "--qx", "--qy", "--qz", "--qw", "--roll", "--pit
 _FRAMES = ("--frame-id", "--child-frame-id")
 _POSITIONAL = (8, 9)
 _TURN = 6.3
-"""A little more than a turn."""
+"""Radians, slightly more than a full turn."""
 
 
 class StaticTransformMisused(Rule):
@@ -199,9 +199,9 @@ class StaticTransformMisused(Rule):
 
 
 def _refused(words: Sequence[Word]) -> Iterator[Word]:
-    """Yield the words that are to be numbers and are none."""
+    """Yield the words that should be numbers but are not."""
     if of_program(PROGRAM).is_removed:
-        return  # unnamed arguments are refused as such
+        return  # positional arguments are rejected anyway
     values = [value for option, value in pairwise(words) if option.text in _VALUES]
     if len(words) in _POSITIONAL and not any(word.text.startswith("--") for word in words):
         values = list(words[: -len(_FRAMES)])

@@ -9,7 +9,7 @@ from scaffold.api import Diagnostic, Example, LaunchRule
 from scaffold.api.launch import CONDITION, LaunchFile, text_uses, truth_tests
 
 _SHOWN = frozenset({"in an f-string", "in str()", "in a % format", "in format()"})
-"""Uses that do not fail: the text tells what the object is."""
+"""Uses that do not fail: the text is the representation of the object."""
 _LAUNCH = (
     "import os\n\nfrom launch import LaunchDescription\n"
     "from launch.substitutions import LaunchConfiguration, PathJoinSubstitution\n"
@@ -136,7 +136,7 @@ class SubstitutionUsedAsText(LaunchRule):
 
 
 def _is_printed(launch: LaunchFile, node: ast.expr) -> bool:
-    """Tell whether only ``print`` gets the text, to show what the object is."""
+    """Tell whether the text is only printed."""
     return any(
         isinstance(parent, ast.Call) and launch.module.qualified_name(parent.func) == "print"
         for parent in launch.module.parents(node)
@@ -144,7 +144,7 @@ def _is_printed(launch: LaunchFile, node: ast.expr) -> bool:
 
 
 def _compared_with(comparison: ast.Compare) -> str:
-    """Return the truth value or number that something is compared with, as it is written."""
+    """Return the source text of the boolean or number in a comparison."""
     if isinstance(comparison.ops[0], ast.Eq | ast.NotEq | ast.Is | ast.IsNot):
         match comparison.comparators[0]:
             case ast.Constant(value=bool() | int() | float() as value):
@@ -159,7 +159,7 @@ def _made_bool(launch: LaunchFile) -> Iterator[ast.expr]:
 
 
 def _default(launch: LaunchFile, node: ast.expr) -> str | None:
-    """Return the default of the launch configuration whose text an expression is."""
+    """Return the default of the launch configuration that an expression reads as text."""
     holder = _performed(launch, node)
     value = launch.default_of(holder) if holder is not None else None
     return value if isinstance(value, str) else None

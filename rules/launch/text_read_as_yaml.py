@@ -54,7 +54,7 @@ _NAMES_SOMETHING = (
     r"(?:^|_)(?:file|filename|path|dir|directory|folder|topic|url|uri|frame|frame_id|namespace"
     r"|ip|ip_address|host|hostname)$"
 )
-"""Matches parameters whose values name something: no such name reads as a number or a truth."""
+"""Matches parameters with names as values, which do not look like numbers or booleans."""
 
 
 class TextReadAsYaml(Rule):
@@ -189,7 +189,7 @@ class TextReadAsYaml(Rule):
 
 @fact
 def _outputs(package: Package, path: str) -> tuple[tuple[str, Location], ...]:
-    """Return the parameters that get the output of a command as it is, with their places."""
+    """Return the parameters set to the raw output of a command, with their places."""
     launch = LaunchFile.of(package, path)
     result: list[tuple[str, Location]] = []
     for call in launch.find(*NODES, "ComposableNode"):
@@ -204,7 +204,7 @@ def _outputs(package: Package, path: str) -> tuple[tuple[str, Location], ...]:
 
 
 def _without_dropped_comments(text: str) -> str:
-    """Return the text without the comments in front of elements of xacro."""
+    """Return the text without the comments before xacro elements."""
     first, *others = text.split("<!--")
     kept = ""
     for part in reversed(others):
@@ -216,9 +216,9 @@ def _without_dropped_comments(text: str) -> str:
 
 
 def _with_colon(package: Package) -> str | None:
-    """Return where a robot description of the package holds what YAML takes for a key.
+    """Return the place in a robot description that YAML parses as a key.
 
-    xacro drops a comment in front of its own elements.
+    xacro drops a comment before its own elements.
     """
     for path in robot_paths(package):
         try:

@@ -133,13 +133,13 @@ def _problems(launch: LaunchFile, call: LaunchCall) -> Iterator[tuple[ast.expr, 
 
 
 def _takes_words(option: ast.expr | None) -> bool:
-    """Tell whether what follows is split by the program, as for ``--controller-ros-args``."""
+    """Tell whether the program splits the next word, as for ``--controller-ros-args``."""
     text = option.value if isinstance(option, ast.Constant) else None
     return isinstance(text, str) and text.endswith("-ros-args") and text != "--ros-args"
 
 
 def _joined_parts(node: ast.expr | None) -> Iterator[ast.expr]:
-    """Yield the options of a prefix that run into the word in front of them."""
+    """Yield the options of a prefix without a space before them."""
     listed = node.elts if isinstance(node, ast.List) else []
     for left, right in pairwise(listed):
         match left, right:
@@ -150,7 +150,7 @@ def _joined_parts(node: ast.expr | None) -> Iterator[ast.expr]:
 
 
 def _items_of_parameters(node: ast.expr | None) -> Iterator[ast.expr]:
-    """Yield the items of lists that are values of parameters."""
+    """Yield the items of lists used as parameter values."""
     for given in ast.walk(node) if node is not None else ():
         for value in given.values if isinstance(given, ast.Dict) else ():
             if isinstance(value, ast.List | ast.Tuple):
@@ -168,7 +168,7 @@ def _problem(launch: LaunchFile, item: ast.expr) -> str:
         return ""
     if item.value.startswith("--ros-args "):
         return "this is one argument with spaces in it: write one string for each word"
-    # linear: the quote that ends the first text is not among its characters
+    # linear: the first text cannot contain its closing quote
     written = re.match(_TWO_TEXTS, launch.module.text(item))
     if written is not None and not written[2].endswith((" ", "=", ":", ",")):
         return f"Python joins this to {item.value!r}: missing comma between the strings"
@@ -176,7 +176,7 @@ def _problem(launch: LaunchFile, item: ast.expr) -> str:
 
 
 def _joined_command(launch: LaunchFile, node: ast.expr) -> str:
-    """Return what is wrong about a command whose first word runs into the next part."""
+    """Return the problem with a command without a space after the first word."""
     if not isinstance(node, ast.List) or len(node.elts) < 2:  # noqa: PLR2004  word and argument
         return ""
     first, second = node.elts[0], node.elts[1]
@@ -195,7 +195,7 @@ def _joined_command(launch: LaunchFile, node: ast.expr) -> str:
 
 
 def _begins_with_space(launch: LaunchFile, node: ast.expr) -> bool:
-    """Tell whether a part of a command begins with a space, or may do so."""
+    """Tell whether a part of a command starts, or may start, with a space."""
     value = launch.evaluator.joined_text(node)
     if isinstance(value, str):
         return value[:1].isspace()

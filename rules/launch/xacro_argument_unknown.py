@@ -104,7 +104,7 @@ def _is_xacro(parts: ast.List) -> bool:
 
 
 def _robot(package: Package, launch: LaunchFile, parts: ast.List) -> Expansion | None:
-    """Return the only robot of the package that a command names the file of."""
+    """Return the only robot of the package whose file a command names."""
     texts = [launch.evaluator.joined_text(part) for part in parts.elts]
     names = {
         text.rpartition("/")[2]

@@ -15,7 +15,7 @@ MARKERS = {
 
 
 _COPIES = frozenset({"third_party", "thirdparty", "3rdparty", "external", "vendor"})
-"""Directories of code of others."""
+"""Directories of third-party code."""
 
 
 class IgnoredByColcon(Rule):

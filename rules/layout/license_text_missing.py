@@ -46,7 +46,7 @@ class LicenseTextMissing(Rule):
         yield self.report(package.start_of("package.xml"), "there is no LICENSE file here or above")
 
     def _is_above(self, package: Package, root: str) -> bool:
-        """Look up to the top of the repository."""
+        """Search the parent directories up to the top of the repository."""
         directory = os.path.abspath(root)
         for _ in range(_DEPTH):
             if package.outside.exists(os.path.join(directory, ".git")):

@@ -109,7 +109,7 @@ def _is_data(package: Package, directory: str) -> bool:
 
 
 def _directories(package: Package, path: str, node: Import) -> Iterator[str]:
-    """Yield the directories below an import package that an import goes through."""
+    """Yield the directories of an import below an import package."""
     if node.level:
         base = path.split("/")[: -node.level]
         parts = [*base, *(node.module.split(".") if node.module else ())]

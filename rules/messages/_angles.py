@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from scaffold.api.messages import MessageTypes
 
 Flaw = tuple[ast.expr, str]
-"""The place, and what is wrong there."""
+"""The place and the problem."""
 _WORDS = frozenset({"yaw", "theta", "heading", "psi"})
 """Parts of the names of such angles."""
 _DEGREES = frozenset({30, 45, 60, 90, 120, 135, 180, 270, 360})
@@ -17,7 +17,7 @@ _DEGREES = frozenset({30, 45, 60, 90, 120, 135, 180, 270, 360})
 
 
 def flaws(types: MessageTypes) -> Iterator[Flaw]:
-    """Yield angles that are written into a quaternion, or read from one, as they are."""
+    """Yield angles that are written into or read from a quaternion without conversion."""
     for item in types.assigned:
         if (item.owner.name, item.field.name) == ("geometry_msgs/msg/Quaternion", "z"):
             problem = _written_problem(types, item.holder, item.value)
@@ -46,7 +46,7 @@ def _is_in_degrees(types: MessageTypes, holder: ast.expr, given: ast.expr) -> bo
 
 
 def _written_problem(types: MessageTypes, holder: ast.expr, z: ast.expr) -> str:
-    """Return what is wrong with what becomes z of a quaternion; empty if nothing."""
+    """Return the problem with the value of z of a quaternion; empty if there is none."""
     if _is_angle(z):
         text = types.module.text(z)
         return (
@@ -69,7 +69,7 @@ def _is_angle(node: ast.expr) -> bool:
 
 
 def _whole_angle(types: MessageTypes, holder: ast.expr, z: ast.expr) -> str:
-    """Return the yaw whose sine and cosine are z and w, without being halved; empty if none."""
+    """Return the yaw whose sine and cosine are z and w without halving; empty if none."""
     angle = _argument_of(types, z, "sin")
     if angle is None or not _is_angle(angle):
         return ""
@@ -95,7 +95,7 @@ def _argument_of(types: MessageTypes, node: ast.expr, function: str) -> ast.expr
 
 
 def _read_problem(types: MessageTypes, value: ast.expr) -> str:
-    """Return what is wrong with a yaw that is read from a quaternion; empty if nothing."""
+    """Return the problem with a yaw that is read from a quaternion; empty if there is none."""
     match value:
         case ast.Attribute(attr="z", value=holder) if _is_quaternion(types, holder):
             if _holds_angles(types, holder):
@@ -115,7 +115,7 @@ def _read_problem(types: MessageTypes, value: ast.expr) -> str:
 
 
 def _holds_angles(types: MessageTypes, holder: ast.expr) -> bool:
-    """Tell whether w of a quaternion is read as an angle too: it just holds four of them."""
+    """Tell whether w is also read as an angle: the quaternion just stores four of them."""
     module = types.module
     reads = [
         module.parent(read)
@@ -131,7 +131,7 @@ def _holds_angles(types: MessageTypes, holder: ast.expr) -> bool:
 
 
 def _is_quaternion(types: MessageTypes, node: ast.expr) -> bool:
-    """Tell whether an expression is a quaternion: by its type, or as what messages call one."""
+    """Tell whether an expression is a quaternion, by its type or field name."""
     owner = types.type_of(node)
     if owner is not None:
         return owner.name == "geometry_msgs/msg/Quaternion"

@@ -11,12 +11,12 @@ from scaffold.api.messages import MessageTypes
 KINDS: dict[str, type] = {"bool": bool, "float": float, "int": int, "str": str}
 """The Python types of plain fields."""
 _OF_NUMPY = frozenset({"min", "max", "mean", "sum", "std", "shape", "size", "astype", "reshape"})
-"""What arrays of numpy have, and others do not."""
+"""Attributes that only NumPy arrays have."""
 _TAKING_OTHERS: Mapping[str, str] = {
     "numpy.fromstring": "TypeError; use numpy.frombuffer()",
     "cv2.imdecode": "cv2.error; use numpy.frombuffer({}, numpy.uint8)",
 }
-"""Functions that do not take an ``array.array``, and what to do instead."""
+"""Functions that do not accept an ``array.array``, with the alternative."""
 _CLOUD = "sensor_msgs_py.point_cloud2.read_points"
 _COLUMNS = 2
 _IN_COLOR = frozenset({"bgr8", "rgb8", "bgra8", "rgba8", "bgr16", "rgb16", "8UC3"})
@@ -24,7 +24,7 @@ _IN_GRAY = frozenset({"mono8", "mono16", "32FC1", "16UC1", "8UC1"})
 
 
 def problems(types: MessageTypes) -> Iterator[tuple[ast.expr, str]]:
-    """Yield uses of fields that their types do not support, and why."""
+    """Yield unsupported uses of fields, with the reason."""
     yield from _arrays_as_numbers(types)
     yield from _fields_in_arithmetic(types)
     yield from _arrays_given(types)
@@ -34,7 +34,7 @@ def problems(types: MessageTypes) -> Iterator[tuple[ast.expr, str]]:
 
 
 def _arrays_as_numbers(types: MessageTypes) -> Iterator[tuple[ast.expr, str]]:
-    """Yield uses of a field that is an array, and of a float, that only integers support."""
+    """Yield uses of array and float fields that only integers support."""
     module = types.module
     for call in module.walk(ast.Call):
         match call:
@@ -59,7 +59,7 @@ def _arrays_as_numbers(types: MessageTypes) -> Iterator[tuple[ast.expr, str]]:
 
 
 def _fields_in_arithmetic(types: MessageTypes) -> Iterator[tuple[ast.expr, str]]:
-    """Yield sums of text and a number, and arrays that are calculated with as in numpy."""
+    """Yield sums of a string and a number, and arithmetic with arrays as in NumPy."""
     module, evaluate = types.module, types.file.evaluator.evaluate
     for node in module.walk(ast.BinOp):
         for field, other in ((node.left, node.right), (node.right, node.left)):
@@ -88,7 +88,7 @@ def _fields_in_arithmetic(types: MessageTypes) -> Iterator[tuple[ast.expr, str]]
 
 
 def _is_plain_array(type_: FieldType | None) -> bool:
-    """Return whether a field holds an ``array.array``; one of a fixed size is of numpy."""
+    """Return whether a field is an ``array.array``; fixed-size fields are NumPy arrays."""
     return (
         type_ is not None
         and type_.is_array
@@ -98,7 +98,7 @@ def _is_plain_array(type_: FieldType | None) -> bool:
 
 
 def _arrays_given(types: MessageTypes) -> Iterator[tuple[ast.expr, str]]:
-    """Yield arrays that are given to functions of others, which take their own kind."""
+    """Yield arrays passed to functions of libraries that need their own type."""
     for call in types.module.calls_of(*_TAKING_OTHERS):
         advice = _TAKING_OTHERS[types.module.qualified_name(call.func) or ""]
         if call.args and _is_plain_array(types.field_type_of(call.args[0])):
@@ -107,7 +107,7 @@ def _arrays_given(types: MessageTypes) -> Iterator[tuple[ast.expr, str]]:
 
 
 def _columns_of_clouds(types: MessageTypes) -> Iterator[tuple[ast.expr, str]]:
-    """Yield columns of points whose fields have names: ``read_points(msg)[:, 2]``."""
+    """Yield column accesses to points with named fields: ``read_points(msg)[:, 2]``."""
     for index in types.module.walk(ast.Subscript):
         match index.slice:
             case ast.Tuple(elts=elements) if len(elements) == _COLUMNS:
@@ -119,7 +119,7 @@ def _columns_of_clouds(types: MessageTypes) -> Iterator[tuple[ast.expr, str]]:
 
 
 def _elements_indexed(types: MessageTypes) -> Iterator[tuple[ast.expr, str]]:
-    """Yield elements of arrays of numbers that are taken for rows: ``grid.data[y][x]``."""
+    """Yield elements of flat arrays that are used as rows: ``grid.data[y][x]``."""
     for index in types.module.walk(ast.Subscript):
         match index.value:
             case ast.Subscript(value=array, slice=row) if not isinstance(row, ast.Slice):
@@ -166,7 +166,7 @@ def _shapes_unpacked(types: MessageTypes) -> Iterator[tuple[ast.expr, str]]:
 
 
 def _encoding(types: MessageTypes, image: ast.expr) -> object:
-    """Return the encoding of an image that cv_bridge has just made, also in a method of its own."""
+    """Return the encoding of an image that cv_bridge just created, also in a method."""
     made: ast.expr | None = types.file.evaluator.single_value(image)
     if isinstance(made, ast.Call):
         function = types.file.callback(made.func).function

@@ -8,21 +8,21 @@ from collections.abc import Iterator, Mapping
 from scaffold.api.messages import MessageTypes
 
 Flaw = tuple[ast.expr, str]
-"""The place, and what is wrong there."""
+"""The place and the problem."""
 _QUATERNION = "geometry_msgs/msg/Quaternion"
 _PARTS: Mapping[str, str] = {
     **{f"geometry_msgs/msg/{name}": "xyz" for name in ("Point", "Point32", "Vector3")},
     _QUATERNION: "xyzw",
 }
 _UNIFORM = frozenset({"scale", "dimensions", "size"})
-"""What may take one part of another vector for several of its own."""
+"""Fields that may use one component of another vector for several components."""
 _DIRECTIONS = 3
 _Parts = dict[str, ast.expr]
 """The values of the parts of a vector, by their letters."""
 
 
 def flaws(types: MessageTypes) -> Iterator[Flaw]:
-    """Yield parts that are copied from the one of another letter, and quaternions without w."""
+    """Yield components copied from one of another letter, and quaternions without w."""
     groups: dict[tuple[ast.AST | None, str, str], _Parts] = {}
     written: set[tuple[ast.AST | None, str, str]] = set()
     for item in types.assigned:
@@ -47,7 +47,7 @@ def flaws(types: MessageTypes) -> Iterator[Flaw]:
 
 
 def _source(types: MessageTypes, value: ast.expr, letters: str) -> tuple[str, str]:
-    """Return the text of a vector and the letter of the part of it that a value is."""
+    """Return the vector, as text, and the letter of the component that a value is."""
     match value:
         case ast.Call(func=ast.Name(id="float"), args=[inner]):
             return _source(types, inner, letters)

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from scaffold.api.messages import MessageTypes
 
 Flaw = tuple[ast.expr, str]
-"""The place, and what is wrong there."""
+"""The place and the problem."""
 _PARTS = frozenset((f"builtin_interfaces/msg/{name}", "nanosec") for name in ("Time", "Duration"))
 _IN_A_SECOND = 1e9
 _WHOLE = frozenset({"int", "floor", "trunc"})
@@ -30,7 +30,7 @@ def flaws(types: MessageTypes) -> Iterator[Flaw]:
 
 
 def _unwrapped(types: MessageTypes, node: ast.expr) -> ast.expr:
-    """Return what is made an integer."""
+    """Return the argument of ``int()`` or ``round()``, or the expression itself."""
     value = types.file.evaluator.single_value(node)
     match value:
         case ast.Call(func=ast.Name(id="int" | "round"), args=[inner, *_]):

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from scaffold.api.messages import MessageTypes
 
 Flaw = tuple[ast.expr, str]
-"""The place, and what is wrong there."""
+"""The place and the problem."""
 _COLORS = ("rgb", "rgba", "bgr", "bgra")
 _BAYER = ("rggb", "bggr", "gbrg", "grbg")
 _ENCODINGS = frozenset(
@@ -46,7 +46,7 @@ _PAIR = ("sensor_msgs/msg/Image", "sensor_msgs/msg/CameraInfo")
 
 
 def _stamped_apart(types: MessageTypes) -> Iterator[Flaw]:
-    """Yield the stamp of a camera info that is made by another call than that of its image."""
+    """Yield the stamp of a camera info created separately from that of its image."""
     stamps: dict[tuple[ast.AST | None, str], list[ast.expr]] = {}
     for item in types.assigned:
         if (item.owner.name, item.field.name) != ("std_msgs/msg/Header", "stamp"):
@@ -64,7 +64,7 @@ def _stamped_apart(types: MessageTypes) -> Iterator[Flaw]:
 
 
 def _is_now(node: ast.expr) -> bool:
-    """Tell whether an expression is ``clock.now().to_msg()``, which makes a stamp of its own."""
+    """Tell whether an expression is ``clock.now().to_msg()``, which creates a new stamp."""
     match node:
         case ast.Call(
             func=ast.Attribute(attr="to_msg", value=ast.Call(func=ast.Attribute(attr="now")))
@@ -74,7 +74,7 @@ def _is_now(node: ast.expr) -> bool:
 
 
 def _call_flaws(types: MessageTypes, call: ast.Call) -> Iterator[Flaw]:
-    """Yield encodings that a call of cv_bridge does not know."""
+    """Yield encodings in a call of cv_bridge that it does not know."""
     name = call.func.attr if isinstance(call.func, ast.Attribute) else ""
     if name not in _OF_CV_BRIDGE:
         return
@@ -92,7 +92,7 @@ def _encoding_problem(types: MessageTypes, node: ast.expr, what_happens: str) ->
 
 
 def _step_problem(types: MessageTypes, holder: ast.expr, step: ast.expr) -> str:
-    """Return what to write for a row with as many bytes as pixels, although a pixel has several."""
+    """Return the right step of a row that has one byte per pixel instead of several."""
     module = types.module
     name = module.text(holder)
     function = module.enclosing_function(holder)
@@ -114,7 +114,7 @@ def _step_problem(types: MessageTypes, holder: ast.expr, step: ast.expr) -> str:
 
 
 def _meant(encoding: str) -> str:
-    """Return the encoding that an unknown one stands for; empty if it may be one of its own."""
+    """Return the encoding meant by an unknown one; empty if it may be custom."""
     if encoding in _ENCODINGS or re.fullmatch(r"(8|16|32|64)[USF]C\d+", encoding):
         return ""
     by_lower_case = {name.lower(): name for name in _ENCODINGS}

@@ -8,25 +8,25 @@ from collections.abc import Iterator
 from scaffold.api.messages import MessageTypes
 
 Flaw = tuple[ast.expr, str]
-"""The place, and what is wrong there."""
+"""The place and the problem."""
 _WIDTHS = frozenset(
     {("nav_msgs/msg/MapMetaData", "width"), ("sensor_msgs/msg/Image", "width")}
     | {("sensor_msgs/msg/CameraInfo", "width")}
 )
 _TURNED = (".T", "transpose", "swapaxes", "rot90", "'F'", '"F"', "moveaxis")
-"""What code contains that turns its arrays."""
+"""Words in code that transposes its arrays."""
 _SIZES = {36: 6, 9: 3}
-"""The rows of the matrices in messages, by their elements."""
+"""The numbers of rows of the matrices in messages, by the numbers of elements."""
 _ACROSS = frozenset({"w", "width", "cols", "columns", "img_w", "img_width", "image_width"})
 _DOWN = frozenset({"h", "height", "rows", "img_h", "img_height", "image_height"})
 _MOST_ARRAYS = 20
-"""Arrays that one is a part of, before the search for them ends."""
+"""The maximum number of arrays to trace an array through."""
 _SHAPED = (".shape = ", "reshape((w", "reshape(w")
-"""What code contains that gives its arrays their width first."""
+"""Words in code that creates arrays with the width first."""
 
 
 def flaws(types: MessageTypes) -> Iterator[Flaw]:
-    """Yield widths that are heights, shapes with the width first, and variances in one row."""
+    """Yield swapped widths and heights, shapes with the width first, and variances in a row."""
     module = types.module
     for item in types.assigned:
         key = (item.owner.name, item.field.name)
@@ -52,7 +52,7 @@ def flaws(types: MessageTypes) -> Iterator[Flaw]:
 
 
 def _is_height(types: MessageTypes, holder: ast.expr, width: ast.expr) -> bool:
-    """Tell whether ``width`` is ``shape[0]`` and ``height`` ``shape[1]`` of an array as it is."""
+    """Tell whether ``width`` is ``shape[0]`` and ``height`` is ``shape[1]`` of an array."""
     module = types.module
     function = module.enclosing_function(holder)
     match width:
@@ -75,7 +75,7 @@ def _index(target: ast.expr) -> ast.expr:
 
 
 def _first_row(types: MessageTypes, assigned: ast.Assign) -> int:
-    """Return the rows of a covariance of which a loop fills the first; 0 for other assignments."""
+    """Return the number of rows of a covariance if a loop fills the first row; otherwise 0."""
     match assigned:
         case ast.Assign(targets=[ast.Subscript(value=matrix, slice=ast.Name(id=name))]):
             rows = _SIZES.get(_elements_of(types, matrix), 0)
@@ -89,7 +89,7 @@ def _first_row(types: MessageTypes, assigned: ast.Assign) -> int:
 
 
 def _elements_of(types: MessageTypes, matrix: ast.expr) -> int:
-    """Return the number of elements of a covariance: a field, or a list that is named so."""
+    """Return the number of elements of a covariance: a field, or a list with such a name."""
     match matrix:
         case ast.Attribute(attr=name) if name.endswith("covariance"):
             type_ = types.field_type_of(matrix)
@@ -103,7 +103,7 @@ def _elements_of(types: MessageTypes, matrix: ast.expr) -> int:
 
 
 def _turned_shape(types: MessageTypes, call: ast.Call) -> str:
-    """Return the right shape where data of a message is reshaped with its width first."""
+    """Return the right shape if data of a message is reshaped with the width first."""
     module = types.module
     if not isinstance(call.func, ast.Attribute) or call.func.attr != "reshape":
         return ""
@@ -135,7 +135,7 @@ def _has_rows(types: MessageTypes, message: ast.expr) -> bool:
 
 
 def _turned_image(assigned: ast.Assign) -> ast.expr | None:
-    """Return the image of whose shape the first two numbers are taken the wrong way."""
+    """Return the image whose height and width are swapped when its shape is read."""
     match assigned:
         case ast.Assign(
             targets=[ast.Tuple(elts=[ast.Name(id=first), ast.Name(id=second), *_])],
@@ -147,7 +147,7 @@ def _turned_image(assigned: ast.Assign) -> ast.expr | None:
 
 
 def _is_transposed(types: MessageTypes, image: ast.expr) -> bool:
-    """Tell whether an array, or what it is a part or a copy of, has its columns first."""
+    """Tell whether an array, or its origin, is transposed."""
     pending = [image]
     for array in pending:
         if any(word in types.module.text(array) for word in _TURNED):

@@ -82,7 +82,7 @@ class ArraysOfTwoLengths(MessageRule):
     def check_file(self, types: MessageTypes) -> Iterator[Diagnostic]:
         module = types.module
         if module.in_tests:
-            return  # what a test sends may be wrong on purpose
+            return  # test messages may be wrong on purpose
         given: dict[tuple[ast.AST | None, str, str], dict[str, list[ast.expr]]] = {}
         for item in types.assigned:
             if item.owner.name in _PARALLEL:
@@ -107,7 +107,7 @@ class ArraysOfTwoLengths(MessageRule):
 
 
 def _length(types: MessageTypes, values: list[ast.expr]) -> int | None:
-    """Return the length of a list whose elements are all known, and that is assigned once."""
+    """Return the length of a literal list that is assigned once."""
     if len(values) != 1:
         return None
     given = values[0]

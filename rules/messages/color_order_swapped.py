@@ -152,7 +152,7 @@ class ColorOrderSwapped(MessageRule):
 
 
 def _sent_problem(types: MessageTypes, call: ast.Call, image: ast.Name) -> str:
-    """Return why an image does not fit the encoding that it is sent with; empty if it may."""
+    """Return why an image does not match the encoding it is sent with; empty if it may."""
     wanted = _ORDER.get(_encoding(types, call, "encoding"), "")
     if wanted and _is_gray(types, image):
         return f"{image.id!r} is gray, but is sent as {wanted}: CvBridgeError; write 'mono8'"
@@ -163,7 +163,7 @@ def _sent_problem(types: MessageTypes, call: ast.Call, image: ast.Name) -> str:
 
 
 def _is_gray(types: MessageTypes, image: ast.Name) -> bool:
-    """Tell whether an image was converted to gray, or made a mask, and at most filtered since."""
+    """Tell whether an image was converted to grayscale or a mask, and only filtered since."""
     for _ in range(_DEEPEST):
         made = (
             _thresholded(types, image)
@@ -182,7 +182,7 @@ def _is_gray(types: MessageTypes, image: ast.Name) -> bool:
 
 
 def _thresholded(types: MessageTypes, image: ast.Name) -> ast.Call | None:
-    """Return the call of ``_, mask = cv2.threshold(...)`` that gives an image its only value."""
+    """Return the ``cv2.threshold`` call if it is the only value of an image."""
     bound = types.module.index.only_node(image)
     if bound is None:
         return None
@@ -203,11 +203,11 @@ _FILTERS = frozenset(
     )
 )
 _DEEPEST = 5
-"""The most conversions that an image is followed through."""
+"""The maximum number of conversions to trace an image through."""
 
 
 def _order(types: MessageTypes, image: ast.Name, depth: int = _DEEPEST) -> str:
-    """Return the order of colors that an image has; empty if it is not known."""
+    """Return the color order of an image; empty if unknown."""
     if _is_frame(types, image):
         return "BGR"
     passed = _passed(types, image)
@@ -224,7 +224,7 @@ def _order(types: MessageTypes, image: ast.Name, depth: int = _DEEPEST) -> str:
 
 
 def _passed(types: MessageTypes, image: ast.Name) -> ast.Name | None:
-    """Return the image that the only call of a function gives it as this parameter."""
+    """Return the image passed for a parameter in the only call of a function."""
     module = types.module
     parameter = types.file.parameter_of(image)
     function = module.enclosing_function(image)
@@ -242,7 +242,7 @@ def _passed(types: MessageTypes, image: ast.Name) -> ast.Name | None:
 
 
 def _converted_order(types: MessageTypes, call: ast.Call, depth: int) -> str:
-    """Return the order of colors that ``cv2.cvtColor`` gives; empty for other calls."""
+    """Return the color order of the result of ``cv2.cvtColor``; empty for other calls."""
     if types.module.qualified_name(call.func) != "cv2.cvtColor" or not call.args[1:]:
         return ""
     code = (types.module.qualified_name(call.args[1]) or "").removeprefix("cv2.")
@@ -256,7 +256,7 @@ def _converted_order(types: MessageTypes, call: ast.Call, depth: int) -> str:
 
 
 def _value_before(types: MessageTypes, image: ast.Name) -> ast.expr | None:
-    """Return what a name that is set several times was set to last, in the same block."""
+    """Return the last value of a name that is set several times in the same block."""
     module = types.module
     lookup = module.index.lookup(image.id, image)
     statement = module.enclosing(image, ast.stmt)
@@ -278,7 +278,7 @@ _SEVERAL = 2
 
 
 def _is_frame(types: MessageTypes, image: ast.Name) -> bool:
-    """Tell whether an image comes from a camera of OpenCV: ``ok, frame = capture.read()``."""
+    """Tell whether an image is from an OpenCV camera: ``ok, frame = capture.read()``."""
     bound = types.module.index.only_node(image)
     if bound is None:
         return False

@@ -100,7 +100,7 @@ def _items(node: ast.expr) -> list[ast.expr]:
 
 
 def _nan_problem(types: MessageTypes, node: ast.Compare) -> str:
-    """Return why a comparison with NaN is useless; empty if it is none."""
+    """Return why a comparison with NaN is useless; empty for other comparisons."""
     if not isinstance(node.ops[0], ast.Eq | ast.NotEq):
         return ""
     for side, other in ((node.left, node.comparators[0]), (node.comparators[0], node.left)):
@@ -149,7 +149,7 @@ def _is_constant(types: MessageTypes, node: ast.expr) -> bool:
 
 
 def _allowed(type_: FieldType) -> tuple[type, ...]:
-    """Return the Python types of what a field may equal, its own first."""
+    """Return the Python types that a field may be equal to, its own first."""
     if type_.name == "byte":
         return (bytes,)
     if type_.name in TEXTS:

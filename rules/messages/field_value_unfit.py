@@ -361,7 +361,7 @@ class FieldValueUnfit(MessageRule):
 
 
 def _consequence(type_: str, problem: str) -> str:
-    """Return what comes of an int in a field for other numbers, and what to write."""
+    """Return the effect of an int in a field for other numbers, and the replacement."""
     instead = _FOR_INTS.get(type_, "") if problem.endswith(" is an int") else ""
     if not instead:
         return ""
@@ -386,7 +386,7 @@ def _times(types: MessageTypes) -> Iterator[tuple[ast.expr, str]]:
 
 
 def _is_for_buffer(module: PythonModule, value: ast.expr) -> bool:
-    """Tell whether the message is only handed to a buffer of tf2, whose code in C reads both."""
+    """Tell whether the message is only passed to a tf2 buffer, whose C code accepts both."""
     match module.parent(value):
         case ast.Assign(targets=[ast.Attribute(value=ast.Attribute(value=ast.Name(id=name)))]):
             scope = module.index.scope_of(value)

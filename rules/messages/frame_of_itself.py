@@ -139,11 +139,11 @@ def _rank(file: RclpyFile, frame: ast.expr) -> int | None:
 
 
 def _stored_frames(file: RclpyFile) -> Iterator[tuple[ast.expr, ast.expr]]:
-    """Yield what is assigned to ``child_frame_id``, with the frame of the header there."""
+    """Yield the values of ``child_frame_id``, with the frame of the header."""
     for store in file.evaluator.stores("child_frame_id"):
         parent = _parent_frame(file, store.node)
         if _is_odometry(file, store.node.value):
-            continue  # it is no transform, but what moves in a frame
+            continue  # not a transform, but an object moving in a frame
         if store.value is not None and parent is not None:
             yield store.value, parent
 
@@ -159,7 +159,7 @@ def _given_frames(file: RclpyFile) -> Iterator[tuple[ast.expr, ast.expr]]:
 
 
 def _parent_frame(file: RclpyFile, child: ast.Attribute) -> ast.expr | None:
-    """Return what the frame in the header of a message is, which has a child frame, too."""
+    """Return the frame in the header of a message that has a child frame as well."""
     holder = file.module.text(child.value)
     frame = _last_stored(file, child, f"{holder}.header.frame_id")
     if frame is not None:
@@ -171,7 +171,7 @@ def _parent_frame(file: RclpyFile, child: ast.Attribute) -> ast.expr | None:
 
 
 def _last_stored(file: RclpyFile, at: ast.AST, path: str) -> ast.expr | None:
-    """Return what is assigned to an attribute in the same block, if that is done once."""
+    """Return the only value assigned to an attribute in the same block."""
     values: list[ast.expr] = []
     block = file.module.parent(file.module.parent(at) or at)
     for store in file.evaluator.stores(path.rpartition(".")[2]):
@@ -205,7 +205,7 @@ def _value(file: RclpyFile, at: ast.AST, node: ast.expr) -> str:
 
 
 def _origin(file: RclpyFile, node: ast.Name | ast.Attribute) -> str:
-    """Return where the value of a name comes from; of one that changes, its place."""
+    """Return the origin of the value of a name; for one that changes, its place."""
     if isinstance(node, ast.Name):
         bound = file.module.index.lookup(node.id, node)
         if bound is not None and len(bound[1]) > 1:
@@ -214,6 +214,6 @@ def _origin(file: RclpyFile, node: ast.Name | ast.Attribute) -> str:
 
 
 def _is_odometry(file: RclpyFile, message: ast.expr) -> bool:
-    """Tell whether a message is made as one of nav_msgs."""
+    """Tell whether a message is created as Odometry of nav_msgs."""
     made = file.evaluator.single_value(message)
     return isinstance(made, ast.Call) and ast.unparse(made.func).endswith("Odometry")

@@ -133,7 +133,7 @@ class FrameWithSlash(MessageRule):
     )
 
     def paths(self, package: Package) -> Sequence[str]:
-        """Return the files that use messages, or that may look up transforms."""
+        """Return the files that use messages or may look up transforms."""
         return [*dict.fromkeys([*super().paths(package), *rclpy_paths(package)])]
 
     def check_file(self, types: MessageTypes) -> Iterator[Diagnostic]:
@@ -159,7 +159,7 @@ class FrameWithSlash(MessageRule):
 
 
 def _frames(types: MessageTypes) -> Iterator[tuple[ast.expr, str]]:
-    """Yield the expressions that are used as frames, with the message they are in if any."""
+    """Yield the expressions used as frames, with their message if any."""
     for name in _FIELDS:
         for store in types.file.evaluator.stores(name):
             # ``self.frame_id`` is an attribute of the node, not of a message.
@@ -174,7 +174,7 @@ def _frames(types: MessageTypes) -> Iterator[tuple[ast.expr, str]]:
 
 
 def _message(types: MessageTypes, node: ast.expr) -> str:
-    """Return the type of the message that has a frame, or ``_UNKNOWN``."""
+    """Return the type of the message of a frame, or ``_UNKNOWN``."""
     if isinstance(node, ast.Attribute) and node.attr == "header":
         node = node.value
     message = types.type_of(node)

@@ -203,7 +203,7 @@ _TRAJECTORY = "trajectory_msgs/msg/JointTrajectory"
 
 
 def _points_without_time(types: MessageTypes) -> Iterator[ast.Call]:
-    """Yield the points of trajectories that a file makes and sends, without any time."""
+    """Yield trajectory points without any time that a file creates and sends."""
     module = types.module
     if module.mentions("time_from_start") or not module.mentions(
         "create_publisher", "ActionClient"
@@ -221,7 +221,7 @@ def _points_without_time(types: MessageTypes) -> Iterator[ast.Call]:
 
 
 def _is_ours(package: Package, types: MessageTypes, sent: ast.expr) -> bool:
-    """Tell whether no other module uses the attribute that holds a message."""
+    """Tell whether no other module uses the attribute with a message."""
     return not isinstance(sent, ast.Attribute) or not is_used_elsewhere(
         package, types.file, sent.attr
     )

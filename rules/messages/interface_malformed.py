@@ -236,6 +236,6 @@ class InterfaceMalformed(Rule):
 
 
 def _last_declaration(lines: Sequence[str]) -> int:
-    """Return the index of the last line that declares something: comments after it are dropped."""
+    """Return the index of the last declaration: comments after it are dropped."""
     stated = [n for n, line in enumerate(lines) if line.partition("#")[0].strip(" \t\r\n-")]
     return stated[-1] if stated else -1

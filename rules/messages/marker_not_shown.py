@@ -185,7 +185,7 @@ class MarkerNotShown(MessageRule):
 
 
 def _transparent(types: MessageTypes) -> Iterator[ast.Call]:
-    """Yield the colors that are made without alpha in a file about markers that never sets it."""
+    """Yield the colors created without alpha in a file with markers that never sets it."""
     if not types.module.mentions("Marker"):
         return
     for call in types.module.walk(ast.Call):
@@ -222,7 +222,7 @@ _COLORS = frozenset({"color", "color.a", "colors", "mesh_use_embedded_materials"
 
 
 def _uses(types: MessageTypes, name: ast.Name) -> Sequence[ast.Attribute] | None:
-    """Return the fields of a marker that are used; ``None`` if anything else is done with it."""
+    """Return the used fields of a marker; ``None`` if it is used in any other way."""
     module = types.module
     scope = module.index.lookup(name.id, name)
     if scope is None or len(scope[1]) != 1:
@@ -251,7 +251,7 @@ def _uses(types: MessageTypes, name: ast.Name) -> Sequence[ast.Attribute] | None
 
 
 def _is_sending(types: MessageTypes, node: ast.AST | None, use: ast.expr) -> bool:
-    """Tell whether a marker is appended, published, or returned to what does that."""
+    """Tell whether a marker is appended, published, or returned to such code."""
     match node:
         case ast.Call(func=ast.Attribute(attr="append", value=kept), args=[only]):
             return only is use and not _may_be_completed(types, kept)
@@ -263,7 +263,7 @@ def _is_sending(types: MessageTypes, node: ast.AST | None, use: ast.expr) -> boo
 
 
 def _may_be_completed(types: MessageTypes, kept: ast.expr) -> bool:
-    """Tell whether code of the file takes markers out of a list again, and changes them there."""
+    """Tell whether code of the file changes markers in a list later."""
     module = types.module
     name = module.text(kept)
     for use in module.walk(type(kept)):
@@ -272,7 +272,7 @@ def _may_be_completed(types: MessageTypes, kept: ast.expr) -> bool:
         above = module.parent(use)
         match above:
             case ast.Return() if isinstance(kept, ast.Attribute):
-                return True  # the list of an object, which goes on to others
+                return True  # the list of an object that is passed on
             case ast.Subscript(value=value) if value is use:
                 if isinstance(module.parent(above), ast.Attribute):
                     return True
@@ -282,7 +282,7 @@ def _may_be_completed(types: MessageTypes, kept: ast.expr) -> bool:
 
 
 def _loops_over(module: PythonModule, items: ast.expr) -> Iterator[ast.For]:
-    """Yield the loop over a list, or over what ``enumerate`` or ``zip`` makes of it."""
+    """Yield the loops over a list, also through ``enumerate`` or ``zip``."""
     above = module.parent(items)
     if isinstance(above, ast.Call) and items in above.args:
         items, above = above, module.parent(above)
@@ -304,7 +304,7 @@ def _changes(loop: ast.For) -> bool:
 
 
 def _calls_appended(types: MessageTypes, node: ast.AST) -> Sequence[ast.Call]:
-    """Return the calls of the function around a place if all results are appended or published."""
+    """Return the calls of the enclosing function if all results are appended or published."""
     module = types.module
     function = module.enclosing_function(node)
     if function is None or function.decorator_list:
@@ -324,7 +324,7 @@ def _calls_appended(types: MessageTypes, node: ast.AST) -> Sequence[ast.Call]:
 
 
 def _is_filling(types: MessageTypes, listed: ast.ListComp) -> bool:
-    """Tell whether a list of markers goes into a message as it is."""
+    """Tell whether a list of markers is put into a message unchanged."""
     match types.module.parent(listed):
         case ast.Assign(targets=[ast.Attribute(attr="markers")]) | ast.keyword(arg="markers"):
             return True
@@ -332,7 +332,7 @@ def _is_filling(types: MessageTypes, listed: ast.ListComp) -> bool:
 
 
 def _loop_around(types: MessageTypes, made: ast.Assign) -> ast.For | ast.ListComp | None:
-    """Return the loop that makes a marker, by itself or by calling the function that does."""
+    """Return the loop that creates a marker, directly or through the enclosing function."""
     calls = _calls_appended(types, made)
     places: list[ast.AST] = [made, *(calls if len(calls) == 1 else ())]
     above = (parent for place in places for parent in types.module.parents(place))
@@ -345,7 +345,7 @@ def _given(
     words: Mapping[str, ast.expr],
     field: str,
 ) -> Iterator[ast.expr]:
-    """Yield what is assigned to a field, or passed for it."""
+    """Yield the values assigned to a field, or passed for it."""
     if field in words:
         yield words[field]
     for use in uses:
@@ -354,7 +354,7 @@ def _given(
 
 
 def _assigned(types: MessageTypes, target: ast.Attribute) -> ast.expr:
-    """Return what is assigned to a target, alone or with others; the target if unknown."""
+    """Return the value assigned to a target, also in a tuple; the target if unknown."""
     match above := types.module.parent(target):
         case ast.Assign(value=value):
             return value

@@ -307,13 +307,13 @@ def _problems(types: MessageTypes) -> Iterator[tuple[ast.expr, str]]:
 
 
 def _message(types: MessageTypes, node: ast.expr) -> MessageClass | None:
-    """Return the message that an expression is; ND095 has those of parameters."""
+    """Return the message type of an expression; ND095 covers those of parameters."""
     owner = types.type_of(node)
     return None if owner and owner.interface.full_name == _PARAMETER_VALUE else owner
 
 
 def _uses_as_value(types: MessageTypes) -> Iterator[tuple[ast.expr, ast.expr, str]]:
-    """Yield uses that only numbers, text or sequences support."""
+    """Yield uses that only numbers, strings or sequences support."""
     module = types.module
     for call in module.walk(ast.Call):
         match call:
@@ -333,7 +333,7 @@ def _uses_as_value(types: MessageTypes) -> Iterator[tuple[ast.expr, ast.expr, st
 
 
 def _in_texts(types: MessageTypes) -> Iterator[tuple[ast.expr, ast.expr, str]]:
-    """Yield what is put into a text as a number."""
+    """Yield the values formatted as numbers."""
     for text in types.module.walk(ast.JoinedStr):
         for part in text.values:
             match part:
@@ -415,7 +415,7 @@ def _uses_as_list(types: MessageTypes) -> Iterator[tuple[ast.expr, ast.expr, str
 
 
 _WANTS_NUMBER = re.compile(r"%[-+ #]*[0-9]*(?:\.[0-9]+)?[dioxXeEfFgG]")
-"""Matches a placeholder for a number in a text that ``%`` fills in."""
+"""Matches a number placeholder in a ``%`` format."""
 _NO_IMAGE = "is not an image of OpenCV"
 _HINT = "TypeError; use one of its fields"
 _HINTS = {_NO_IMAGE: "cv2.error; convert it with CvBridge"}
@@ -423,11 +423,11 @@ _OF_NUMBERS = frozenset(
     {f"numpy.{name}" for name in ("sqrt", "sin", "cos", "tan", "arctan2", "hypot", "isnan", "exp")}
     | {"numpy.linalg.norm", "numpy.cross", "numpy.deg2rad", "numpy.rad2deg"}
 )
-"""Functions of numpy that take numbers, or arrays of them."""
+"""NumPy functions of numbers or arrays of numbers."""
 _PARAMETER_VALUE = "rcl_interfaces/msg/ParameterValue"
 _REFUSED_BY: Mapping[str, str] = {
     **dict.fromkeys(("float", "int", "abs", "round"), "is not a number"),
     **dict.fromkeys(("list", "tuple", "set", "sorted", "sum", "enumerate"), "is not iterable"),
     "json.loads": "is not text",
 }
-"""What functions say to a message."""
+"""The errors of functions that do not accept a message."""

@@ -142,7 +142,7 @@ class ObjectAppendedAgain(MessageRule):
 
 
 def _multiplied(types: MessageTypes, assigned: ast.Assign) -> str:
-    """Return the message that is multiplied in a list whose elements are filled one by one."""
+    """Return the message in ``[message] * n`` if the elements are filled one by one."""
     match assigned:
         case ast.Assign(
             targets=[ast.Name(id=name)],
@@ -174,7 +174,7 @@ def _fills_elements(types: MessageTypes, function: ast.AST, name: str) -> bool:
 def _made_once(
     types: MessageTypes, call: ast.Call, holder: ast.expr, item: ast.Name | ast.Attribute
 ) -> ast.expr | None:
-    """Return where an object is made that is changed and appended several times."""
+    """Return the creation of an object that is changed and appended several times."""
     module = types.module
     made = _maker(types, item)
     if not isinstance(made, ast.Call) or types.class_of(made.func) is None:
@@ -198,7 +198,7 @@ def _made_once(
 
 
 def _maker(types: MessageTypes, item: ast.Name | ast.Attribute) -> ast.expr | None:
-    """Return what a name or an attribute of ``self`` is assigned, if that is so once."""
+    """Return the only value assigned to a name or an attribute of ``self``."""
     if isinstance(item, ast.Name):
         return types.file.evaluator.single_value(item)
     class_ = types.module.enclosing_class(item)
@@ -232,7 +232,7 @@ def _is_changed(types: MessageTypes, block: ast.AST, item: ast.expr) -> bool:
 
 
 def _is_emptied(types: MessageTypes, block: ast.AST, holder: ast.expr) -> bool:
-    """Tell whether a block creates a list, or the object that holds it, each time it runs."""
+    """Tell whether a block creates a list, or its owner, each time it runs."""
     text = types.module.text(holder)
     for node in ast.walk(block):
         if isinstance(node, ast.Attribute | ast.Name):

@@ -20,7 +20,7 @@ _GIVES = {
     "transforms3d.quaternions.qmult": "wxyz",
     "transforms3d.quaternions.qinverse": "wxyz",
 }
-"""The order in which functions return the parts of a quaternion."""
+"""The order of quaternion components in return values, by function."""
 _TAKES = {
     "tf_transformations.euler_from_quaternion": "xyzw",
     "tf_transformations.quaternion_matrix": "xyzw",
@@ -32,7 +32,7 @@ _TAKES = {
     "transforms3d.quaternions.qinverse": "wxyz",
     "transforms3d.quaternions.qmult": "wxyz",
 }
-"""The order in which they take them."""
+"""The order of quaternion components in arguments, by function."""
 _ORDERS = ("xyzw", "wxyz")
 _HEAD = (
     "from geometry_msgs.msg import Quaternion\n"
@@ -123,7 +123,7 @@ class QuaternionOrderSwapped(MessageRule):
 
 
 def _giver(types: MessageTypes, value: ast.expr) -> str:
-    """Return the function that a quaternion comes from; empty if none of the table."""
+    """Return the function that creates a quaternion; empty if unknown."""
     name = types.module.qualified_name(value.func) if isinstance(value, ast.Call) else None
     return name if name in _GIVES else ""
 
@@ -135,7 +135,7 @@ def _given(types: MessageTypes, node: ast.expr) -> str:
 
 
 def _order(items: Sequence[ast.expr]) -> str:
-    """Return the letters that names end with, if these are the parts of a quaternion in order."""
+    """Return the last letters of names if they are the components of a quaternion."""
     names = [
         item.attr if isinstance(item, ast.Attribute) else getattr(item, "id", "") for item in items
     ]
@@ -145,7 +145,7 @@ def _order(items: Sequence[ast.expr]) -> str:
 
 
 def _last_parts(types: MessageTypes) -> Iterator[ast.Subscript]:
-    """Yield what the field ``w`` is set to: ``message.w = q[3]``, ``Quaternion(w=q[3])``."""
+    """Yield the values of the field ``w``: ``message.w = q[3]``, ``Quaternion(w=q[3])``."""
     for store in types.file.evaluator.stores("w"):
         if isinstance(store.value, ast.Subscript):
             yield store.value

@@ -96,7 +96,7 @@ class ScanAveragedUnfiltered(MessageRule):
 
 
 def _summed(types: MessageTypes, call: ast.Call) -> ast.expr | None:
-    """Return what a call adds up."""
+    """Return the summed argument of a call."""
     match call:
         case ast.Call(func=ast.Name(id="sum"), args=[values]):
             return values
@@ -108,7 +108,7 @@ def _summed(types: MessageTypes, call: ast.Call) -> ast.expr | None:
 
 
 def _is_of_scan(types: MessageTypes, node: ast.expr) -> bool:
-    """Tell whether an expression is the distances of a scan, or a slice of them."""
+    """Tell whether an expression is the ranges of a scan, or a slice of them."""
     match node:
         case ast.Subscript(value=whole, slice=ast.Slice()):
             return _is_of_scan(types, whole)
@@ -125,7 +125,7 @@ def _is_of_scan(types: MessageTypes, node: ast.expr) -> bool:
 
 
 def _is_filtered(types: MessageTypes, call: ast.Call, summed: ast.expr) -> bool:
-    """Tell whether the function replaces distances that are none, or may look for them before."""
+    """Tell whether the function replaces or checks invalid ranges first."""
     function = types.module.enclosing_function(call) or types.module.tree
     if isinstance(summed, ast.Name):
         return any(

@@ -110,7 +110,7 @@ class StampMadeOnce(RclpyRule):
 
 
 def _stamped(file: RclpyFile) -> Iterator[tuple[ast.AST, ast.expr]]:
-    """Yield where stamps and headers are set, with what they are set to."""
+    """Yield the assignments of stamps and headers, with the values."""
     for name in ("stamp", "header"):
         for store in file.evaluator.stores(name):
             if store.value is not None:
@@ -121,7 +121,7 @@ def _stamped(file: RclpyFile) -> Iterator[tuple[ast.AST, ast.expr]]:
 
 
 _STATIC = ("StaticTransformBroadcaster", "TRANSIENT_LOCAL", "TransientLocal", "transient_local")
-"""What is published once for who comes late keeps its stamp."""
+"""Latched publishers, whose messages keep their stamp."""
 
 
 def _is_time(file: RclpyFile, node: ast.expr) -> bool:
@@ -162,7 +162,7 @@ def _is_set_once(
 
 
 def _is_stamped(file: RclpyFile, node: ast.expr) -> bool:
-    """Return whether it is a header that is made with the time, and never changed."""
+    """Return whether it is a header that is created with the time and never changed."""
     if not isinstance(node, ast.Call) or file.module.qualified_name(node.func) != _HEADER:
         return False
     return not _later(file, node) and any(
@@ -174,7 +174,7 @@ _HEADER = "std_msgs.msg.Header"
 
 
 def _later(file: RclpyFile, made: ast.Call) -> Sequence[ast.Attribute]:
-    """Return where the stamp of an attribute of ``self`` is set."""
+    """Return the places that set the stamp of an attribute of ``self``."""
     parent = file.module.parent(made)
     target = parent.targets[0] if isinstance(parent, ast.Assign) else None
     if not isinstance(target, ast.Attribute):
@@ -197,7 +197,7 @@ def _set_in_constructor(file: RclpyFile, phases: Phases, attribute: str) -> bool
 
 
 def _is_sent_again(file: RclpyFile, phases: Phases, target: ast.Attribute) -> bool:
-    """Return whether callbacks publish a message with this stamp, and nothing else renews it."""
+    """Return whether callbacks publish a message with this stamp without renewing it."""
     match target.value:
         case ast.Attribute(attr="header", value=ast.Attribute(value=ast.Name("self")) as message):
             pass

@@ -30,9 +30,9 @@ _NODE_SERVICES = (
     "        self.client = self.create_client(Trigger, '{}')\n"
 )
 _SIMILAR = 0.75
-"""What the names of an action have in common: few packages serve two of a type."""
+"""The minimum similarity of the names of actions; few packages serve two of a type."""
 _ALIKE = 4
-"""Length that a name needs before a different letter counts as a typo."""
+"""The minimum length of a name for which one different letter counts as a typo."""
 
 _WORD = re.compile(r"[^\W_]+")
 

@@ -86,7 +86,7 @@ class TopicTypeDiffers(Rule):
             if not topic.is_plain_by_default or not _are_known(package, *sides):
                 continue
             found = [*self._check(name, *sides)]
-            # Which costs more to find out than whether the types differ.
+            # This is slower to determine than whether the types differ.
             if found and all(keeps_default_name(package, x) for side in sides for x in side):
                 yield from found
         for name, service in services_of(package).items():

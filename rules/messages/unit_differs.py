@@ -59,7 +59,7 @@ _HINTS: Mapping[str, Mapping[str, str]] = {
     "volts": {"millivolts": "divide by 1000"},
     "teslas": {"microteslas": "multiply by 1e-6", "gauss": "multiply by 1e-4"},
 }
-"""What to do with values of other units, by the unit of a field."""
+"""Hints for values in other units, by the unit of a field."""
 _SUFFIXES: Mapping[str, str] = {
     **dict.fromkeys(("deg", "degs", "degree", "degrees"), "degrees"),
     **dict.fromkeys(("rad", "rads", "radian", "radians"), "radians"),
@@ -108,7 +108,7 @@ _FIELDS: Mapping[tuple[str, str], str] = {
     ("sensor_msgs/msg/BatteryState", "percentage"): "shares from 0 to 1",
     ("sensor_msgs/msg/BatteryState", "voltage"): "volts",
 }
-"""What the comments of the definitions say."""
+"""From the comments of the definitions."""
 _VECTORS: Mapping[tuple[str, str], str] = {
     ("sensor_msgs/msg/Imu", "angular_velocity"): "radians per second",
     ("sensor_msgs/msg/Imu", "linear_acceleration"): "m/s²",
@@ -119,7 +119,7 @@ _VECTORS: Mapping[tuple[str, str], str] = {
     ("geometry_msgs/msg/Pose", "position"): "meters",
     ("geometry_msgs/msg/Transform", "translation"): "meters",
 }
-"""Those of which x, y and z are assigned."""
+"""The vectors whose x, y and z are assigned."""
 _CONVERSIONS: Mapping[str, str] = {
     **dict.fromkeys(("degrees", "rad2deg"), "degrees"),
     **dict.fromkeys(("radians", "deg2rad"), "radians"),
@@ -269,7 +269,7 @@ class UnitDiffers(MessageRule):
 
 
 def _elements(value: ast.expr) -> Iterator[ast.expr]:
-    """Yield the values that are assigned: those of a list one by one."""
+    """Yield the assigned values: those of a list one by one."""
     match value:
         case ast.List(elts=elements) | ast.Tuple(elts=elements):
             yield from elements
@@ -280,7 +280,7 @@ def _elements(value: ast.expr) -> Iterator[ast.expr]:
 
 
 def _vector(types: MessageTypes, holder: ast.expr) -> tuple[str, str]:
-    """Return the message and the field that a vector is in, whose x, y or z is assigned."""
+    """Return the message and the field of a vector whose x, y or z is assigned."""
     above = types.module.parent(holder)
     match holder, above:
         case ast.Attribute(value=outer, attr=field), _:
@@ -296,7 +296,7 @@ def _vector(types: MessageTypes, holder: ast.expr) -> tuple[str, str]:
 
 
 def _unit(types: MessageTypes, node: ast.expr, depth: int = 0) -> tuple[str, bool]:
-    """Return the unit of a value and whether its name alone says so; empty if it is not known."""
+    """Return the unit of a value, and whether only its name implies it; empty if unknown."""
     for _ in range(_DEEPEST):
         inner = _inside(node)
         if inner is None:
@@ -315,7 +315,7 @@ def _unit(types: MessageTypes, node: ast.expr, depth: int = 0) -> tuple[str, boo
 
 
 def _inside(node: ast.expr) -> ast.expr | None:
-    """Return what an expression takes its value from, in the same unit."""
+    """Return the origin of the value of an expression in the same unit."""
     match node:
         case ast.UnaryOp(operand=inner) | ast.Starred(value=inner):
             return inner
@@ -334,7 +334,7 @@ def _inside(node: ast.expr) -> ast.expr | None:
 def _unit_of_name(
     types: MessageTypes, node: ast.Name | ast.Attribute, depth: int
 ) -> tuple[str, bool]:
-    """Return the unit of a name: that of the only value it gets, or the one in it."""
+    """Return the unit of a name: that of its only value, or the one in the name."""
     values = [value for value in _values(types, node) if not _is_zero(value)]
     units = {_unit(types, value, depth + 1) for value in values}
     stated = {unit for unit, is_by_name in units if unit and not is_by_name}
@@ -349,12 +349,12 @@ def _unit_of_name(
 
 
 def _is_zero(value: ast.expr) -> bool:
-    """Tell whether a value is the same in every unit, as what an attribute starts with."""
+    """Tell whether a value is the same in all units, as the initial value of an attribute."""
     return isinstance(value, ast.Constant) and not value.value
 
 
 def _values(types: MessageTypes, node: ast.Name | ast.Attribute) -> list[ast.expr]:
-    """Return what a name or an attribute of the object is assigned."""
+    """Return the values assigned to a name or an attribute of the object."""
     if isinstance(node, ast.Attribute):
         return [*(types.file.evaluator.attribute_values(node) or ())]
     values: list[ast.expr] = []

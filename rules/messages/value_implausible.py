@@ -43,7 +43,7 @@ _RANGES: Mapping[tuple[str, str], tuple[float, float, str]] = {
     **{("std_msgs/msg/ColorRGBA", name): (0, 1, "a fraction from 0 to 1") for name in "rgba"},
     **{("geometry_msgs/msg/Quaternion", name): (-1, 1, "between -1 and 1") for name in "xyzw"},
 }
-"""What the comments of the definitions say."""
+"""From the comments of the definitions."""
 _SHARES = frozenset(key for key, (low, high, _) in _RANGES.items() if (low, high) == (0, 1))
 _PERCENT = 100
 
@@ -307,7 +307,7 @@ class ValueImplausible(MessageRule):
     def check_file(self, types: MessageTypes) -> Iterator[Diagnostic]:
         module = types.module
         if module.in_tests:
-            return  # where wrong values are given on purpose
+            return  # tests, where values may be wrong on purpose
         for part in (_angles, _components, _fractions, _images, _matrices):
             for at, message in part.flaws(types):
                 yield self.report(module.location(at), message)
@@ -318,7 +318,7 @@ class ValueImplausible(MessageRule):
 
 
 def _problem(types: MessageTypes, owner: str, name: str, node: ast.expr) -> str:
-    """Return what the definition of a field says against its value; empty if nothing."""
+    """Return why the definition of a field contradicts its value; empty if it does not."""
     key = (owner, name)
     value = types.file.evaluator.evaluate(node)
     if key in _RANGES and isinstance(value, int | float) and not isinstance(value, bool):

@@ -175,7 +175,7 @@ class NameInvalid(RclpyRule):
                 if problem:
                     yield self.report(argument, f"ROS 2 rejects this name: {problem}")
                 continue
-            # An empty default is there to be replaced.
+            # An empty default is meant to be replaced.
             if entity.from_parameter and _has_gap(entity.name):
                 continue
             if not entity.name and is_guarded_by(file.module, entity.call, argument.node):
@@ -210,7 +210,7 @@ class NameInvalid(RclpyRule):
 
 
 def _written_parts(node: ast.expr) -> Iterator[str]:
-    """Yield the parts of a name that are written out, between those that are filled in."""
+    """Yield the literal parts of a name, between the inserted ones."""
     match node:
         case ast.Constant(value=str(text)):
             yield text

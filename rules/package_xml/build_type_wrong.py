@@ -304,7 +304,7 @@ class BuildTypeWrong(Rule):
         manifest = package.manifest
         if manifest.build_type != "ament_cmake" or not package.cmake.finds("ament_cmake"):
             return
-        # Whatever builds something may bring ament_cmake along.
+        # Any build dependency may depend on ament_cmake.
         if any("ament" in name or name.endswith("_cmake") for name in manifest.build_names):
             return
         if any(dependency.kind == "buildtool_depend" for dependency in manifest.dependencies):

@@ -126,7 +126,7 @@ class ConditionMalformed(Rule):
     def _misleading(
         self, package: Package, tag: str, condition: str, at: Location
     ) -> Iterator[Diagnostic]:
-        """Report a condition that asks for nothing, or for nothing that there is."""
+        """Report a condition that is constant or refers to unknown values."""
         reported = [
             (_words(constant, condition), _with_sign(package, at, condition, constant))
             for constant in constants(condition)
@@ -151,7 +151,7 @@ def _words(constant: Constant, condition: str) -> str:
 
 
 def _with_sign(package: Package, at: Location, condition: str, constant: Constant) -> Fix | None:
-    """Return the fix that makes a variable of a text, where it is written as it is read."""
+    """Return the fix that turns a text into a variable, if it contains no references."""
     source = package.source(at.path)
     start = source.offset(at.line, at.column)
     if not constant.variable or not source.text.startswith(condition, start):

@@ -163,7 +163,7 @@ class DependencyMisspelled(Rule):
 
 
 def _has_others(package: Package, name: str, closest: str) -> bool:
-    """Tell whether the code imports interfaces of a package that the closest one does not have."""
+    """Tell whether the code imports interfaces that the closest package does not have."""
     definitions = package.workspace.interfaces
     for module in package.modules(mentioning=(name,)):
         for item in module.imports_by_root.get(name, ()):
@@ -175,7 +175,7 @@ def _has_others(package: Package, name: str, closest: str) -> bool:
 
 
 def _similar_neighbor(package: Package, name: str) -> str | None:
-    """Return the only package of the workspace that an unknown name can mean, if there is one."""
+    """Return the only workspace package that an unknown name can refer to, if any."""
     if is_released(name) or name in ROS_PACKAGES or _is_known(package, name):
         return None
     similar = [other.name for other in package.workspace if is_near(name, other.name)]
@@ -186,6 +186,6 @@ def _similar_neighbor(package: Package, name: str) -> str | None:
 
 
 def _is_known(package: Package, name: str) -> bool:
-    """Tell whether rosdep's cache, where there is one, has a rule for a name."""
+    """Tell whether rosdep's cache, if it exists, has a rule for a name."""
     rosdep = package.workspace.rosdep
     return rosdep is not None and rosdep.resolves(name) is not False

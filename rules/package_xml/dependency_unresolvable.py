@@ -20,7 +20,7 @@ KINDS = frozenset(
     {"depend", "build_depend", "buildtool_depend", "exec_depend", "run_depend", "test_depend"}
     | {"build_export_depend", "buildtool_export_depend"}
 )
-"""Tags whose packages rosdep installs; it skips those of the documentation."""
+"""Tags whose packages rosdep installs; it skips documentation dependencies."""
 _MANIFEST = "<package>\n  <name>talker</name>\n  <depend>{}</depend>\n</package>\n"
 _KEYS = ("python3-serial", "libserial-dev")
 
@@ -102,7 +102,7 @@ class DependencyUnresolvable(Rule):
 
 
 def _is_known(package: Package, name: str) -> bool:
-    """Tell whether a name is that of a package, or has another rule that speaks of it."""
+    """Tell whether a name is a known package, or another rule reports it."""
     if is_released(name) or name in {*ROS_PACKAGES, *ROS1_PACKAGES, *OTHER_NAMES, package.name}:
         return True
     if (

@@ -183,7 +183,7 @@ def _problem(name: str) -> str:
 
 
 def _is_found_by_cmake(package: Package, name: str) -> bool:
-    """Tell whether a name is that of a C++ library: serial is one, too."""
+    """Tell whether a name is also a C++ library, such as serial."""
     try:
         return bool(package.cmake.finds(name))
     except ViewError:
@@ -191,7 +191,7 @@ def _is_found_by_cmake(package: Package, name: str) -> bool:
 
 
 def _key(package: Package, module: str) -> str:
-    """Return the key of a library; code in C++ needs that of OpenCV for C++."""
+    """Return the key of a library; C++ code needs the key of OpenCV for C++."""
     keys = keys_of_module(module)
     try:
         is_compiled = module == "cv2" and package.cmake.finds("OpenCV")

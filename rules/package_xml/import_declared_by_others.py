@@ -56,9 +56,9 @@ class ImportDeclaredByOthers(Rule):
             if not along or not manifest.dependencies:
                 continue
             if any(similar_package(item) == along[0] for item in dependencies.direct):
-                continue  # misspelled, as another rule says
+                continue  # misspelled, reported by another rule
             if manifest.left_out(need.keys, "run"):
-                continue  # its condition is what to look at
+                continue  # its condition is the problem
             tag = "run_depend" if manifest.format == 1 else "exec_depend"
             by = next(
                 (

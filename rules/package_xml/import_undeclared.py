@@ -20,12 +20,12 @@ from scaffold.api.python import rospack_lookups
 from ._debian import key_of_debian
 
 _LAUNCH = frozenset({"launch", "launch_ros"})
-"""Installed wherever launch files can be started."""
+"""Packages installed wherever launch files can be started."""
 _BUILD = "python3-setuptools"
-"""Installed with colcon."""
+"""The package installed with colcon."""
 _MANIFEST = '<package format="3">\n  <name>talker</name>\n{}</package>\n'
 _INDEX = frozenset({"torch", "torchvision"})
-"""Many install them with pip, for their graphics card."""
+"""Packages often installed with pip, for a specific graphics card."""
 
 _MANIFEST = '<package format="3">\n  <name>talker</name>\n{}</package>\n'
 
@@ -417,7 +417,7 @@ class ImportUndeclared(Rule):
         manifest = package.manifest
         for need in required_packages(package):
             if removed_package(need.module) and package.workspace.get(need.module) is None:
-                continue  # package-removed says it
+                continue  # reported by package-removed
             dependencies = declared(package, for_tests=need.for_tests)
             if any(key in dependencies.direct or key in dependencies.along for key in need.keys):
                 continue
@@ -425,9 +425,9 @@ class ImportUndeclared(Rule):
             if need.module in _INDEX and (is_from_pip or _is_required(package, need.module)):
                 continue
             if any(key_of_debian(item.name) in need.keys for item in manifest.dependencies):
-                continue  # dependency-malformed says it
+                continue  # reported by dependency-malformed
             if need.module == "rospkg" and rospack_lookups(package, need.location.path):
-                continue  # module-of-ros1-imported says it
+                continue  # reported by module-of-ros1-imported
             comes_otherwise = _comes_with_launch(need) or need.module in _INDEX or need.in_data
             comes_otherwise = comes_otherwise or is_from_pip
             severity = Severity.WARNING if comes_otherwise else Severity.ERROR

@@ -12,7 +12,7 @@ from scaffold.api.manifest import Manifest
 GROUP = "rosidl_interface_packages"
 _GENERATORS = ("rosidl_default_generators", "rosidl_core_generators")
 _KINDS = ("_msgs", "_srvs", "_interfaces")
-"""Ends of the names of packages with interfaces."""
+"""Suffixes of the names of interface packages."""
 _RUNTIMES = ("rosidl_default_runtime", "rosidl_core_runtime")
 _CMAKE = "project(my_msgs)\nrosidl_generate_interfaces(${PROJECT_NAME} msg/Beat.msg)\n"
 _FILES = {"CMakeLists.txt": _CMAKE, "msg/Beat.msg": "int32 count\n"}
@@ -159,7 +159,7 @@ class InterfaceDeclarationsMissing(Rule):
 
 
 def _missing(manifest: Manifest, package: Package) -> Iterator[tuple[str, str, str]]:
-    """Yield what is not declared: words, tag and text."""
+    """Yield the missing declarations: description, tag and text."""
     build = manifest.build_names | manifest.run_names
     build |= transitive_dependencies(build)
     if build.isdisjoint(_GENERATORS):
@@ -177,7 +177,7 @@ def _missing(manifest: Manifest, package: Package) -> Iterator[tuple[str, str, s
 
 
 def _format_3(manifest: Manifest) -> list[Edit]:
-    """Return the change of a manifest of format 2 to 3, which allows all that 2 does."""
+    """Return the change of a manifest from format 2 to 3, which is compatible."""
     attribute = manifest.root.attributes.get("format")
     if manifest.format != 2 or attribute is None:  # noqa: PLR2004  REP-140
         return []

@@ -14,7 +14,7 @@ _TEXTS: Mapping[str, tuple[str, ...]] = {
     "lgpl": ("gnu lesser general public license",),
     "mpl": ("mozilla public license",),
 }
-"""What the text of a license contains, by family."""
+"""Phrases in the text of a license, by family."""
 _MANIFEST = '<package format="3">\n  <name>talker</name>\n  <license>{}</license>\n</package>\n'
 _FILE = {"LICENSE": "                 Apache License\n           Version 2.0, January 2004\n"}
 
@@ -55,7 +55,7 @@ class LicenseDiffers(Rule):
         text = " ".join(package.source("LICENSE").text.lower().split())
         matching = {name for name, parts in _TEXTS.items() if all(part in text for part in parts)}
         named = _family(licenses[0].text)
-        if {"gpl", "lgpl"} <= matching:  # each speaks of the other, but the title comes first
+        if {"gpl", "lgpl"} <= matching:  # each mentions the other, but the title comes first
             matching.remove(max("gpl", "lgpl", key=lambda name: text.index(_TEXTS[name][0])))
         if named and len(matching) == 1 and named not in matching:
             held = matching.pop()

@@ -102,7 +102,7 @@ class PackageRemoved(Rule):
 
 
 def _uses(package: Package) -> Iterator[tuple[str, Location, str]]:
-    """Yield the packages that are used on the target, where, and what happens without them."""
+    """Yield the packages used on the target, with the places and the effect of their absence."""
     for dependency in package.manifest.dependencies:
         if dependency.active and dependency.kind != "doc_depend":
             yield dependency.name, dependency.location, "rosdep finds no rule"

@@ -53,7 +53,7 @@ _WITH_VALUE = frozenset(
 _OTHER_SOURCE = frozenset(
     {"-p", "--param-file", "-t", "--controller-type", "--controller-ros-args"}
 )
-"""The options of the spawner that may say the type."""
+"""The options of the spawner that may specify the type."""
 _LOAD = ["ros2", "control", "load_controller"]
 _TRAJECTORY = "joint_trajectory_controller/JointTrajectoryController"
 _OF_ROS1: Mapping[str, str] = {
@@ -72,7 +72,7 @@ _OF_ROS1: Mapping[str, str] = {
     "effort_controllers/JointPositionController": "pid_controller/PidController",
     "effort_controllers/JointVelocityController": "pid_controller/PidController",
 }
-"""Types of controllers that ROS 2 does not have, and what does their work."""
+"""Controller types that ROS 2 does not have, with their replacements."""
 _FILE = (
     "controller_manager:\n  ros__parameters:\n    update_rate: {}\n"
     "    base_controller:\n      type: {}\n\n"
@@ -266,7 +266,7 @@ class ControllerUnfit(Rule):
                 if entry.name in _JOINTS
                 for item in _texts(entry)
             ]
-            # Of another robot unless at least one is of this one.
+            # For another robot, unless at least one is of this robot.
             if not any(item.text in joints for item in named):
                 continue
             for item in named:
@@ -305,7 +305,7 @@ def _spawned(package: Package) -> Iterator[tuple[str, Word]]:
 
 
 def _is_manager_here(package: Package, launch: str) -> bool:
-    """Tell whether a launch file starts the controller manager, with files of the package alone."""
+    """Tell whether a launch file starts the controller manager only with files of the package."""
     managers = [
         node
         for node in started_nodes(package)
@@ -317,7 +317,7 @@ def _is_manager_here(package: Package, launch: str) -> bool:
 
 
 def _takes_more(package: Package, node: StartedNode) -> bool:
-    """Tell whether a node gets parameters from elsewhere, or several files of which some may."""
+    """Tell whether a node may get parameters from other sources or several files."""
     launch = LaunchFile.of(package, node.launch)
     for call in launch.find("Node"):
         if call.location == node.location:
@@ -334,7 +334,7 @@ def _texts(entry: Entry) -> Iterator[Scalar]:
 
 
 def _joints(package: Package) -> set[str]:
-    """Return the joints of the robots of a package; none unless all are known."""
+    """Return the joints of the robots of a package; empty if any are unknown."""
     names: set[str] = set()
     try:
         if any(robot_file(package, path) is None for path in robot_paths(package)):
@@ -353,7 +353,7 @@ def _joints(package: Package) -> set[str]:
 
 
 def _loaded(package: Package) -> Iterator[CommandLine]:
-    """Yield the command lines of ``ros2 control load_controller``: what follows these words."""
+    """Yield the arguments of ``ros2 control load_controller`` commands."""
     for line in processes(package):
         if [word.text for word in line.words[:3]] == _LOAD:
             words = [word for word in line.words[3:] if word.text not in {"active", "inactive"}]

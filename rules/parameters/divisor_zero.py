@@ -92,7 +92,7 @@ def _is_set(package: Package, node: KnownNode, name: str) -> bool:
 
 
 def _zeros(package: Package) -> Iterator[tuple[str, list[Declared], Location]]:
-    """Yield the parameters that are set to zero, what their nodes declare, and the place."""
+    """Yield the parameters that are set to zero, with their declarations and places."""
     for _, entry, declarations in values_in_files(package):
         if number_of(entry.value) == 0:
             yield entry.name, declarations, entry.value.location
@@ -104,7 +104,7 @@ def _zeros(package: Package) -> Iterator[tuple[str, list[Declared], Location]]:
 
 
 def _messages(package: Package, declarations: list[Declared], name: str) -> Iterator[str]:
-    """Yield the message for a parameter that is zero, if its node divides by it."""
+    """Yield the message for a zero parameter if its node divides by it."""
     for declared in declarations:
         place = declared.places.get(name)
         if place is not None and place.divides:

@@ -40,7 +40,7 @@ class KeyRepeated(Rule):
                 pending: list[YamlNode] = list(yaml_tree.parse(package.source(path)))
             except ParseError:
                 continue
-            for node in pending:  # grows on the way
+            for node in pending:  # extended during the loop
                 if isinstance(node, Sequence):
                     pending += node.items
                 elif isinstance(node, Mapping):

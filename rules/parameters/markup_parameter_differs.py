@@ -87,7 +87,7 @@ class MarkupParameterDiffers(Rule):
                 if owner is None:
                     continue
                 declared = declared_by(owner, package)
-                # A program that constructs a node in passing may construct another.
+                # A program that creates nodes inline may create others.
                 is_all = declared.complete and owner.is_class
                 for name, value in node.parameters:
                     if not is_known(name):

@@ -176,7 +176,7 @@ class NodeUnknown(Rule):
                 yield from self._for_own(package, file)
 
     def _for_started(self, package: Package, file: ParameterFile) -> Iterator[Diagnostic]:
-        """Check a file against the nodes that launch files pass it to."""
+        """Check a file against the nodes to which launch files pass it."""
         use = use_of(package, file.path)
         given = [node.name(package) for node in use.nodes]
         names = {name for name in given if isinstance(name, str)}
@@ -206,7 +206,7 @@ class NodeUnknown(Rule):
                 yield self.report(section.key, message)
 
     def _for_own(self, package: Package, file: ParameterFile) -> Iterator[Diagnostic]:
-        """Check a file that no launch file names against the nodes in the package."""
+        """Check a file that no launch file uses against the nodes in the package."""
         nodes, complete = own_nodes(package)
         names = {str(node.node_name) for node in nodes}
         everywhere = node_names(package)
@@ -249,7 +249,7 @@ class NodeUnknown(Rule):
 
 
 def _is_left_over(package: Package, section: Section, nodes: list[KnownNode]) -> bool:
-    """Tell whether a section sets no parameter of the nodes whose names are like its own."""
+    """Tell whether a section sets no parameters of nodes with similar names."""
     declarations = [declared_by(node, package) for node in nodes]
     return all(declared.complete for declared in declarations) and not any(
         entry.name in declared.types for entry in section.entries for declared in declarations

@@ -212,7 +212,7 @@ class _Ignored(NamedTuple):
     """See `comparable`."""
 
     def judged(self) -> tuple[str, Severity]:
-        """Return which parameter may be meant, and how bad it is that this one is ignored."""
+        """Return a hint at the parameters of the node, and the severity."""
         names = sorted({key for declared in self.declarations for key in declared.types})
         closest = closest_name(self.package, self.name, names, 0.6)
         hint = f"it has {listed_names(names, self.name)}"
@@ -224,7 +224,7 @@ class _Ignored(NamedTuple):
         return hint, Severity.WARNING if is_harmless else Severity.ERROR
 
     def _has_value(self, owner: KnownNode, declared: Declared, closest: str) -> bool:
-        """Tell whether a node has the value without it, as a default or under that name."""
+        """Tell whether a node has the value anyway, as a default or under the right name."""
         if not self.value:
             return False
         meant = declared.places.get(closest)
@@ -239,7 +239,7 @@ class _Ignored(NamedTuple):
 
 
 def _comparable_in_launch(given: GivenParameter) -> str:
-    """Return what can be compared of a value that a launch file gives; empty for nothing."""
+    """Return the comparable part of a value from a launch file; empty if there is none."""
     value = given.value
     if value is None or given.is_configuration:
         return ""
@@ -247,7 +247,7 @@ def _comparable_in_launch(given: GivenParameter) -> str:
 
 
 def _is_shared(package: Package, node: StartedNode, name: str) -> bool:
-    """Return whether another program that runs under the same name takes the parameter."""
+    """Return whether another program with the same node name has the parameter."""
     return any(
         other.launch == node.launch
         and other.executable != node.executable

@@ -216,7 +216,7 @@ class ParameterUnfit(Rule):
 
 
 def _is_placeholder(value: YamlNode, kind: str) -> bool:
-    """Tell whether a value stands for a number or a truth that a launch file puts there."""
+    """Tell whether a value is a placeholder that a launch file replaces."""
     is_word = isinstance(value, Scalar) and re.fullmatch(_PLACEHOLDER, value.text) is not None
     return is_word and kind in {"bool", "double", "integer"}
 
@@ -234,7 +234,7 @@ def _fix(path: str, entry: Entry, kind: str, given: str) -> Fix | None:
 
 
 def _message(package: Package, declarations: list[Declared], name: str, value: float | None) -> str:
-    """Return the message for a value outside the range that its nodes declare."""
+    """Return the message for a value outside of the range declared by its nodes."""
     kind = "integer" if isinstance(value, int) else "double"
     for declared in declarations if value is not None else ():
         place = declared.places.get(name)

@@ -19,7 +19,7 @@ _NODE = (
 _LAUNCH = (".py", ".launch.xml", ".launch.yaml", ".launch.yml")
 _PARAMETERS = (".yaml", ".yml")
 _ELSEWHERE = (*_LAUNCH, *_PARAMETERS)
-"""Of other packages, which may start the node."""
+"""Suffixes of files of other packages that may start the node."""
 
 
 class RequiredNeverSet(RclpyRule):
@@ -124,7 +124,7 @@ def _is_set(package: Package, node: NodeDefinition, name: str) -> bool:
 
 
 def _mentions(package: Package, name: str, endings: tuple[str, ...]) -> bool:
-    """Tell whether a launch file, or a file in YAML next to those, has a name."""
+    """Tell whether a launch file, or a YAML file next to it, contains a name."""
     wanted = re.compile(rf"\b{re.escape(name)}\b")
     for path in package.files:
         if path.endswith(endings) and (not path.endswith(".py") or "launch" in path.lower()):

@@ -168,7 +168,7 @@ class ValueRefused(Rule):
 
 
 def _read(owner: NodeDefinition, name: str) -> ParameterRead | None:
-    """Return a place where the node fails when a parameter has no value."""
+    """Return a place where the node fails if a parameter has no value."""
     current: NodeDefinition | None = owner
     while current is not None:
         for read in current.parameter_reads:

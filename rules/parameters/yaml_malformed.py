@@ -88,9 +88,9 @@ class YamlMalformed(Rule):
 
 
 def _written_by_hand(package: Package, paths: Container[str]) -> Iterator[str]:
-    """Yield the other files of YAML, but for those of tests and what is YAML for others.
+    """Yield the other YAML files, except those of tests and of other tools.
 
-    Files of OpenCV have a header of their own; templates are none yet.
+    Files of OpenCV have a special header; templates are not YAML yet.
     """
     for path in package.files:
         is_of_tests = not {"test", "tests"}.isdisjoint(path.split("/"))
@@ -102,5 +102,5 @@ def _written_by_hand(package: Package, paths: Container[str]) -> Iterator[str]:
 
 
 def _is_read(package: Package, path: str) -> bool:
-    """Tell whether a launch file gives a file to a node, or code of the workspace loads it."""
+    """Tell whether a launch file passes a file to a node, or code in the workspace loads it."""
     return bool(use_of(package, path).nodes) or is_loaded(package, path)

@@ -82,7 +82,7 @@ class DataDestinationDiffers(Rule):
         if package.build_type != "ament_python" or not package.manifest.name:
             return
         if setup.name != package.name and setup.name is not None:
-            return  # SP008 reports it, or it is unknown
+            return  # reported by SP008, or unknown
         share = f"share/{package.name}"
         copied = {
             source

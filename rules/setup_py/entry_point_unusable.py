@@ -248,7 +248,7 @@ class EntryPointUnusable(Rule):
 
     def _check_target(self, package: Package) -> Iterator[Diagnostic]:
         if package.build_type == "ament_cmake":
-            return  # nothing runs setup.py there
+            return  # setup.py is not run there
         for entry in package.setup_py.console_scripts:
             if entry.malformed or not entry.module or not entry.function:
                 continue
@@ -298,7 +298,7 @@ class EntryPointUnusable(Rule):
         if where is None and any(
             package.has(f"{other}/{rest.replace('.', '/')}.py") for other in own
         ):
-            return None  # `_check_use` says which module it is
+            return None  # `_check_use` reports the module
         if where is not None or package.has(f"{root}.py") or root not in {package.name, *own}:
             closest = get_close_matches(root, own, n=1)
             if where is None and closest and not package.has(f"{root}.py"):
@@ -342,7 +342,7 @@ class EntryPointUnusable(Rule):
 
 @fact
 def _function(package: Package, path: str, name: str) -> tuple[Location, str, bool]:
-    """Return the place of a function, a parameter that it needs, and whether it is a node class.
+    """Return the place of a function, a required parameter, and whether it is a node class.
 
     Raises ViewError.
     """
@@ -362,7 +362,7 @@ def _file_of(package: Package, name: str) -> str:
 
 
 def _closest_module(package: Package, name: str) -> str:
-    """Return the module of the package that a name without its package means."""
+    """Return the module of the package that a name without a package refers to."""
     first, _, rest = name.partition(".")
     if package.has_directory(first):
         return ""

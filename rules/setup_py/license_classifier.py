@@ -10,7 +10,7 @@ from scaffold.api.distributions import target
 from scaffold.api.setup_py import SetupPy
 
 _WARNING = 77
-"""The first setuptools that warns of them."""
+"""The first setuptools that warns about them."""
 _BEGINNING = "License :: "
 _APACHE = "License :: OSI Approved :: Apache Software License"
 _SETUP = (
@@ -88,7 +88,7 @@ def _is_license(item: ast.expr) -> bool:
 
 
 def _without(setup: SetupPy, item: ast.expr) -> Edit | None:
-    """Return the edit that removes the lines of an item, if they hold nothing else."""
+    """Return the edit that removes the lines of an item, if they contain nothing else."""
     start, end = setup.module.span(item)
     text = setup.module.source.text
     first = text.rfind("\n", 0, start) + 1

@@ -35,9 +35,9 @@ _SETUP = (
     ")\n"
 )
 _LONGEST = 40
-"""Characters of a text in a message: it is for one line."""
+"""The maximum length of a text in a one-line message."""
 _CONTEXT = 15
-"""Characters before the first difference, where the beginnings are the same."""
+"""The number of characters to show before the first difference."""
 _MANIFEST_NAME = '<package format="3"><name>talker</name></package>\n'
 
 
@@ -199,7 +199,7 @@ class MetadataDiffers(Rule):
 
 
 def _expected(manifest: Manifest) -> dict[str, list[str]]:
-    """Return what package.xml allows for each keyword."""
+    """Return the values that match package.xml, by keyword."""
     maintainers = manifest.all("maintainer")
     names = [element.text for element in maintainers]
     addresses = [element.get("email") or "" for element in maintainers]
@@ -228,7 +228,7 @@ def _normal(text: str) -> str:
 
 
 def _short(first: str, second: str) -> list[str]:
-    """Return two texts for a message, cut so that they differ."""
+    """Return two texts for a message, shortened so that they still differ."""
     plain = [_normal(first), _normal(second)]
     pairs = enumerate(zip(*plain, strict=False))
     same = next((at for at, (left, right) in pairs if left != right), min(map(len, plain)))
@@ -242,7 +242,7 @@ def _part(text: str, start: int) -> str:
 
 
 def _is_named_elsewhere(package: Package) -> bool:
-    """Tell whether the name may come from another file, or from arguments that are not known."""
+    """Tell whether the name may come from another file or from unknown arguments."""
     if package.setup_py.has_unknown_keywords or package.has("pyproject.toml"):
         return True
     return package.has("setup.cfg") and "[metadata]" in package.source("setup.cfg").text

@@ -170,7 +170,7 @@ class ModuleNotPacked(Rule):
     def _check_packages(self, package: Package) -> Iterator[Diagnostic]:
         setup = package.setup_py
         if package.build_type == "ament_cmake":
-            return  # nothing runs setup.py there
+            return  # setup.py is not run there
         if setup.call is None or setup.has_unknown_keywords or _is_configured(package, setup):
             return
         keyword = setup.keyword("packages")
@@ -268,7 +268,7 @@ class ModuleNotPacked(Rule):
 
 
 def _is_configured(package: Package, setup: SetupPy) -> bool:
-    """Tell whether packages are named in some other way."""
+    """Tell whether packages are configured in another way."""
     if setup.keyword("package_dir") is not None:
         return True
     text = package.source("setup.cfg").text if package.has("setup.cfg") else ""
@@ -276,7 +276,7 @@ def _is_configured(package: Package, setup: SetupPy) -> bool:
 
 
 def _missing(package: Package, places: object) -> Iterator[str]:
-    """Yield the directories of the package that ``package_dir`` names, and that are not there."""
+    """Yield the missing directories of ``package_dir``."""
     for place in places.values() if isinstance(places, dict) else ():
         path = place.removeprefix("./").rstrip("/") if isinstance(place, str) else ""
         is_own = path not in {"", "."} and not path.startswith(("/", ".."))

@@ -217,9 +217,9 @@ class ScriptDirectoryDiffers(Rule):
         if not package.setup_py.console_scripts or not package.manifest.name:
             return
         if package.build_type == "ament_cmake":
-            return  # nothing runs setup.py there
+            return  # setup.py is not run there
         if name_used_elsewhere(package) or package.setup_py.keyword("cmdclass"):
-            return  # commands of its own may set the directory
+            return  # custom commands may set the directory
         for section, key in KEYS:
             entry = cfg.option(section, key, key.replace("_", "-"))
             if entry is None and node_scripts(package):
@@ -242,7 +242,7 @@ class ScriptDirectoryDiffers(Rule):
 
 
 def _is_run_in_shell(package: Package, name: str) -> bool:
-    """Tell whether a text of the package starts a program as a command of its own."""
+    """Tell whether a text of the package starts a program as a shell command."""
     word = re.escape(name)
     command = re.compile(rf"(?m)^[ \t]*(?:\$[ \t]+{word}(?!\S)|{word}[ \t]+--?\w)")
     texts: list[str] = []

@@ -8,7 +8,7 @@ from scaffold.api import Diagnostic, Example, Fix, Package, Report, Rule, Severi
 from scaffold.api.distributions import target
 
 _STOPPING = 78
-"""The first setuptools that stopped at dashes; 78.0.2 put that off."""
+"""The first setuptools that rejected dashes; 78.0.2 postponed that."""
 _CFG = "[develop]\nscript{0}dir=$base/lib/talker\n[install]\ninstall{0}scripts=$base/lib/talker\n"
 
 

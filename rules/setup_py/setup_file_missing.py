@@ -154,7 +154,7 @@ class SetupFileMissing(Rule):
         sources = [source for data in package.setup_py.data_files for source in data.sources]
         globs = [source for source in sources if isinstance(source, Glob)]
         if {path for glob in globs for path in matches(glob, package.files)}.issuperset(beside):
-            return None  # other lines install them
+            return None  # installed by other lines
         return f"the pattern {pattern.pattern} matches no file; closest: {beside[0]}"
 
     def _check_read(self, package: Package) -> Iterator[Diagnostic]:
@@ -181,7 +181,7 @@ class SetupFileMissing(Rule):
 
 
 def _directory_in(package: Package, pattern: Glob) -> str | None:
-    """Return the message for a directory that a pattern matches besides files."""
+    """Return the message for a directory that a pattern matches in addition to files."""
     directory, _, name = pattern.pattern.rpartition("/")
     if "*" in directory or "**" in name or pattern.filtered or not directory:
         return None

@@ -247,7 +247,7 @@ class TestsNotRun(Rule):
     def _check_option(
         self, package: Package, cfg: IniFile, option: IniOption
     ) -> Iterator[Diagnostic]:
-        """Check setup.cfg, whose options go into a section of their own."""
+        """Check setup.cfg, where the option moves to another section."""
         if self._has_extra(package):
             return
         fix, advice = None, f"add `test` to [{_SECTION}]"
@@ -265,13 +265,13 @@ class TestsNotRun(Rule):
             return any(line.startswith(("pytest", "file:")) for line in lines)
         if not isinstance(extras.value, dict):
             return True
-        # A list without pytest is as good as none: colcon looks for that very name.
+        # A list without pytest has no effect: colcon searches for that name.
         given = [extras.value[name] for name in EXTRAS if name in extras.value]
         return any(not isinstance(item, list) or _names_pytest(item) for item in given)
 
 
 def _needs_pytest(package: Package, path: str) -> bool:
-    """Tell whether unittest leaves a file of tests, or some of it, out."""
+    """Tell whether unittest skips a test file or parts of it."""
     if not package.has(f"{path.rpartition('/')[0]}/__init__.py"):
         return True
     try:
@@ -313,7 +313,7 @@ def _moved(cfg: IniFile, option: IniOption) -> Iterator[Edit]:
     added = cfg.set(_SECTION, "test ", value)
     end = option.end + len(newline)
     if option.start <= added.start <= end:
-        # The section comes to where the option was.
+        # The section replaces the option.
         yield Edit(added.path, option.start, option.end, added.text.lstrip())
         return
     gap = newline if _SECTION not in cfg.sections else ""

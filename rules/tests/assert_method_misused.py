@@ -28,9 +28,9 @@ _RENAMED = {
     "failIfEqual": "assertNotEqual",
     "failIfAlmostEqual": "assertNotAlmostEqual",
 }
-"""What Python 3.12 removed and older ones deprecate, and what takes its place."""
+"""Methods removed in Python 3.12, with their replacements."""
 _WITHOUT_NAME = {"assertDictContainsSubset": "assertLessEqual(part.items(), whole.items())"}
-"""What Python 3.12 removed, and how to write it now."""
+"""Methods removed in Python 3.12 without a new name, with the current form."""
 _OF_PYTHON2 = {"assertItemsEqual": "assertCountEqual"}
 _TEST = (
     "import unittest\n\n\nclass TestText(unittest.TestCase):\n"

@@ -141,7 +141,7 @@ def _problem(module: PythonModule, node: ast.AST) -> tuple[ast.AST, str]:
 
 
 def _uncalled(package: Package, module: PythonModule, condition: ast.expr) -> str:
-    """Return what is wrong about a method of an object that is only named; empty if nothing."""
+    """Return the problem with an uncalled method of an object; empty if there is none."""
     match condition:
         case ast.Attribute(attr=name, value=ast.Name(id=variable) as owner):
             lookup = module.index.lookup(variable, owner)
@@ -155,7 +155,7 @@ def _uncalled(package: Package, module: PythonModule, condition: ast.expr) -> st
 
 
 def _methods_of(package: Package, path: str, class_name: str) -> set[str]:
-    """Return the plain methods of a class of a package; none if it is not there."""
+    """Return the plain methods of a class of a package; empty if it does not exist."""
     if not package.has(path):
         return set()
     try:
@@ -169,7 +169,7 @@ def _methods_of(package: Package, path: str, class_name: str) -> set[str]:
 
 
 def _is_value(node: ast.expr) -> bool:
-    """Tell whether a message is written out and no text, as what one compares with is."""
+    """Tell whether a message is a literal but not a string, like a value to compare with."""
     match node:
         case ast.List(elts=items) | ast.Tuple(elts=items):
             return all(isinstance(item, ast.Constant) or _is_value(item) for item in items)
@@ -194,7 +194,7 @@ def _statement_problem(module: PythonModule, value: ast.expr) -> str:
 
 
 def _in_with(module: PythonModule, node: ast.expr) -> bool:
-    """Tell whether something may be expected to raise here."""
+    """Tell whether an exception may be expected here."""
     return any(isinstance(parent, ast.With | ast.Try) for parent in module.parents(node))
 
 

@@ -85,7 +85,7 @@ def _spins_in_thread(module: PythonModule) -> bool:
 
 
 def _assertions(module: PythonModule, argument: ast.expr) -> Iterator[ast.AST]:
-    """Yield the assertions in a function that is given as a callback."""
+    """Yield the assertions in a function used as a callback."""
     if not isinstance(argument, ast.Name):
         return
     for binding in module.index.bindings_of(argument):
@@ -98,7 +98,7 @@ def _assertions(module: PythonModule, argument: ast.expr) -> Iterator[ast.AST]:
 
 
 def _narrows(test: ast.expr) -> bool:
-    """Tell whether an assertion is for type checkers: what follows fails without it as well."""
+    """Tell whether an assertion is for type checkers: later code would fail without it as well."""
     match test:
         case ast.Compare(
             left=ast.Name(), ops=[ast.IsNot()], comparators=[ast.Constant(value=None)]

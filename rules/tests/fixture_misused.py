@@ -30,7 +30,7 @@ _TEST = (
     "def test_text({}):\n    assert {} == 'a'\n"
 )
 _SCOPES = ("function", "class", "module", "package", "session")
-"""From the narrowest to the widest."""
+"""The scopes, from the narrowest to the widest."""
 _TEST_MADE = (
     "import pytest\n\n\n@pytest.fixture\ndef word():\n    return 'a'\n\n\n"
     "@pytest.fixture(scope='{}')\ndef text(word):\n    yield word\n{}\n\n"
@@ -175,7 +175,7 @@ class FixtureMisused(Rule):
 def _missing(
     module: PythonModule, test: TestFunction, name: str, available: Mapping[str, Fixture]
 ) -> str:
-    """Return what is wrong with an argument that no fixture is known for; empty if unclear."""
+    """Return the problem with an argument without a known fixture; empty if unclear."""
     if name == "self" and test.class_ is None:
         return f"{test.node.name} is not a method: pytest finds no fixture 'self'"
     if name in _BUILT_IN:
@@ -194,7 +194,7 @@ def _is_name(node: ast.expr, name: str) -> bool:
 
 
 def _called(module: PythonModule, call: ast.Call) -> str:
-    """Return the name of the fixture of the same file that is called."""
+    """Return the name of the called fixture of the same file."""
     if not isinstance(call.func, ast.Name):
         return ""
     lookup = module.index.lookup(call.func.id, call)
@@ -204,7 +204,7 @@ def _called(module: PythonModule, call: ast.Call) -> str:
 
 
 def _taken_from_module(module: PythonModule) -> Iterator[ast.Name]:
-    """Yield where tests use a fixture of the file without asking for it, each name once."""
+    """Yield the uses of a fixture of the file without requesting it, each name once."""
     own = {fixture.name: fixture.node for fixture in own_fixtures(module)}
     for test in test_functions(module):
         seen = set(arguments(test.node))
@@ -224,7 +224,7 @@ def _gives_nothing(fixture: Fixture) -> bool:
 
 
 def _problem(fixture: Fixture, available: Mapping[str, Fixture]) -> str:
-    """Return what is wrong about the scope of a fixture, or what it yields."""
+    """Return the problem with the scope of a fixture or with its yields."""
     if not fixture.scope:
         return ""
     if fixture.scope not in _SCOPES:

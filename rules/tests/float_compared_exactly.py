@@ -80,7 +80,7 @@ class FloatComparedExactly(TestRule):
 
 
 def _is_computed(package: Package, module: PythonModule, node: ast.expr, depth: int) -> bool:
-    """Tell whether a value comes out of a function that rounds."""
+    """Tell whether a value is the result of a function that rounds."""
     parts: tuple[ast.expr | None, ...] = ()
     match node:
         case ast.Attribute(value=value) | ast.Subscript(value=value):
@@ -103,7 +103,7 @@ def _is_computed(package: Package, module: PythonModule, node: ast.expr, depth: 
 
 
 def _unpacked(module: PythonModule, node: ast.AST) -> ast.expr | None:
-    """Return what a tuple of names is assigned."""
+    """Return the value assigned to a tuple of names."""
     for parent in module.parents(node):
         if isinstance(parent, ast.Assign):
             return parent.value

@@ -113,7 +113,7 @@ def _is_marked(module: PythonModule, node: FunctionNode) -> bool:
 
 
 def _problems(package: Package, module: PythonModule) -> Iterator[str]:
-    """Yield what is wrong about the function that describes the launch."""
+    """Yield the problems with the function that returns the launch description."""
     node = module.functions[LAUNCH].node
     arguments = {arg.arg for arg in node.args.args}
     if not is_generator(node) and not returned(node) and may_end(node):
@@ -134,7 +134,7 @@ def _problems(package: Package, module: PythonModule) -> Iterator[str]:
 
 
 def _calls_others(module: PythonModule, node: ast.AST) -> bool:
-    """Tell whether a function of the package or of an unknown one may add actions."""
+    """Tell whether a function of this or an unknown package may add actions."""
     for call in ast.walk(node):
         if isinstance(call, ast.Call):
             name = module.qualified_name(call.func) or ""

@@ -136,7 +136,7 @@ def _count(names: ast.expr | None) -> int:
 
 
 def _given(module: PythonModule, value: ast.expr) -> int | None:
-    """Return how many values are written for one call of the test."""
+    """Return the number of values for one call of the test."""
     items: list[ast.expr] | None = None
     match value:
         case ast.Tuple() | ast.List():

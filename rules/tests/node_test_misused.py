@@ -173,7 +173,7 @@ def _is_init(module: PythonModule, call: ast.Call) -> bool:
 
 
 def _is_awaited(test: TestFunction, call: ast.Call) -> bool:
-    """Tell whether the callback collects messages that the test asserts to be there."""
+    """Tell whether the callback collects messages that the test asserts."""
     match call.args:
         case [_, _, ast.Attribute(value=ast.Name(id=name), attr="append"), *_]:
             wanted = (item.test for item in ast.walk(test.node) if isinstance(item, ast.Assert))

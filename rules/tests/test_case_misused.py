@@ -89,7 +89,7 @@ class TestCaseMisused(TestRule):
 
 
 def _is_made(module: PythonModule, name: str) -> bool:
-    """Tell whether the file itself makes an object of a class, or of one that inherits from it."""
+    """Tell whether the file creates an instance of a class or of a derived one."""
     heirs = {name}
     for class_ in module.classes.values():
         if any(isinstance(base, ast.Name) and base.id in heirs for base in class_.node.bases):
@@ -109,7 +109,7 @@ def _plain(method: FunctionNode) -> str:
 
 
 def _case_problem(module: PythonModule, method: FunctionNode) -> str:
-    """Return what is wrong about a method of a TestCase."""
+    """Return the problem with a method of a TestCase."""
     name, given = method.name, arguments(method)
     decorated = {module.qualified_name(item) for item in method.decorator_list}
     static, launched = "staticmethod" in decorated, LAUNCH in module.functions

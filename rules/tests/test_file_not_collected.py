@@ -70,7 +70,7 @@ class TestFileNotCollected(Rule):
                 yield self.report(package.start_of(path), message)
 
     def _is_used(self, package: Package, path: str) -> bool:
-        """Tell whether another test imports the file, or names its directory, and so runs it."""
+        """Tell whether another test runs the file: imports it, or refers to its directory."""
         stem = path.rpartition("/")[2][:-3]
         return any(
             any(

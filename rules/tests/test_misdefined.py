@@ -90,7 +90,7 @@ class TestMisdefined(Rule):
 
 
 def _taken(module: PythonModule) -> Iterator[str]:
-    """Yield the names of all arguments in a file: a fixture may take what a test does not."""
+    """Yield the names of all parameters in a file: fixtures may request others than tests."""
     for arguments in module.walk(ast.arguments):
         for posonlyarg in [*arguments.posonlyargs, *arguments.args, *arguments.kwonlyargs]:
             yield posonlyarg.arg
@@ -105,7 +105,7 @@ def _lacks_self(module: PythonModule, function: FunctionNode) -> bool:
 
 
 def _given(module: PythonModule, function: FunctionNode) -> Iterator[tuple[ast.expr, str]]:
-    """Yield the names that ``parametrize`` gives to a test, with their places."""
+    """Yield the parameter names from ``parametrize``, with their places."""
     for decorator in function.decorator_list:
         if not isinstance(decorator, ast.Call) or not decorator.args:
             continue

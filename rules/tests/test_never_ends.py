@@ -104,7 +104,7 @@ def _spins(module: PythonModule, call: ast.Call) -> bool:
 
 
 def _waits(module: PythonModule, call: ast.Call) -> bool:
-    """Tell whether a call is ``call`` of a client that is made in the file."""
+    """Tell whether a call is ``call`` of a client created in the file."""
     match call.func:
         case ast.Attribute(value=ast.Name(id=name), attr="call"):
             lookup = module.index.lookup(name, call)

@@ -161,7 +161,7 @@ class TestNeverRun(Rule):
 
 
 def _states(method: FunctionNode) -> bool:
-    """Tell whether a method could be a test: it asserts and takes nothing but ``self``."""
+    """Tell whether a method could be a test: it asserts and only has the parameter ``self``."""
     if method.name.startswith(("test", "_", "set", "tear", "run")) or len(method.args.args) != 1:
         return False
     for node in method.body:
@@ -175,7 +175,7 @@ def _states(method: FunctionNode) -> bool:
 
 
 def _asserts(function: FunctionNode, fixture_names: set[str]) -> bool:
-    """Tell whether a function could be a test: it asserts, and pytest has its arguments."""
+    """Tell whether a function could be a test: it asserts, and its parameters are fixtures."""
     name, arguments = function.name, {arg.arg for arg in function.args.args}
     if (
         name.startswith(("test", "_", "pytest_", "setup", "teardown"))
@@ -186,19 +186,19 @@ def _asserts(function: FunctionNode, fixture_names: set[str]) -> bool:
 
 
 def _is_lost(module: PythonModule, node: ast.FunctionDef) -> bool:
-    """Tell whether a function is a test by its name, and nothing has to do with it."""
+    """Tell whether a function is named like a test and unused."""
     holder = module.parent(node)
     used = isinstance(holder, ast.ClassDef) and _is_used(module, holder)
     return node.name.startswith("test_") and not (used or _is_used(module, node))
 
 
 def _is_used(module: PythonModule, node: ast.FunctionDef | ast.ClassDef) -> bool:
-    """Tell whether anything else has to do with a function or class."""
+    """Tell whether a function or class is used anywhere."""
     return bool(node.decorator_list or module.index.names(node.name))
 
 
 def _problem(module: PythonModule, test: FunctionNode) -> str:
-    """Return what is wrong about a test that pytest does not call like a function."""
+    """Return the problem with a test that pytest does not call as a function."""
     if test.decorator_list:
         return ""
     if isinstance(test, ast.AsyncFunctionDef):

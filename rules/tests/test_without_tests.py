@@ -78,7 +78,7 @@ def _methods(class_: ast.ClassDef) -> set[str]:
 
 
 def _refused(module: PythonModule) -> list[ast.ClassDef]:
-    """Return the classes with tests that pytest passes over because of their constructor."""
+    """Return the test classes that pytest skips because of their constructor."""
     return [
         class_.node
         for class_ in module.classes.values()

@@ -34,24 +34,24 @@ from ._arguments import (
 )
 
 _UNCHECKED = (".get_parameter_or",)
-"""What works with anything as long as the parameter is declared."""
+"""Functions that accept any value as long as the parameter is declared."""
 _ANY_VALUE = {
     ("DeclareLaunchArgument()", "description"),
     *((name, "emulate_tty") for name in ("ExecuteLocal()", "ExecuteProcess()", "Node()")),
 }
-"""What `ros2 launch --show-args` prints, whatever it is, and what is only tested for truth."""
+"""Arguments that `ros2 launch --show-args` only prints, or that are only tested for truth."""
 _CONVERTING = frozenset({"rclpy.duration.Duration", "rclpy.time.Time"})
-"""What calls ``int()`` on its nanoseconds, which are annotated as an int."""
+"""Constructors that call ``int()`` on their nanoseconds, which are annotated as an int."""
 _WHOLE = r"int\b|Literal\[-?[0-9]"
-"""A whole number, which Python functions take for a truth; QoS profiles check what they get."""
+"""An integer, which Python accepts as a bool; QoS profiles check their arguments."""
 _COMPUTED = r"^(int|float)\*? \| (?:Any|Unknown)$"
-"""A number that is computed with a value of unknown type."""
+"""A number computed with a value of unknown type."""
 _OF_MESSAGE = r"(?!rclpy\.)\w+\.(?:msg|srv|action)\.[\w.]+"
 """The class of a message, or of a part of a service or an action."""
 
 
 def argument_problem(finding: TypeFinding) -> str:
-    """Return what is wrong with the type of an argument; empty if that is not certain."""
+    """Return the problem with the type of an argument; empty if uncertain."""
     matched = finding.match(
         rf"Argument to (?:[a-z]+ )*`(?P<callee>{MARKED}(?:\.\w+)?)`"
         r" is incorrect: Expected `(?P<expected>.+)`, found `(?P<given>.+)`"
@@ -108,7 +108,7 @@ def _argument(finding: TypeFinding, callee: str, expected: str, given: str) -> s
 
 
 def _listed_elements(finding: TypeFinding) -> str:
-    """Judge a list that a message is made with."""
+    """Judge a list that is passed to the constructor of a message."""
     matched = finding.match(
         rf"Argument to `(?P<owner>{MARKED})\.__init__` is incorrect: "
         r"Expected `(?P<expected>.+)`, found `(?P<given>.+)`"
@@ -123,7 +123,7 @@ def _listed_elements(finding: TypeFinding) -> str:
 
 
 def _appended_element(finding: TypeFinding) -> str:
-    """Judge what is appended to a list of messages, which nothing checks before it is sent."""
+    """Judge an element appended to a list of messages, which is only checked when it is sent."""
     matched = finding.match(
         r"Argument to bound method `list\.(?:append|insert)` is incorrect: "
         rf"Expected `(?P<expected>{MARKED})`, found `(?P<given>.+)`"
@@ -143,7 +143,7 @@ def _appended_element(finding: TypeFinding) -> str:
 
 
 def _message_for_its_value(finding: TypeFinding) -> str:
-    """Judge a message that a function of Python is given for the text or number in it."""
+    """Judge a message passed to a Python function instead of the text or number in it."""
     matched = finding.match(
         r"Argument to (?:[a-z]+ )*`[\w.]+` is incorrect: Expected `.+`, "
         rf"found `(?P<given>{MARKED})`"
@@ -162,7 +162,7 @@ def _message_for_its_value(finding: TypeFinding) -> str:
 
 
 def _text_for_bytes(finding: TypeFinding) -> str:
-    """Judge a text that a method of bytes gets, such as those of a serial port."""
+    """Judge a string passed to a method that needs bytes, as of a serial port."""
     matched = finding.match(
         r"Argument to bound method `bytes\.(?P<method>\w+)` is incorrect: .*, found `(?P<given>.+)`"
     )

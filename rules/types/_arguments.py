@@ -21,26 +21,26 @@ from scaffold.api.types import (
 )
 
 TIMEOUTS = {"can_transform": 3, "can_transform_full": 5, "transform": 2, "transform_full": 4}
-"""Where functions of tf2 with several signatures take a timeout."""
+"""The position of the timeout of tf2 functions with several signatures."""
 
 
 _SENT = {"bool": "False is sent", "float": "another number is sent"}
-"""What the fields of messages, which nothing checks, turn any other object into."""
+"""The conversions of unchecked values in message fields."""
 
 
 def when_sent(expected: str) -> str:
-    """Return what comes of a message with a value of another type than a field has."""
+    """Return the effect of a message with a value that is not of the field's type."""
     return _SENT.get(name_of(expected), "it cannot be published")
 
 
 def has_too_many(finding: TypeFinding, callee: str) -> bool:
-    """Tell whether the call has more arguments without names than its function takes."""
+    """Tell whether the call has too many positional arguments."""
     call = finding.enclosing_call
     return call is not None and overload_problem(finding.package, callee, call).startswith("takes")
 
 
 def is_one_of_publishers(finding: TypeFinding) -> bool:
-    """Tell whether the object called may be made for another type, as a condition says."""
+    """Tell whether the called publisher may be for another type, depending on a condition."""
     call = finding.enclosing_call
     if call is None or not isinstance(call.func, ast.Attribute):
         return False
@@ -54,7 +54,7 @@ def is_one_of_publishers(finding: TypeFinding) -> bool:
 
 
 def is_int_as_well(finding: TypeFinding) -> bool:
-    """Tell whether a number may be an int: an entry of a table, or a parameter for both."""
+    """Tell whether a number may also be an int: from a table, or a parameter for both."""
     place = finding.innermost
     node = place.value if isinstance(place, ast.keyword) else place
     if isinstance(node, ast.Subscript):
@@ -71,13 +71,13 @@ def is_int_as_well(finding: TypeFinding) -> bool:
 
 
 def is_uncallable(finding: TypeFinding, expected: str, given: str) -> bool:
-    """Tell whether an object of ROS that cannot be called is given for a function."""
+    """Tell whether a ROS object that is not callable is passed instead of a function."""
     class_ = class_in(given)
     return expected.startswith("(") and bool(class_) and not has_call(finding.package, class_)
 
 
 def wrong_callback(finding: TypeFinding, expected: str, given: str) -> str:
-    """Return how many arguments one of the functions takes that a loop registers; else empty.
+    """Return the argument count of an unsuitable callback that a loop registers; or empty.
 
     Args:
         finding: The report, whose place is the variable of the loop.
@@ -100,7 +100,7 @@ def _count(listed: str) -> int:
 
 
 def _is_each(finding: TypeFinding) -> bool:
-    """Tell whether the place is the variable of a loop, and nothing decides for which values."""
+    """Tell whether the place is a loop variable that is used for all values."""
     name = finding.expression()
     if not isinstance(name, ast.Name):
         return False
@@ -117,7 +117,7 @@ def _is_each(finding: TypeFinding) -> bool:
 
 
 def timeout(call: ast.Call, name: str) -> ast.expr | None:
-    """Return the timeout that one of these functions gets."""
+    """Return the timeout argument of such a function."""
     for keyword in call.keywords:
         if keyword.arg == "timeout":
             return keyword.value
@@ -126,7 +126,7 @@ def timeout(call: ast.Call, name: str) -> ast.expr | None:
 
 
 def instead(package: Package, expected: str, given: str) -> str:
-    """Return what to write instead, where that is clear."""
+    """Return the replacement, if it is clear."""
     wanted, class_ = class_in(expected.partition(" | ")[0]), class_itself(given)
     if wanted and class_:
         is_whole = short_name(wanted).startswith(f"{short_name(class_)}.")  # a service, an action
@@ -145,7 +145,7 @@ def instead(package: Package, expected: str, given: str) -> str:
 
 
 def is_unpacked(finding: TypeFinding) -> bool:
-    """Tell whether the argument is ``**values``: each of them may fit a parameter of its own."""
+    """Tell whether the argument is ``**values``: each value may fit its parameter."""
     return any(
         keyword.arg is None
         and finding.location in {finding.module.location(item) for item in (keyword, keyword.value)}
@@ -155,7 +155,7 @@ def is_unpacked(finding: TypeFinding) -> bool:
 
 
 def parameter_name(finding: TypeFinding, callee: str) -> str:
-    """Return the name of the parameter that the place is an argument of."""
+    """Return the name of the parameter of the reported argument."""
     for call in finding.module.walk(ast.Call):
         if not call.lineno <= finding.location.line <= (call.end_lineno or call.lineno):
             continue

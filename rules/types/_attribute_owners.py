@@ -19,7 +19,7 @@ from scaffold.api.types import (
 )
 
 _OF_WINDOWS = frozenset({"msvcrt", "winreg", "winsound"})
-"""Modules that are empty for the type checker, and only used where they are not."""
+"""Modules that are empty on Linux, and only used on Windows."""
 _BASES = frozenset(
     {
         "launch.action.Action",
@@ -28,31 +28,31 @@ _BASES = frozenset(
         "launch.substitution.Substitution",
     }
 )
-"""Classes of which no object is: only classes derived from them are used."""
+"""Classes without direct instances: only derived classes are used."""
 _INTERFACE = re.compile(r"\w+\.(?:srv|action)\.[A-Za-z0-9]+")
-"""A service or an action, of which there are no objects either, but of its parts."""
+"""A service or an action: only its parts have instances."""
 MESSAGE = re.compile(r"(?!rclpy\.)(?P<package>\w+)\.(?P<kind>msg|srv|action)\.(?P<name>[\w.]+)")
 """Matches a message, or a part of a service or an action."""
 _ARRAY = "numpy.ndarray"
 _EXECUTOR = "rclpy.executors.Executor"
 _AROUND_FEEDBACK = frozenset({"feedback", "goal_id"})
-"""The fields of the message that callbacks for feedback get."""
+"""The fields of the message passed to feedback callbacks."""
 _PLAIN = frozenset({"str", "int", "float", "bool", "bytes"})
 CONTAINER = re.compile(r"(dict|list|set)\[")
-"""Matches the type of a container, whatever is in it."""
+"""Matches the type of a container with any elements."""
 COROUTINE = "a coroutine"
 FUNCTION = "a function"
 TUPLE = "a tuple"
 _MAKING = re.compile(rf"\(\) -> {MARKED}(?:\[.*\])?")
-"""Matches a method that an attribute keeps, and that returns an object of ROS."""
+"""Matches a method stored in an attribute that returns a ROS object."""
 METHOD = re.compile(rf"bound method ({MARKED})(?:\[.*\])?\.(\w+)\(.*")
-"""Matches a method that is not called."""
+"""Matches an uncalled method."""
 
 
 def known_owner(
     finding: TypeFinding, node: ast.Attribute, owner: str
 ) -> tuple[str, frozenset[str]] | None:
-    """Return the name of what lacks an attribute and what it has; ``None`` if it may have it."""
+    """Return the name and members of the owner of a missing attribute; ``None`` if uncertain."""
     container = CONTAINER.match(owner)
     if container is not None and owner.endswith("]"):
         is_replaced = _is_set_elsewhere(finding.package, node.value)
@@ -61,14 +61,14 @@ def known_owner(
 
 
 def _is_set_elsewhere(package: Package, node: ast.expr) -> bool:
-    """Tell whether an attribute may be set by code that the type checker does not see as such."""
+    """Tell whether an attribute may be set in a way that the type checker does not recognize."""
     return isinstance(node, ast.Attribute) and any(
         _sets(package, path, node.attr, r"(?<!\bself)") for path in package.python_files
     )
 
 
 def _plain(node: ast.Attribute, owner: str) -> tuple[str, frozenset[str]] | None:
-    """Return the name of a method, or of the type of a plain value, that is read from."""
+    """Return the name of a method, or the type of a plain value, whose attribute is read."""
     method = METHOD.fullmatch(owner) if isinstance(node.ctx, ast.Load) else None
     if method is not None:
         return f"{full_name(method[1])}.{method[2]}", frozenset()
@@ -103,14 +103,14 @@ def _of_ros(
 
 
 def _class_of_object(owner: str) -> str | None:
-    """Return the class of an object, unless it certainly has another than the annotation says."""
+    """Return the class of an object; ``None`` for a class that has no instances."""
     class_ = class_in(owner)
     shown = full_name(class_) if class_ else ""
     return None if shown in _BASES or _INTERFACE.fullmatch(shown) else class_
 
 
 def is_closed(shown: str) -> bool:
-    """Tell whether objects of a class take no attributes but those that the class defines."""
+    """Tell whether objects of a class only allow the attributes that the class defines."""
     return shown == _ARRAY or MESSAGE.fullmatch(shown) is not None
 
 
@@ -120,7 +120,7 @@ def _is_of_message_around(shown: str, name: str) -> bool:
 
 
 def cause(shown: str) -> str:
-    """Return the cause that wrong fields of one message share, as MS002 names it."""
+    """Return the common cause of wrong fields of one message, as in MS002."""
     matched = MESSAGE.fullmatch(shown)
     if matched is None:
         return ""
@@ -128,13 +128,13 @@ def cause(shown: str) -> str:
 
 
 def without_none(owner: str) -> str:
-    """Return a type without the ``None`` that an attribute starts with."""
+    """Return a type without ``None``, the initial value of an attribute."""
     return " | ".join(part for part in owner.split(" | ") if part != "None") or owner
 
 
 @fact
 def _is_set(package: Package, name: str) -> bool:
-    """Tell whether some code of the package sets an attribute of this name."""
+    """Tell whether any code of the package sets an attribute of this name."""
     return any(_sets(package, path, name) for path in package.python_files)
 
 

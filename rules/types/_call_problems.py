@@ -21,13 +21,13 @@ from scaffold.api.types import (
 
 _CALLEE = rf"(?:[a-z]+ )*`(?P<callee>(?:{MARKED}|[^\W\d]\w*)(?:\.\w+)?)`"
 _OF_ROS1 = "queue_size"
-"""What ROS 1 calls the depth of publishers and subscriptions."""
+"""The names of the depth argument of publishers and subscriptions in ROS 1."""
 _UNBOUND = re.compile(r" of function `[^`.]+\.")
-"""Matches a method that is called on its class."""
+"""Matches a method called on its class."""
 
 
 def call_problem(finding: TypeFinding) -> str:
-    """Return what is wrong with the arguments of a call; empty if that is not certain."""
+    """Return the problem with the arguments of a call; empty if uncertain."""
     if _UNBOUND.search(finding.message) and not _is_of_class(finding):
         return ""
     return (
@@ -50,9 +50,9 @@ def _missing(finding: TypeFinding) -> str:
         overload_problem(finding.package, matched["callee"], call).startswith("takes")
         for call in _calls(finding)
     ):
-        return ""  # they may be among those that are too many, which is reported
+        return ""  # they may be among the surplus arguments, which are reported
     if any(word.arg == _OF_ROS1 for call in _calls(finding) for word in call.keywords):
-        return ""  # the depth is given, which is reported
+        return ""  # the misnamed depth is passed, which is reported
     names = [repr(name) for name in re.findall(r"`(\w+)`", matched["names"])]
     return f"{_shown(matched['callee'])} lacks {' and '.join(names)}"
 
@@ -73,7 +73,7 @@ def _too_many(finding: TypeFinding) -> str:
 
 
 def _too_many_to_log(finding: TypeFinding) -> str:
-    """Return what is wrong with the call of an attribute that is a method of a logger."""
+    """Return the problem with a logger method that is called with format arguments."""
     matched = finding.match(r"Too many positional arguments: expected 1, got (?P<count>\d+)")
     call = finding.enclosing_call
     if matched is None or call is None:
@@ -108,7 +108,7 @@ def _unknown(finding: TypeFinding) -> str:
 
 
 def outcome(finding: TypeFinding) -> str:
-    """Return what a call does that has the wrong arguments."""
+    """Return the consequence of a call with wrong arguments."""
     matched = finding.match(rf"Argument `\w+` does not match any known parameter of {_CALLEE}")
     if matched is not None and re.search(r"\.(?:msg|srv|action)\.", full_name(matched["callee"])):
         return str(target().fact("messages.unknown_keyword"))
@@ -132,14 +132,14 @@ def _of_no_overload(finding: TypeFinding) -> str:
 
 
 def _shown(callee: str) -> str:
-    """Return how a call is written: ``create_timer()``, ``TransformListener()``."""
+    """Return a call as text: ``create_timer()``, ``TransformListener()``."""
     owner, _, method = callee.rpartition(".")
     name = owner if method in {"__init__", "__new__"} else method
     return f"{short_name(name)}()"
 
 
 def _calls(finding: TypeFinding) -> Iterator[ast.Call]:
-    """Yield the call that a finding is about, or those that start where it does."""
+    """Yield the calls of a finding: the reported one, or those that start at its place."""
     module, at = finding.module, finding.location
     calls = [call for call in module.walk(ast.Call) if module.location(call)[1:3] == at[1:3]]
     whole = [call for call in calls if module.exact_location(call) == at]
@@ -149,7 +149,7 @@ def _calls(finding: TypeFinding) -> Iterator[ast.Call]:
 def _is_of_class(finding: TypeFinding) -> bool:
     """Tell whether a method is called on a class by its name.
 
-    A variable may hold an object as well: one that is a class by default, for instance.
+    A variable may also be an instance, for example if only its default is a class.
     """
     return any(
         isinstance(call.func, ast.Attribute) and finding.module.qualified_name(call.func.value)
@@ -158,7 +158,7 @@ def _is_of_class(finding: TypeFinding) -> bool:
 
 
 def call_fix(finding: TypeFinding) -> Fix | None:
-    """Return the fix that names an argument as the function does, where that is certain."""
+    """Return the fix that passes an argument under the right keyword, if it is certain."""
     matched = finding.match(rf"Too many positional arguments to {_CALLEE}: .*")
     if matched is not None:
         names = keywords(finding.package, matched["callee"])
@@ -185,7 +185,7 @@ def _as_keyword(finding: TypeFinding, names: Sequence[str], bound: int) -> Fix |
 
 
 def _meant(finding: TypeFinding, node: ast.expr, names: Sequence[str]) -> str:
-    """Return the name of the parameter that a value is for; empty if that is not certain."""
+    """Return the name of the parameter that a value is meant for; empty if uncertain."""
     match node:
         case ast.Name(id=name) if name in names:
             return name
@@ -197,7 +197,7 @@ def _meant(finding: TypeFinding, node: ast.expr, names: Sequence[str]) -> str:
 
 
 def _depth(finding: TypeFinding) -> ast.keyword | None:
-    """Return the keyword that is a depth as ROS 1 names it, in a call without another one."""
+    """Return the keyword with the ROS 1 name of the depth, in a call without a depth."""
     matched = finding.match(rf"Argument `{_OF_ROS1}` does not match any .* of {_CALLEE}")
     call = finding.enclosing_call
     if matched is None or call is None:

@@ -11,13 +11,13 @@ from scaffold.api.types import TypeFinding
 
 _LIBRARIES = frozenset({"ament_index_python", "numpy"})
 _DEEPEST = 4
-"""Names that one value comes through."""
+"""The maximum number of names to trace a value through."""
 
 
 def are_sure(finding: TypeFinding) -> bool:
-    """Tell whether the types of both operands are known without tables and the user's functions.
+    """Tell whether the types of both operands do not depend on tables or user functions.
 
-    What is in a dictionary or list is often put there elsewhere, with other types.
+    Elements of a dictionary or list are often added elsewhere, with other types.
     """
     node = finding.node(ast.BinOp, ast.Compare, ast.AugAssign)
     match node:

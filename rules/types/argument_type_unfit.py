@@ -50,7 +50,7 @@ _DRIVER = (
     "    return euler_from_quaternion({})\n"
 )
 _RARE = ": debug() fails"
-"""How the message about a call that does nothing ends, unless debugging is switched on."""
+"""The end of the message about a call that only fails while debugging."""
 _RIGHT = ("0.1", "ReentrantCallbackGroup()", "Duration(seconds=1.0)")
 
 _FLEET = (
@@ -702,7 +702,7 @@ class ArgumentTypeUnfit(TypeRule):
         return self.report(finding, problem, severity=severity) if problem else None
 
     def _judge_overload(self, finding: TypeFinding) -> Diagnostic | None:
-        """Judge a timeout: the type checker does not say which argument fits no signature."""
+        """Judge a timeout: the type checker does not name the argument of a wrong type."""
         call = finding.node(ast.Call)
         matched = finding.match(rf"No overload of .*`{MARKED}\.(?P<name>\w+)` matches arguments")
         if call is None or matched is None or matched["name"] not in TIMEOUTS:

@@ -10,7 +10,7 @@ from scaffold.api.types import TypeFinding
 from ._call_problems import call_fix, call_problem, outcome
 
 _OLD_KEYWORDS = frozenset({"node_name", "node_namespace", "node_executable"})
-"""What launch_ros calls otherwise since Foxy."""
+"""The keywords that launch_ros renamed in Foxy."""
 _NODE = (
     "from rclpy.node import Node\n\n\n"
     "class Ticker(Node):\n"
@@ -319,7 +319,7 @@ class ArgumentsUnfit(TypeRule):
 
     def judge(self, finding: TypeFinding) -> Diagnostic | None:
         if _is_old(finding):
-            return None  # LF017 says what its keywords are called today
+            return None  # LF017 reports the current keywords
         problem = call_problem(finding)
         if not problem:
             return None
@@ -330,7 +330,7 @@ class ArgumentsUnfit(TypeRule):
 
 
 def _is_old(finding: TypeFinding) -> bool:
-    """Tell whether a finding is about a call with keywords that are gone, or its arguments."""
+    """Tell whether a finding is about a call with removed keywords, or its arguments."""
     line = finding.location.line
     return any(
         word.arg in _OLD_KEYWORDS

@@ -20,7 +20,7 @@ from scaffold.api.types import (
 from ._arguments import when_sent
 
 _CONVERTED = ("rclpy.time.Time", "rclpy.duration.Duration")
-"""What tf2 accepts as well as a message: such a message may not be published at all."""
+"""Types that tf2 converts, so that such a message need not be published."""
 _NODE = (
     "from geometry_msgs.msg import Vector3\nfrom visualization_msgs.msg import Marker\n\n\n"
     "def dot() -> Marker:\n"
@@ -217,7 +217,7 @@ class AssignedTypeUnfit(TypeRule):
 
 
 def _are_alike(finding: TypeFinding, *dotted: str) -> bool:
-    """Tell whether two messages have the same fields, so that one is sent for the other."""
+    """Tell whether two messages have the same fields, so that one can be sent as the other."""
     definitions = finding.package.workspace.interfaces
     messages = [definitions.find(name.replace(".", "/")) for name in dotted]
     fields = [

@@ -108,20 +108,20 @@ _LIMIT = (
 _CERTAIN = 0.85
 _OF_ALL_MESSAGES = frozenset({"SLOT_TYPES", "get_fields_and_field_types"})
 _IMPORTED = frozenset({*typing.__all__, *sys.stdlib_module_names, "ament_index_python"})
-"""What modules of ROS import for themselves, which their annotations alone do not show."""
+"""Names that ROS modules import for internal use, which the stubs do not show."""
 _TIMES = frozenset({"rclpy.time.Time", "rclpy.duration.Duration"})
 _SECONDS = frozenset({"sec", "secs", "seconds", "to_sec", "total_seconds"})
 _NANOSECONDS = frozenset({"nanosec", "nsec", "nsecs", "nanosecs", "to_nsec"})
-"""What other libraries, messages and ROS 1 call the parts of a time."""
+"""The names of the parts of a time in other libraries, messages and ROS 1."""
 _OF_MOCKS = re.compile(
     r"assert_\w+|await(?:ed|_args|_args_list|_count)|call(?:ed|_args|_args_list|_count)"
     r"|(?:method|mock)_calls|return_value|side_effect|(?:reset|configure|attach)_mock"
 )
 """Matches the attributes of ``unittest.mock.AsyncMock``."""
 _FEW = 6
-"""Names that a message can list."""
+"""The maximum number of names in a message."""
 _TO_DO = {COROUTINE: "await it", FUNCTION: "call it first", TUPLE: "unpack it first"}
-"""What to do with what is not an object of ROS but leads to one."""
+"""The hint for a value that only leads to a ROS object."""
 
 
 class AttributeMissing(TypeRule):
@@ -640,7 +640,7 @@ class AttributeMissing(TypeRule):
 
 
 def _is_named(finding: TypeFinding, name: str, owner: str) -> bool:
-    """Tell whether a text of the file names an attribute: something may set it, or ask for it."""
+    """Tell whether a string in the file is the name of the attribute, as for ``setattr``."""
     text = finding.module.source.text
     if re.search(rf"""['"]{name}['"]""", text) is None:
         return False
@@ -650,7 +650,7 @@ def _is_named(finding: TypeFinding, name: str, owner: str) -> bool:
 
 
 def _instead(shown: str, name: str, method: str) -> str:
-    """Return what to write instead, where it is not another name of the same object."""
+    """Return the replacement, if it is not another name of the same object."""
     if method:
         return f"; write {method}()"
     if shown in _TO_DO:
@@ -663,12 +663,12 @@ def _instead(shown: str, name: str, method: str) -> str:
 
 
 def _may_be_of_mock(finding: TypeFinding, name: str) -> bool:
-    """Tell whether a test may put a mock in the place of what annotations promise."""
+    """Tell whether a test may replace the annotated object with a mock."""
     return _OF_MOCKS.fullmatch(name) is not None and "mock" in finding.module.source.text
 
 
 def _is_chosen(finding: TypeFinding, node: ast.Attribute) -> bool:
-    """Tell whether a condition asks a table of what kind the object is that comes from it."""
+    """Tell whether a condition on a table determines the type of the object from it."""
     if not isinstance(node.value, ast.Subscript):
         return False
     module = finding.module

@@ -32,7 +32,7 @@ _BEFORE = {
     "compression.zstd": "backports.zstd",
     "tomllib": "tomli",
 }
-"""What has the same for Pythons before."""
+"""Replacements with the same functions for earlier Pythons."""
 _INTERFACES = {
     "package.xml": '<package format="3"><name>talker</name>'
     "<export><build_type>ament_cmake</build_type></export></package>\n",
@@ -197,7 +197,7 @@ class ModuleUnknown(TypeRule):
         names = [f"{module}.{name}" for name in _imported(finding, module)]
         new = next((name for name in (module, *names) if name in later), None)
         if new is None:
-            return None  # a package of the user's that is called like one of Python
+            return None  # a package of the user with the name of a Python module
         use = f"; use {_BEFORE[new]}" if new in _BEFORE else ""
         message = (
             f"Python {target().python_version} has no module {new!r}, which is new in "
@@ -229,6 +229,6 @@ def _imported(finding: TypeFinding, module: str) -> Sequence[str]:
 
 
 def _with_names(finding: TypeFinding, module: str) -> Sequence[str]:
-    """Return the modules that have all names imported from one that does not exist."""
+    """Return the modules that have all names imported from a missing one."""
     having = [{*modules_with(finding.package, name, module)} for name in _imported(finding, module)]
     return sorted(frozenset.intersection(*map(frozenset, having))) if having else []

@@ -14,9 +14,9 @@ from scaffold.api.types import TypeFinding, module_names, modules_with
 _IMPORTED = frozenset(
     {*sys.stdlib_module_names, "ament_index_python", "launch", "launch_ros", "rclpy", "yaml"}
 )
-"""What modules of ROS import for themselves, which their annotations alone do not show."""
+"""Names that ROS modules import for internal use, which the stubs do not show."""
 _FEW = 3
-"""Modules that a message may name."""
+"""The maximum number of modules in a message."""
 
 
 class NameNotInModule(TypeRule):
@@ -146,7 +146,7 @@ class NameNotInModule(TypeRule):
 
 
 def _instead(package: Package, module: str, name: str) -> str:
-    """Return what to import instead: the same name from elsewhere, or one that is spelled alike."""
+    """Return the import to use instead: the same name from elsewhere, or a similar name."""
     change = removed_interface(f"{module}.{name}".replace(".", "/"))
     if change is not None:
         return f"; it {change.state}: {change.advice} ({change.source})"

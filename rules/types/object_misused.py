@@ -260,7 +260,7 @@ class ObjectMisused(TypeRule):
         if not matched:
             return None
         if finding.kind == "not-callable" and _is_replaced(finding):
-            return None  # a call before it is replaced is one of the method
+            return None  # a call before the replacement calls the method
         type_ = matched["type"]
         if type_ in _NUMBERS:
             return self._judge_number(finding, type_)
@@ -271,7 +271,7 @@ class ObjectMisused(TypeRule):
         return self.report(finding, message)
 
     def _judge_number(self, finding: TypeFinding, type_: str) -> Diagnostic | None:
-        """Judge what an attribute or a method of another object gives."""
+        """Judge the value of an attribute or a method of another object."""
         node = finding.expression()
         match node:
             case ast.Call(func=ast.Attribute(value=owner, attr=name), args=[], keywords=[]) if (
@@ -292,7 +292,7 @@ def _is_self(node: ast.expr) -> bool:
 
 
 def _is_asked_for(finding: TypeFinding) -> bool:
-    """Tell whether a condition around asks what is unpacked, which may be of several kinds."""
+    """Tell whether an enclosing condition checks the unpacked value, which may vary in type."""
     inner: ast.AST | None = finding.innermost
     name = ""
     for node in finding.parents():
@@ -311,7 +311,7 @@ def _is_asked_for(finding: TypeFinding) -> bool:
 
 
 def _is_of_table(finding: TypeFinding) -> bool:
-    """Tell whether what is unpacked is a value of a dictionary.
+    """Tell whether the unpacked value is from a dictionary.
 
     The type checker does not distinguish its keys, whose values may have other lengths.
     """
@@ -333,7 +333,7 @@ def _mentions(node: ast.expr, name: str) -> bool:
 
 
 def _is_replaced(finding: TypeFinding) -> bool:
-    """Tell whether what is called is assigned to the name of a method of Node."""
+    """Tell whether the callee is assigned to the name of a method of Node."""
     func = finding.expression()
     func = func.func if isinstance(func, ast.Call) else func
     return isinstance(func, ast.Attribute) and is_method("rclpy.node.Node", func.attr)

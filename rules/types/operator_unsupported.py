@@ -207,7 +207,7 @@ def _on_plain(operator: str, words: Sequence[str]) -> str:
 
 
 def _hint(class_: str, operator: str) -> str:
-    """Return what to write instead of an operator and an object of a class."""
+    """Return the replacement for an operator on an object of a class."""
     if class_ not in _TIMES:
         return _INSTEAD.get(class_, "")
     compares = operator in {"<", "<=", ">", ">="}

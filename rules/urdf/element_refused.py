@@ -77,7 +77,7 @@ _COUNTS: Mapping[tuple[str, str], int] = {
     ("limit", "velocity"): 1,
     **{("inertia", name): 1 for name in ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")},
 }
-"""How many numbers an attribute holds."""
+"""The number of values in an attribute."""
 
 
 class ElementRefused(Rule):
@@ -296,13 +296,13 @@ class ElementRefused(Rule):
 
 
 def _listed(names: Sequence[str]) -> str:
-    """Return names as a sentence has them: ``'ixx', 'iyy' or 'izz'``."""
+    """Return names as in a sentence: ``'ixx', 'iyy' or 'izz'``."""
     *others, last = [repr(name) for name in names]
     return f"{', '.join(others)} or {last}" if others else last
 
 
 def _is_urdf(part: Part) -> bool:
-    """Tell whether a part is not that of a macro that may be called for Gazebo."""
+    """Tell whether a part is not in a macro that may be called for Gazebo."""
     holder = part.holder
     if holder is None or holder.tag not in _OF_LINK:
         return True
@@ -317,7 +317,7 @@ def _missing(element: Element) -> list[str]:
 
 
 def _fits(value: str, count: int) -> bool:
-    """Tell whether a text holds so many numbers."""
+    """Tell whether a text consists of this many numbers."""
     words = value.split()
     try:
         return len([float(word) for word in words]) == count

@@ -289,14 +289,14 @@ class FileNotThere(Rule):
 
 
 def _severity(package: Package, named: NamedFile) -> Severity:
-    """Return the severity of a missing file: is the one that names it used, in every case?"""
+    """Return the severity of a missing file: higher if the referring file is always used."""
     share = share_of(package)
     is_used = not share.complete or named.user in share.files.values()
     return Severity.ERROR if is_used and named.is_certain else Severity.WARNING
 
 
 def _may_be_kept_elsewhere(package: Package, named: NamedFile) -> bool:
-    """Tell whether a file is one of several large ones; not all of them are in each clone."""
+    """Tell whether a file is one of several large ones, which not every clone has."""
     owner = package if named.package == package.name else package.workspace.get(named.package)
     directory, _, name = named.path.rpartition("/")
     top = directory.partition("/")[0]
@@ -309,11 +309,11 @@ def _may_be_kept_elsewhere(package: Package, named: NamedFile) -> bool:
 
 
 def _is_there(package: Package, named: NamedFile) -> bool:
-    """Tell whether a file is next to its user, or made by the build from one that is."""
+    """Tell whether a file is next to its user, or generated from one that is."""
     if package.has(named.path) or named.path.startswith(".."):
         return True
     if is_untracked(package, named.path):
-        return True  # made on each machine, or of a submodule
+        return True  # generated on each machine, or in a submodule
     if package.has(f"{named.path}.xacro") and _is_built_by_bazel(package, named.path):
         return True
     name = named.path.rpartition("/")[2]
@@ -322,7 +322,7 @@ def _is_there(package: Package, named: NamedFile) -> bool:
 
 
 def _is_built_by_bazel(package: Package, path: str) -> bool:
-    """Tell whether a directory around a path is one of Bazel's, which expands xacro files."""
+    """Tell whether a path is in a Bazel package, where xacro files are expanded."""
     directories = path.split("/")[:-1]
     return any(
         package.has("/".join((*directories[:depth], "BUILD.bazel")))

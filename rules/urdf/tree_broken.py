@@ -59,7 +59,7 @@ _INCLUDING = (
 _SIMULATION = '<robot>\n  <gazebo reference="camera"><sensor name="a"/></gazebo>\n</robot>\n'
 _CLOSEST = "; closest: "
 _SIMULATED = frozenset({"sensor", "plugin"})
-"""What a gazebo element adds to a link, and not only how the link looks or slides."""
+"""Elements in gazebo elements that need the link, not only its color or friction."""
 _MIMIC = (
     '<robot name="robot">\n  <link name="base_link"/>\n  <link name="wheel"/>\n'
     '  <joint name="axis" type="continuous">\n    <parent link="base_link"/>\n'
@@ -213,7 +213,7 @@ class TreeBroken(Rule):
                 yield from self._check_names(package, robot)
             if robot.file.is_robot and robot.is_complete and _has_root(robot):
                 for diagnostic in self._check_links(package, robot):
-                    # several robots include the same file, and have other names that are close
+                    # several robots include the same file, with different similar names
                     key = (diagnostic.location, diagnostic.message.partition(_CLOSEST)[0])
                     if key not in reported:
                         reported.add(key)
@@ -225,7 +225,7 @@ class TreeBroken(Rule):
         for joint in robot.root.all("joint"):
             child, parent = _end(joint, "child"), _end(joint, "parent")
             if child not in links or parent not in links or not is_known(child + parent):
-                return  # `_check_links` reports it, or it is not known
+                return  # `_check_links` reports it, or it is unknown
             other = parents.setdefault(child, joint)
             if other is joint or not (other.is_certain and joint.is_certain):
                 continue
@@ -350,7 +350,7 @@ def _shown(name: str) -> str:
 
 
 def _has_root(robot: Expansion) -> bool:
-    """Tell whether a link is no child of a joint; a part that others include hangs on theirs."""
+    """Tell whether a link is not a child of a joint; included parts are attached by others."""
     links = {part.get("name") for part in robot.root.all("link")}
     children = [joint.one("child") for joint in robot.root.all("joint")]
     return not links or bool(links - {child.get("link") for child in children if child})
@@ -366,7 +366,7 @@ def _hint(package: Package, name: str, names: Sequence[str]) -> str:
 
 
 def _is_among(name: str, names: Sequence[str]) -> bool:
-    """Tell whether a name may be among others; parts of each may be unknown."""
+    """Tell whether a name may be one of some others, which may be partly unknown."""
     if name in names:
         return True
     if not is_known(name):

@@ -22,9 +22,9 @@ _ROBOT_ANGLES = (
     'velocity="1"/>\n  </joint>\n</robot>\n'
 )
 _SMALLEST = 15
-"""Degrees; a whole number of radians from here on is no angle that anybody writes."""
+"""Degrees; integers from here on are implausible as radians."""
 _LARGEST = 3600
-"""Degrees; a larger number, such as 100000, means no limit."""
+"""Degrees; larger numbers, such as 100000, mean no limit."""
 _STEP = 5
 _RADIAN = 3.14159265 / 180
 
@@ -174,7 +174,7 @@ def _is_moved(mass: Part) -> bool:
 
 
 def _numbers(part: Part, name: str) -> list[float]:
-    """Return the numbers in an attribute; none if it holds something else."""
+    """Return the numbers in an attribute; empty if it contains anything else."""
     text = part.attributes.get(name, "")
     try:
         return [float(word) for word in text.split()] if is_known(text) else []
@@ -195,7 +195,7 @@ def _angles(part: Part) -> Iterator[tuple[str, str]]:
 
 
 def _degrees(text: str) -> float | None:
-    """Return a number that must be one of degrees."""
+    """Return a number that must be in degrees."""
     try:
         number = float(text) if is_known(text) else 0.0
     except ValueError:

@@ -252,7 +252,7 @@ class XacroNameUndefined(Rule):
                 yield self.report(misfit, _message_calls(package, misfit), cause=cause)
 
     def _check_plain(self, package: Package) -> Iterator[Diagnostic]:
-        """Check files of URDF in a package that does not use xacro."""
+        """Check URDF files in a package that does not use xacro."""
         for robot in robots(package).whole:
             for element in (robot.file.root, *robot.file.root.descendants()):
                 for attribute in element.attributes.values():
@@ -287,7 +287,7 @@ def _message(package: Package, undefined: Undefined, *, is_used_here: bool) -> s
         "expression": f"${{{name}}} is not an expression of Python: xacro stops",
         "tag": f"<{name}> is not expanded without its prefix: write <xacro:{name}>",
     }
-    if kind == "stop":  # under a condition; an undefined macro is how xacro says "wrong value"
+    if kind == "stop":  # in a condition, where an undefined macro serves as an error message
         return messages["macro"] if closest else ""
     is_given = kind == "argument" and is_argument_given(package, name)
     if kind == "argument" and not is_given and (closest or is_used_here):

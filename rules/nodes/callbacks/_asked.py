@@ -15,7 +15,7 @@ _UNCLEAR = ast.Lambda | ast.NamedExpr | ast.Await | ast.Yield | ast.comprehensio
 def attributes_asked(file: RclpyFile, loop: ast.While) -> set[str]:
     """Return the attributes of ``self`` that can end a loop, if nothing else can.
 
-    Not if its condition calls what may do anything, or has a name that the loop changes.
+    Empty if its condition has unknown calls, or names that the loop changes.
     """
     names = file.module.below(loop, ast.Name)
     changed = {name.id for name in names if isinstance(name.ctx, ast.Store)}
@@ -38,7 +38,7 @@ def attributes_asked(file: RclpyFile, loop: ast.While) -> set[str]:
 
 
 def _parts_of_call(file: RclpyFile, call: ast.Call) -> Sequence[ast.expr] | None:
-    """Return what the result of a call is computed of; ``None`` if that is not known."""
+    """Return the operands of the result of a call; ``None`` if unknown."""
     match call.func:
         case ast.Attribute(value=owner, attr=name) if class_ := file.evaluator.self_class(owner):
             result = _result_of(class_, name)
@@ -50,7 +50,7 @@ def _parts_of_call(file: RclpyFile, call: ast.Call) -> Sequence[ast.expr] | None
 
 
 def _result_of(class_: ast.ClassDef, name: str) -> ast.expr | None:
-    """Return what a method computes that only returns something."""
+    """Return the expression of a method that only returns a value."""
     for method in class_.body:
         if isinstance(method, ast.FunctionDef) and method.name == name:
             match method.body:

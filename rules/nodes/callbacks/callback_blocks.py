@@ -16,13 +16,13 @@ from scaffold.api.programs import (
 from scaffold.api.rclpy import RclpyFile
 
 SHORT = 0.05
-"""Sleeps shorter than this, in seconds, do no harm."""
+"""Seconds; shorter sleeps are harmless."""
 VERBS = ("get", "post", "put", "patch", "delete", "head", "request")
 WAITING = frozenset(
     {f"{library}.{verb}" for library in ("requests", "httpx") for verb in VERBS}
     | {"urllib.request.urlopen", "urllib.request.urlretrieve"}
 )
-"""Calls that wait for a server. How long subprocesses run is not known."""
+"""Calls that wait for a server; the duration of subprocesses is unknown."""
 WAITS = frozenset({"wait_for_service", "wait_for_server"})
 _CALLER = (
     "from rclpy.node import Node\nfrom std_srvs.srv import Trigger\n\n\n"

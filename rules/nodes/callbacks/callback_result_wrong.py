@@ -14,7 +14,7 @@ from scaffold.api.rclpy import ActionServer, Service, is_overridden, worker
 
 _ANSWERS = {"goal_callback": "GoalResponse", "cancel_callback": "CancelResponse"}
 _REJECTED = "it counts as a rejection"
-"""What happens to a missing answer, which may be meant on some paths."""
+"""The effect of a missing answer, which may be intended on some paths."""
 _NODE = (
     "from example_interfaces.action import Fibonacci\n"
     "from rclpy.action import ActionServer, CancelResponse, GoalResponse\n"
@@ -52,10 +52,10 @@ class _Expected(NamedTuple):
 
     what: str
     otherwise: str
-    """What happens to anything else."""
+    """The effect of any other value."""
     cause: str
     wrong: Callable[[ast.Return], str]
-    """Describes what a statement returns instead; empty if it fits, or that is not known."""
+    """Describes the wrong return value of a statement; empty if valid or unknown."""
 
 
 class CallbackResultWrong(MessageRule):
@@ -283,7 +283,7 @@ class CallbackResultWrong(MessageRule):
     def _check(
         self, types: MessageTypes, function: FunctionNode, expected: _Expected
     ) -> Iterator[Diagnostic]:
-        """Check each way out of a callback."""
+        """Check each exit of a callback."""
         if may_end(function):
             never = " on every path" if returned(function) else ""
             message = (
@@ -305,7 +305,7 @@ class CallbackResultWrong(MessageRule):
     def _check_lost(
         self, types: MessageTypes, service: Service, function: FunctionNode, expected: _Expected
     ) -> Iterator[Diagnostic]:
-        """Check whether what a callback sets in one response is sent, and not another one."""
+        """Check whether a callback returns the response that it fills in."""
         last = function.body[-1]
         if not isinstance(last, ast.Return) or expected.wrong(last):
             return
@@ -344,13 +344,13 @@ def _expected_by_service(
 
 
 def _when_sent() -> str:
-    """Return what happens to a wrong result, which setters look at on some distributions."""
+    """Return the effect of a wrong result, which setters check on some distributions."""
     is_sent = target().fact("messages.has_check_fields")
     return "AttributeError when the result is sent" if is_sent else "AssertionError"
 
 
 def _function(types: MessageTypes, server: ActionServer, name: str) -> FunctionNode | None:
-    """Return the definition of a callback that nothing wraps."""
+    """Return the definition of a callback without a wrapper."""
     given = server.argument(name)
     callback = worker(types.file, types.file.callback(given.node)) if given else None
     function = callback.function if callback else None
@@ -377,7 +377,7 @@ def _wrong(types: MessageTypes, server: ActionServer, value: ast.expr | None, an
 
 
 def _wrong_answer(types: MessageTypes, value: ast.expr, answer: str) -> str:
-    """Describe what is returned for an answer to a goal and certainly is none."""
+    """Describe a returned value that is certainly not an answer to a goal."""
     match value:
         case ast.Compare() | ast.UnaryOp(op=ast.Not()):
             return "a bool"
@@ -387,7 +387,7 @@ def _wrong_answer(types: MessageTypes, value: ast.expr, answer: str) -> str:
 
 
 def _is_new(types: MessageTypes, function: FunctionNode, value: ast.expr | None) -> bool:
-    """Tell whether an empty response is made, although fields of the given one were set."""
+    """Tell whether a new response is returned although fields of the given one were set."""
     if not isinstance(value, ast.Call) or value.args or value.keywords:
         return False
     given = function.args.args[-1].arg if function.args.args else ""
@@ -402,7 +402,7 @@ def _is_new(types: MessageTypes, function: FunctionNode, value: ast.expr | None)
 def _filled_instead(
     types: MessageTypes, service: Service, function: FunctionNode
 ) -> ast.Call | None:
-    """Return where a response is made whose fields are set, and that nothing else is done with."""
+    """Return the creation of a response whose fields are set, but that is not used."""
     module = types.module
     for assigned in module.below(function, ast.Assign):
         match assigned:
@@ -421,14 +421,14 @@ def _filled_instead(
 
 
 def _is_untouched(types: MessageTypes, function: FunctionNode, value: ast.expr | None) -> bool:
-    """Tell whether a value is the given response, and nothing else is done with that."""
+    """Tell whether a value is the given response without changes."""
     given = function.args.args[-1].arg if function.args.args else ""
     uses = [x for x in types.module.below(function, ast.Name) if x.id == given]
     return bool(given) and uses == [value]
 
 
 def _returns_nothing(function: ast.FunctionDef) -> bool:
-    """Tell whether a function has no result: neither an empty body nor one that raises."""
+    """Tell whether a function returns nothing, and is neither empty nor raises."""
     is_plain = not function.decorator_list and not is_generator(function)
     does_something = any(
         isinstance(node, ast.Assign | ast.Attribute) for node in ast.walk(function)
@@ -437,7 +437,7 @@ def _returns_nothing(function: ast.FunctionDef) -> bool:
 
 
 def _plain(types: MessageTypes, value: ast.expr) -> str:
-    """Describe a returned value that is no message, whatever its type; empty for others."""
+    """Describe a returned value that is certainly not a message; empty for others."""
     match value:
         case ast.Constant(value=constant):
             return "None" if constant is None else f"a {type(constant).__name__}"

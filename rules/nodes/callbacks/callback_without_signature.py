@@ -96,7 +96,7 @@ class CallbackWithoutSignature(PythonRule):
 
 
 def _callbacks(file: RclpyFile) -> Iterator[ast.expr]:
-    """Yield the callbacks of subscriptions, whatever the node is that makes them."""
+    """Yield the callbacks of subscriptions of any node."""
     for call in file.module.walk(ast.Call):
         match call:
             case ast.Call(
@@ -108,7 +108,7 @@ def _callbacks(file: RclpyFile) -> Iterator[ast.expr]:
 
 
 def _method(file: RclpyFile, node: ast.expr) -> str:
-    """Return the full name of a method of an object that the file makes: ``set.add``."""
+    """Return the full name of a method of an object created in the file: ``set.add``."""
     if not isinstance(node, ast.Attribute):
         return ""
     kinds = {_kind(file, value) for value in _values(file, node.value)}
@@ -116,7 +116,7 @@ def _method(file: RclpyFile, node: ast.expr) -> str:
 
 
 def _values(file: RclpyFile, node: ast.expr) -> list[ast.expr]:
-    """Return what is assigned to a name, or to an attribute of ``self`` or ``cls``."""
+    """Return the values assigned to a name, or to an attribute of ``self`` or ``cls``."""
     if not isinstance(node, ast.Attribute) or not isinstance(node.value, ast.Name):
         value = file.evaluator.single_value(node)
         return [value] if isinstance(value, ast.expr) else []

@@ -71,7 +71,7 @@ class DiagnosticTaskResult(PythonRule):
 
 
 def _functions(file: RclpyFile) -> Iterator[ast.FunctionDef]:
-    """Yield the functions that an updater is given as tasks."""
+    """Yield the functions that are added to an updater as tasks."""
     for call in file.module.walk(ast.Call):
         match call:
             case ast.Call(func=ast.Attribute(attr="add", value=updater), args=[_, given]):
@@ -89,7 +89,7 @@ def _functions(file: RclpyFile) -> Iterator[ast.FunctionDef]:
 
 
 def _methods(module: PythonModule) -> Iterator[ast.FunctionDef]:
-    """Yield what tasks that are classes run."""
+    """Yield the ``run`` methods of task classes."""
     for class_ in module.walk(ast.ClassDef):
         names = {name for base in class_.bases for name in module.qualified_names(base)}
         for method in class_.body if "diagnostic_updater.DiagnosticTask" in names else ():

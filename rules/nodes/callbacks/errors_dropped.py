@@ -71,7 +71,7 @@ class ErrorsDropped(RclpyRule):
 
 
 def _dropping(function: FunctionNode, callback: Callback) -> Iterator[ast.AST]:
-    """Yield what drops all errors of a callback's work: a handler, or ``suppress``."""
+    """Yield handlers and ``suppress`` calls that drop all errors of a callback's work."""
     last = function.body[-1]
     if not isinstance(last, ast.Try | ast.With) or not _is_work(function, callback, last.body):
         return
@@ -88,7 +88,7 @@ def _dropping(function: FunctionNode, callback: Callback) -> Iterator[ast.AST]:
 
 
 def _is_work(function: FunctionNode, callback: Callback, body: list[ast.stmt]) -> bool:
-    """Return whether statements use what a callback gets, or are all that it does."""
+    """Return whether statements use the callback's arguments, or are its whole body."""
     arguments = [*function.args.posonlyargs, *function.args.args][int(callback.is_bound) :]
     names = {argument.arg for argument in arguments}
     if not names:

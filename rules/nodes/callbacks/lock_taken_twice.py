@@ -120,7 +120,7 @@ def _with_blocks(file: RclpyFile) -> Iterator[_Held]:
 
 
 def _acquired_blocks(file: RclpyFile) -> Iterator[_Held]:
-    """Yield what is between ``lock.acquire()`` and ``lock.release()`` of a block."""
+    """Yield the statements between ``lock.acquire()`` and ``lock.release()`` of a block."""
     for func in file.module.index.attributes("acquire"):
         lock = _lock(file, func.value)
         call = file.module.parent(func)
@@ -133,7 +133,7 @@ def _acquired_blocks(file: RclpyFile) -> Iterator[_Held]:
 
 
 def _left_inside(file: RclpyFile, held: _Held) -> Iterator[ast.Return]:
-    """Yield what returns between taking a lock and releasing it further down."""
+    """Yield the returns between the acquire and the release of a lock."""
     if not held.body:
         return
     function = file.function_of(held.body[0])
@@ -156,7 +156,7 @@ def _left_inside(file: RclpyFile, held: _Held) -> Iterator[ast.Return]:
 def _up_to_release(
     file: RclpyFile, statements: Sequence[ast.stmt], lock: ast.expr
 ) -> Sequence[ast.stmt]:
-    """Return the statements ahead of the one that releases a lock."""
+    """Return the statements before the release of a lock."""
     first = statements[0] if statements else None
     if isinstance(first, ast.Try) and any(_releases(file, x, lock) for x in first.finalbody):
         return first.body
@@ -175,7 +175,7 @@ def _releases(file: RclpyFile, scope: ast.AST, lock: ast.expr) -> bool:
 
 
 def _lock(file: RclpyFile, node: ast.expr) -> ast.expr | None:
-    """Return the call that makes the lock that an expression is, if it can be taken once."""
+    """Return the call that creates a lock, if it is not reentrant."""
     made = file.evaluator.single_value(node)
     is_lock = isinstance(made, ast.Call) and not _LOCKS.isdisjoint(
         file.module.qualified_names(made.func)
@@ -184,7 +184,7 @@ def _lock(file: RclpyFile, node: ast.expr) -> ast.expr | None:
 
 
 def _taken_inside(file: RclpyFile, held: _Held) -> Iterator[ast.AST]:
-    """Yield what takes a lock again: a block inside, or the call of a function that takes it."""
+    """Yield nested acquires of a lock: a block, or the call of a function that acquires it."""
     if not held.body or any(_releases(file, statement, held.lock) for statement in held.body):
         return
     holder = file.function_of(held.body[0])
@@ -197,7 +197,7 @@ def _taken_inside(file: RclpyFile, held: _Held) -> Iterator[ast.AST]:
 
 
 def _is_taken_by_call(file: RclpyFile, node: ast.AST, lock: ast.expr) -> bool:
-    """Return whether a call or property is a function that takes a lock, itself or in turn."""
+    """Return whether a call or property runs a function that acquires a lock, even indirectly."""
     function = None
     if isinstance(node, ast.Call):
         function = file.callback(node.func).function
@@ -215,7 +215,7 @@ def _is_property(function: ast.FunctionDef) -> bool:
 
 
 def _takes(file: RclpyFile, function: FunctionNode | ast.Lambda, lock: ast.expr) -> bool:
-    """Return whether a function takes a lock under no condition, before it releases it."""
+    """Return whether a function unconditionally acquires a lock before releasing it."""
     released = [
         func.lineno
         for func in file.module.below(function, ast.Attribute)
@@ -228,7 +228,7 @@ def _takes(file: RclpyFile, function: FunctionNode | ast.Lambda, lock: ast.expr)
 
 
 def _own(file: RclpyFile, function: FunctionNode | ast.Lambda) -> Iterator[ast.With | ast.Call]:
-    """Yield the blocks and calls of a function that are under no condition."""
+    """Yield the unconditional blocks and calls of a function."""
     for node in file.module.below(function, ast.With):
         if file.function_of(node) is function and not file.is_conditional(node):
             yield node

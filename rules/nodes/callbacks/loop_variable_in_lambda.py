@@ -53,7 +53,7 @@ class LoopVariableInLambda(RclpyRule):
 
 
 def _late_name(file: RclpyFile, function: ast.Lambda) -> str:
-    """Return a variable of an enclosing loop that a lambda reads; empty if none."""
+    """Return a variable of an enclosing loop that a lambda reads; empty if there is none."""
     given = {arg.arg for arg in ast.walk(function.args) if isinstance(arg, ast.arg)}
     read = {
         node.id

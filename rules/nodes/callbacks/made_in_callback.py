@@ -129,16 +129,16 @@ _TIMER = "a timer"
 
 
 def _is_repeated(file: RclpyFile, function: FunctionNode, call: ast.Call) -> bool:
-    """Tell whether something is made with each call of a callback."""
+    """Tell whether an object is created in each call of a callback."""
     if _MADE[_name(call)] == _TIMER:
         return _adds_up(file, function, call)
     return not file.is_conditional(call) and not conditions_on(file.module, call)
 
 
 def _adds_up(file: RclpyFile, function: FunctionNode, call: ast.Call) -> bool:
-    """Tell whether timers are never stopped, and made whatever the node remembers.
+    """Tell whether timers are never stopped, and created regardless of the node's state.
 
-    Conditions may ask for the message alone: ``if msg.data:``.
+    Conditions may only depend on the message: ``if msg.data:``.
     """
     index = file.module.index
     if any(index.attributes(name) for name in ("cancel", "destroy_timer", "destroy")):
@@ -160,7 +160,7 @@ def _name(call: ast.Call) -> str:
 
 
 def _is_of_ros(file: RclpyFile, call: ast.Call) -> bool:
-    """Return whether it is a method of a node, or a class of tf2 or rclpy."""
+    """Return whether the callee is a method of a node, or a class of tf2 or rclpy."""
     if isinstance(call.func, ast.Attribute) and file.owner_of(call.func.value) is not None:
         return True
     names = file.module.qualified_names(call.func)
@@ -168,6 +168,6 @@ def _is_of_ros(file: RclpyFile, call: ast.Call) -> bool:
 
 
 def _is_stored_by_key(file: RclpyFile, call: ast.Call) -> bool:
-    """Return whether it is kept for something: ``self.publishers[name] = ...``."""
+    """Return whether it is stored under a key: ``self.publishers[name] = ...``."""
     parent = file.module.parent(call)
     return isinstance(parent, ast.Assign) and isinstance(parent.targets[0], ast.Subscript)

@@ -175,7 +175,7 @@ class ThreadTargetCalled(RclpyRule):
 
 
 def _is_ended(file: RclpyFile, timer: Timer) -> bool:
-    """Tell whether a timer is canceled or destroyed somewhere, such as when it first ticks."""
+    """Tell whether a timer is canceled or destroyed anywhere, as in its first call."""
     index = file.module.index
     name = timer.attribute or timer.variable
     ends = [end.value for end in index.attributes("cancel")]
@@ -194,7 +194,7 @@ def _is_single(file: RclpyFile, node: ast.expr) -> bool:
 
 
 def _is_left(package: Package, file: RclpyFile, call: ast.Call, idle: frozenset[str]) -> bool:
-    """Tell whether what is made has no use, or only attributes that do not start it."""
+    """Tell whether an object is never used, or never started."""
     index = file.module.index
     match file.module.parent(call):
         case ast.Assign(targets=[ast.Name() as name]):
@@ -213,24 +213,24 @@ def _is_left(package: Package, file: RclpyFile, call: ast.Call, idle: frozenset[
 def _are_idle(
     file: RclpyFile, uses: Sequence[ast.Name | ast.Attribute], idle: frozenset[str]
 ) -> bool:
-    """Tell whether nothing that uses an object starts it, or gives it to somebody else."""
+    """Tell whether no use of an object starts it or passes it on."""
     reads = [file.module.parent(use) for use in uses if isinstance(use.ctx, ast.Load)]
     return all(isinstance(use, ast.Attribute) and use.attr in idle for use in reads)
 
 
 _IDLE = frozenset({"daemon", "name", "join", "is_alive"})
-"""What does not start a thread."""
+"""Attributes that do not start a thread."""
 
 
 _ENDING = re.compile(
     r"\b(?:publish|rclpy|call|call_async|get_clock|get_parameter|sendTransform|rate|exit|_exit"
     r"|raise|break|return|yield|spin\w*|is_set|recv|accept|get)\b"
 )
-"""Matches what leaves a loop, or fails in it once rclpy is shut down or the other side closes."""
+"""Matches code that leaves a loop, or fails once rclpy is shut down or a peer closes."""
 
 
 def _is_endless(file: RclpyFile, thread: ast.Call) -> bool:
-    """Tell whether a thread that is no daemon runs a loop that nothing ends."""
+    """Tell whether a non-daemon thread runs an endless loop."""
     words = {word.arg: word.value for word in thread.keywords}
     if (
         "target" not in words
@@ -262,7 +262,7 @@ def _problems(file: RclpyFile, thread: ast.Call) -> Iterator[tuple[ast.AST, str]
 
 
 def _unawaited(package: Package, file: RclpyFile) -> Iterator[tuple[ast.AST, str]]:
-    """Yield the coroutines that are made and never run."""
+    """Yield the coroutines that are created but never run."""
     for call in file.module.walk(ast.Call):
         effect = _effect_unawaited(file, call)
         is_kept = isinstance(file.module.parent(call), ast.Assign)
@@ -276,7 +276,7 @@ def _unawaited(package: Package, file: RclpyFile) -> Iterator[tuple[ast.AST, str
 
 
 def _effect_unawaited(file: RclpyFile, call: ast.Call) -> str:
-    """Return what comes of a coroutine that is only made; empty if it may be run later."""
+    """Return the effect of an unawaited coroutine; empty if it may be run later."""
     match file.module.parent(call):
         case ast.Expr():
             return "it never runs"

@@ -28,9 +28,9 @@ _RIGHT = "return super().on_activate(state)"
 
 
 _OWN_TRANSITIONS = ("on_configure", "on_activate", "on_deactivate", "on_cleanup")
-"""The transition callbacks whose names mean nothing else."""
+"""The transition callbacks whose names have no other meaning."""
 _FEWEST = 2
-"""Such methods in a class that is meant to be a lifecycle node."""
+"""The minimum number of such methods in a class meant as a lifecycle node."""
 _WITH_STATE = 2
 """Parameters of a transition callback: ``self`` and the state."""
 
@@ -199,7 +199,7 @@ class TransitionResult(RclpyRule):
 
 
 def _published_inactive(file: RclpyFile, class_: NodeClass) -> Iterator[tuple[ast.Call, str]]:
-    """Yield what is published while the publisher drops it: before ``super().on_activate()``."""
+    """Yield messages that the inactive publisher drops: before ``super().on_activate()``."""
     activating = class_.methods.get("on_activate")
     supers = [
         call

@@ -267,7 +267,7 @@ class WaitsForCallback(RclpyRule):
 
 
 def _is_spun_for(file: RclpyFile, name: str) -> bool:
-    """Tell whether a loop spins until an attribute is set, or an event."""
+    """Tell whether a loop spins until an attribute or an event is set."""
     for loop in file.module.walk(ast.While):
         asked = {node.attr for node in ast.walk(loop) if isinstance(node, ast.Attribute)}
         if name in asked and any("spin" in attribute for attribute in asked):
@@ -276,7 +276,7 @@ def _is_spun_for(file: RclpyFile, name: str) -> bool:
 
 
 def _excludes(file: RclpyFile, executed: Executed, setters: set[ast.AST | None]) -> bool:
-    """Tell whether a callback keeps all that set what it waits for from running at that time."""
+    """Tell whether a callback prevents all callbacks that could end its wait from running."""
     entity = executed.entity
     if entity is None or executed.is_task or file.module.mentions("Thread("):
         return False
@@ -291,7 +291,7 @@ def _excludes(file: RclpyFile, executed: Executed, setters: set[ast.AST | None])
 
 
 def _waits(file: RclpyFile, executed: Executed) -> Iterator[tuple[ast.expr | ast.While, set[str]]]:
-    """Yield what waits in a function, with the attributes of ``self`` that may end it."""
+    """Yield the waits in a function, with the attributes of ``self`` that may end them."""
     for node in file.module.below(executed.function, ast.While, ast.Call):
         if file.function_of(node) is not executed.function:
             continue
@@ -311,12 +311,12 @@ def _waits(file: RclpyFile, executed: Executed) -> Iterator[tuple[ast.expr | ast
 
 
 def _is_limited(node: ast.AST) -> bool:
-    """Tell whether a call waits for some time alone."""
+    """Tell whether a call waits with a timeout."""
     return isinstance(node, ast.Call) and bool(node.args or node.keywords)
 
 
 def _is_asked(file: RclpyFile, call: ast.Call) -> bool:
-    """Tell whether it matters if the event came; else this may be a sleep that can be ended."""
+    """Tell whether the result of the wait is used; otherwise it may be a mere sleep."""
     match file.module.parent(call):
         case ast.UnaryOp(op=ast.Not()) as negated:
             return isinstance(file.module.parent(negated), ast.If)
@@ -370,7 +370,7 @@ def _setters(file: RclpyFile, name: str, node: ast.AST) -> set[ast.AST | None]:
 
 
 def _is_field_of_local_message(file: RclpyFile, stored: ast.AST) -> bool:
-    """Tell whether a field of a message is set that is made in the same function."""
+    """Tell whether the target is a field of a message created in the same function."""
     while isinstance(stored, ast.Attribute):
         stored = stored.value
     made = file.evaluator.single_value(stored) if isinstance(stored, ast.Name) else None

@@ -83,13 +83,13 @@ class FileOfAuthor(RclpyRule):
 
 
 def _reads(call: ast.Call) -> bool:
-    """Return whether ``open`` reads: it has no mode, or a constant for reading."""
+    """Return whether ``open`` reads: it has no mode, or a literal mode for reading."""
     modes = [*call.args[1:2], *(word.value for word in call.keywords if word.arg == "mode")]
     return all(isinstance(mode, ast.Constant) and str(mode.value)[:1] == "r" for mode in modes)
 
 
 def _is_in(package: Package, text: str) -> bool:
-    """Return whether a relative path is a file of the package, or the name of one."""
+    """Return whether a relative path is a file in the package, or the name of one."""
     path = text.removeprefix("./")
     if "/" in path:
         return package.has(path)

@@ -93,7 +93,7 @@ class LogFPrefixMissing(RclpyRule):
 
 
 def _variable(file: RclpyFile, node: ast.Constant, text: str) -> str:
-    """Return the first variable, or attribute of one, that a text has in braces."""
+    """Return the first variable, or attribute of one, in the braces of a text."""
     for name in re.findall(r"(?<!\{)\{((?:self\.)?[a-z_]\w*(?:\.\w+)*)(?::[^{}]*)?\}(?!\})", text):
         if _is_bound(file, node, name.partition(".")[0]):
             return str(name)
@@ -114,7 +114,7 @@ def _is_bound(file: RclpyFile, at: ast.Constant, name: str) -> bool:
 
 
 def _is_filled(file: RclpyFile, field: str) -> bool:
-    """Return whether the braces of a field are replaced after it has been set."""
+    """Return whether the braces in a field are filled in after it is set."""
     return any(
         isinstance(node.value, ast.Attribute) and node.value.attr == field
         for name in _FILLED

@@ -236,7 +236,7 @@ def _levels(file: RclpyFile) -> Iterator[tuple[ast.Call, ast.expr]]:
 
 
 def _is_logger(file: RclpyFile, node: ast.expr) -> bool:
-    """Return whether an expression gets a logger from a node or from rclpy itself."""
+    """Return whether an expression returns a logger of a node or of rclpy."""
     match node:
         case ast.Call(func=ast.Attribute(value=owner, attr="get_logger") as method):
             is_node = file.owner_of(owner) is not None and is_of_rclpy(file, method)

@@ -272,7 +272,7 @@ def _gives_results(file: RclpyFile, callback: Callback) -> bool:
 
 
 def _old_values(file: RclpyFile, function: ast.AST) -> Iterator[ast.Call]:
-    """Yield what reads a parameter, for an attribute, where the callback looks at its new value."""
+    """Yield the reads of the old value of a parameter in a callback with its new value."""
     for branch in file.module.below(function, ast.If):
         match branch.test:
             case ast.Compare(ops=[ast.Eq()], comparators=[ast.Constant(value=str() as name)]):
@@ -316,7 +316,7 @@ def _type_comparisons(file: RclpyFile, function: ast.AST) -> Iterator[tuple[ast.
 
 
 def _never_equal(file: RclpyFile, node: ast.Compare) -> str:
-    """Return the number or the name that the type of a parameter is compared with."""
+    """Return the number or the name with which the type of a parameter is compared."""
     match node:
         case ast.Compare(
             left=ast.Attribute(attr="type_"), ops=[ast.Eq() | ast.NotEq()], comparators=[value]

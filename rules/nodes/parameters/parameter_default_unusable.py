@@ -280,7 +280,7 @@ class ParameterDefaultUnusable(RclpyRule):
 
 @fact
 def _set_names(package: Package) -> frozenset[str]:
-    """Return the names of all parameters that files of the package set, of whatever node."""
+    """Return the names of all parameters that files of the package set, of any node."""
     files = (parameter_file(package, path) for path in parameter_paths(package))
     sections = [section for file in files if file for section in file.sections]
     names = {entry.name for section in sections for entry in section.entries}
@@ -289,7 +289,7 @@ def _set_names(package: Package) -> frozenset[str]:
 
 
 def _is_only_tested(file: RclpyFile, parameter: Parameter) -> bool:
-    """Tell whether the code reads a parameter, and expects None, or does nothing else with it."""
+    """Tell whether the code only reads a parameter, or handles None."""
     module = file.module
     reads = [read.call for read in file.parameter_reads if read.name == parameter.name]
     values = [value for call in reads for value in _uses(module, call)]
@@ -306,7 +306,7 @@ def _is_compared_with_none(module: PythonModule, value: ast.AST) -> bool:
 
 
 def _uses(module: PythonModule, call: ast.Call) -> Sequence[ast.AST]:
-    """Return where the value of ``get_parameter(...)`` is used; maybe through one variable."""
+    """Return the uses of the value of ``get_parameter(...)``, also through one variable."""
     value = module.parent(call)
     if not isinstance(value, ast.Attribute) or value.attr != "value":
         return [call]

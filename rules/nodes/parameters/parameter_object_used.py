@@ -42,7 +42,7 @@ _NODE_FIELD = (
     "        self.rate = self.get_parameter('rate'){}.double_value\n"
 )
 _MISNAMED = ("array_value", "boolean_value", "float_value", "int_value", "str_value")
-"""What people take for fields of ParameterValue."""
+"""Names that are mistaken for fields of ParameterValue."""
 
 
 class ParameterObjectUsed(RclpyRule):

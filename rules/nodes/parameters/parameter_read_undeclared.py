@@ -160,7 +160,7 @@ def _message(package: Package, read: ParameterRead, declared: dict[str, list[Par
 def _called_early(
     node: NodeDefinition, read: ParameterRead, declared: Mapping[str, list[Parameter]]
 ) -> str:
-    """Return the problem with a read in a method that the constructor calls too early."""
+    """Return the problem with a parameter read in a method that the constructor calls early."""
     same = declared.get(str(read.name), [])
     if not isinstance(node, NodeClass) or not same or read.method != "get_parameter":
         return ""
@@ -188,7 +188,7 @@ def _places(node: NodeClass, method: FunctionNode | None, *, is_certain: bool) -
     Args:
         node: The class.
         method: The method.
-        is_certain: Whether only calls count that are always made.
+        is_certain: Whether only unconditional calls count.
     """
     file = node.file
     if node.constructor is None or method is None or node.methods.get(method.name) is not method:

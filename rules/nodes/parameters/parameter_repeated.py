@@ -116,7 +116,7 @@ class ParameterRepeated(RclpyRule):
                     first[name] = at.line
 
     def _automatic(self, package: Package, node: NodeDefinition) -> Iterator[Diagnostic]:
-        """Report what a node declares although rclpy has declared it, if it is set."""
+        """Report parameters that a node declares although rclpy already has, if they are set."""
         if not node.is_declared_by_overrides or "has_parameter" in node.file.module.source.text:
             return
         for parameter in node.parameters:

@@ -33,7 +33,7 @@ _SCALARS: Mapping[str, tuple[type, ...]] = {
     **dict.fromkeys(("bool", "double", "integer"), (bool, int, float)),
     "string": (str,),
 }
-"""The Python types of what parameters may equal."""
+"""The Python types of values that may equal those of parameters."""
 
 
 _NODE_FIELDS = (
@@ -258,7 +258,7 @@ def _operand(
 
 
 def _truths(package: Package, file: RclpyFile) -> Iterator[tuple[ast.expr, str]]:
-    """Yield conditions that are a parameter which a text switches on and off."""
+    """Yield conditions on a string parameter with a default such as ``'false'``."""
     branches: list[ast.If | ast.IfExp] = [*file.module.walk(ast.If), *file.module.walk(ast.IfExp)]
     for branch in branches:
         test = branch.test.operand if isinstance(branch.test, ast.UnaryOp) else branch.test
@@ -275,7 +275,7 @@ def _is_value(node: ast.expr) -> bool:
 
 
 def _never_equal(package: Package, file: RclpyFile, comparison: ast.Compare) -> str:
-    """Return the message for the value of a parameter that is compared with another type."""
+    """Return the message for comparing the value of a parameter with another type."""
     match comparison:
         case ast.Compare(left=left, ops=[ast.Eq() | ast.NotEq()], comparators=[right]):
             pairs = [(left, [right]), (right, [left])]
@@ -300,7 +300,7 @@ def _never_equal(package: Package, file: RclpyFile, comparison: ast.Compare) -> 
 
 
 def _is_alternative(file: RclpyFile, comparison: ast.Compare, asked: ast.expr) -> bool:
-    """Return whether the value is asked for in another way as well: ``x or x == 'true'``."""
+    """Return whether the value is also compared in another way: ``x or x == 'true'``."""
     parent = file.module.parent(comparison)
     if not isinstance(parent, ast.BoolOp):
         return False
@@ -309,7 +309,7 @@ def _is_alternative(file: RclpyFile, comparison: ast.Compare, asked: ast.expr) -
 
 
 def _declared(package: Package, file: RclpyFile, node: ast.expr) -> tuple[str, str]:
-    """Return name and declared type of the parameter whose value an expression is."""
+    """Return the name and declared type of the parameter of which an expression is the value."""
     match file.evaluator.single_value(node):
         case ast.Attribute(attr="value", value=parameter):
             owner, name = parameter_read(file, parameter)

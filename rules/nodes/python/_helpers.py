@@ -10,7 +10,7 @@ from scaffold.api.rclpy import NODE, NodeClass, RclpyFile, has
 
 
 def too_early(file: RclpyFile, node: NodeClass) -> Iterator[tuple[ast.Call, str]]:
-    """Yield the calls of methods of the class for which something is missing yet, and what."""
+    """Yield the calls of own methods that are too early, with the missing attribute."""
     if node.constructor is None or not _is_known(file, node) or file.module.mentions("setattr("):
         return
     for call in file.calls_in(node.constructor):
@@ -29,7 +29,7 @@ def too_early(file: RclpyFile, node: NodeClass) -> Iterator[tuple[ast.Call, str]
 
 
 def _is_known(file: RclpyFile, node: NodeClass) -> bool:
-    """Tell whether all classes between a node and rclpy's Node are in the file."""
+    """Tell whether all base classes up to rclpy's Node are in the file."""
     owner: NodeClass | None = node
     while owner is not None:
         if owner.file is not file or len(owner.node.bases) != 1:
@@ -53,7 +53,7 @@ def _is_in_block(file: RclpyFile, call: ast.Call) -> bool:
 
 
 def _missing(file: RclpyFile, node: NodeClass, call: ast.Call, used: ast.Attribute) -> str:
-    """Return why an attribute is not there when a method is called; empty if it is."""
+    """Return why an attribute is missing when a method is called; empty if it exists."""
     is_bound = used.attr in file.module.index.bindings(node.node)
     if not isinstance(used.ctx, ast.Load) or not _is_of_self(used) or is_bound:
         return ""
@@ -85,7 +85,7 @@ def _is_of_self(used: ast.Attribute) -> bool:
 
 
 def _is_always_used(file: RclpyFile, used: ast.Attribute) -> bool:
-    """Tell whether a method uses an attribute whatever is so, and does not ask for it."""
+    """Tell whether a method uses an attribute unconditionally, without checking it."""
     quoted = (f"'{used.attr}'", f'"{used.attr}"')
     if file.module.mentions(*quoted) or _in_loop(file, used) or conditions_on(file.module, used):
         return False

@@ -137,7 +137,7 @@ def _breaks(name: str, method: FunctionNode) -> bool:
 
 
 def _targets(node: NodeClass) -> Iterator[ast.Attribute]:
-    """Yield where the methods of a class assign to a property of Node."""
+    """Yield the assignments to a property of Node in the methods of a class."""
     own = {
         name
         for name, binding in node.file.module.index.bindings(node.node).items()

@@ -155,7 +155,7 @@ class AttributeOfNodeUnknown(RclpyRule):
 
 
 def _inner_function(node: NodeClass, name: str) -> ast.FunctionDef | None:
-    """Return the function of a name that a method of a node defines for itself."""
+    """Return the nested function with this name in a method of a node."""
     module = node.file.module
     for function in module.below(node.node, ast.FunctionDef):
         if function.name == name and module.enclosing_function(function) is not None:

@@ -60,13 +60,13 @@ _BOTH = (
     "        self.info = msg\n"
 )
 _TRANSITIONS = ("on_configure", "on_activate")
-"""The methods that bring a node with a lifecycle to work."""
+"""The transition callbacks that precede the active state."""
 _CALLED_BY_NODE = (
     *("get_name", "get_namespace", "get_logger", "get_clock", "create_publisher"),
     *("create_service", "declare_parameter", "declare_parameters", "has_parameter"),
     *("get_parameter", "add_on_set_parameters_callback"),
 )
-"""The methods that ``Node.__init__`` calls of the node that it makes."""
+"""The methods that ``Node.__init__`` calls on the new node."""
 
 
 class AttributeUsedBeforeSet(RclpyRule):
@@ -246,7 +246,7 @@ class AttributeUsedBeforeSet(RclpyRule):
     def _check_timers(
         self, package: Package, file: RclpyFile, node: NodeClass
     ) -> Iterator[Diagnostic]:
-        """Check what callbacks use that only later messages and transitions set."""
+        """Check the use of attributes in callbacks that only later messages or transitions set."""
         methods = {method: name for name, method in node.methods.items()}
         later = {
             callback.function
@@ -275,7 +275,7 @@ class AttributeUsedBeforeSet(RclpyRule):
                     yield self.report(location, message, severity=Severity.WARNING)
 
     def _check_overrides(self, file: RclpyFile, node: NodeClass) -> Iterator[Diagnostic]:
-        """Check what the constructor of the base calls, if the class has methods of its own."""
+        """Check overridden methods that the constructor of the base class calls."""
         call = node.super_init
         caller = f"the constructor of {node.base.name}" if node.base else "rclpy's Node"
         given = defined_by(node.base) if node.base else set[str]()
@@ -283,7 +283,7 @@ class AttributeUsedBeforeSet(RclpyRule):
         for name in _called_by_base(node) if call is not None else ():
             method = node.methods.get(name)
             if method is not None and "attr(" in file.module.text(method):
-                continue  # it asks: `hasattr(self, 'robot')`
+                continue  # it checks: `hasattr(self, 'robot')`
             for used in file.module.below(method, ast.Attribute) if method is not None else ():
                 if call is None or not isinstance(used.ctx, ast.Load):
                     continue
@@ -305,7 +305,7 @@ class AttributeUsedBeforeSet(RclpyRule):
 
 
 def _called_by_base(node: NodeClass) -> Iterable[str]:
-    """Return the methods that the constructor of the base always calls on the object."""
+    """Return the methods that the constructor of the base class always calls."""
     base = node.base
     if base is None:
         return _CALLED_BY_NODE
@@ -322,7 +322,7 @@ def _called_by_base(node: NodeClass) -> Iterable[str]:
 def _registered_first(
     file: RclpyFile, node: NodeClass
 ) -> Iterator[tuple[Timer | Subscription | Synchronizer | Service, FunctionNode]]:
-    """Yield the methods that may be called as soon as the constructor is done, and what for."""
+    """Yield the methods that may be called right after the constructor, with the reason."""
     if not is_read_in_full(node) or _may_wait(file, node):
         return
     methods = {*node.methods.values()}
@@ -336,7 +336,7 @@ def _registered_first(
 
 
 def _message(name: str, setter: str, *, is_timer: bool, is_none: bool) -> str:
-    """Return what is reported about an attribute that a later callback sets."""
+    """Return the message about an attribute that a later callback sets."""
     if setter in _TRANSITIONS:
         setting, first = f"{setter}()", "the transition"
     else:
@@ -356,7 +356,7 @@ def _setters(
 ) -> tuple[set[FunctionNode | ast.Lambda | None], bool]:
     """Return the methods that set an attribute of a node, and whether it is None before.
 
-    There are none if the class has it anyway.
+    Empty if the class defines it.
     """
     if not isinstance(used.ctx, ast.Load) or has(NODE, used.attr):
         return set(), False
@@ -377,7 +377,7 @@ def _setters(
 
 
 def _needs_value(file: RclpyFile, used: ast.Attribute) -> bool:
-    """Tell whether None has not what is done with an attribute."""
+    """Tell whether a use of an attribute fails for None."""
     match file.module.parent(used):
         case ast.Attribute(value=value) | ast.Subscript(value=value):
             return value is used
@@ -385,13 +385,13 @@ def _needs_value(file: RclpyFile, used: ast.Attribute) -> bool:
 
 
 def _may_wait(file: RclpyFile, node: NodeClass) -> bool:
-    """Tell whether the constructor waits for a message, or stops a timer for the time being."""
+    """Tell whether the constructor waits for a message, or cancels a timer for now."""
     text = file.module.text(node.constructor) if node.constructor is not None else ""
     return any(word in text for word in ("while ", "spin", "wait_for", ".cancel("))
 
 
 def _is_always_used(file: RclpyFile, used: ast.Attribute) -> bool:
-    """Tell whether a function uses an attribute whatever is so, and does not ask for it."""
+    """Tell whether a function uses an attribute unconditionally, without checking it."""
     in_loop = any(
         isinstance(parent, ast.For | ast.While | ast.comprehension)
         for parent in file.module.parents(used)
@@ -406,7 +406,7 @@ def _is_always_used(file: RclpyFile, used: ast.Attribute) -> bool:
 
 
 def _used_early(file: RclpyFile, node: NodeClass) -> Iterator[tuple[ast.Attribute, int]]:
-    """Yield the first use of each attribute that is set only in later lines."""
+    """Yield the first use of each attribute that is only set on later lines."""
     bound = file.module.index.bindings(node.node)
     reported: set[str] = set()
     first_lines: dict[str, int] = {}
@@ -433,7 +433,7 @@ def _used_early(file: RclpyFile, node: NodeClass) -> Iterator[tuple[ast.Attribut
 
 
 def _first_line(file: RclpyFile, node: NodeClass, name: str) -> int:
-    """Return the first line that sets an attribute; 0 unless only the constructor sets it."""
+    """Return the first line that sets an attribute; 0 if other methods set it too."""
     stores = file.evaluator.stores(name)
     if {file.function_of(store.node) for store in stores} != {node.constructor}:
         return 0

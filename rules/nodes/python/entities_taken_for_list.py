@@ -86,7 +86,7 @@ def _error(file: RclpyFile, attribute: ast.Attribute) -> str:
 
 
 def _is_of_node(file: RclpyFile, attribute: ast.Attribute) -> bool:
-    """Return whether only Node has the attribute: no class sets or defines it."""
+    """Return whether the attribute is only that of Node: no class sets or defines it."""
     owner = file.owner_of(attribute.value)
     while isinstance(owner, NodeClass):
         bindings = owner.file.module.index.bindings(owner.node)

@@ -76,7 +76,7 @@ class LocalForAttribute(RclpyRule):
 
 
 def _forgotten(file: RclpyFile, class_: NodeClass, method: ast.AST) -> Iterator[ast.Name]:
-    """Yield the first places where a method sets names that it only logs."""
+    """Yield the first assignments of local names that a method only logs."""
     names: dict[str, list[ast.Name]] = {}
     for name in file.module.below(method, ast.Name):
         names.setdefault(name.id, []).append(name)
@@ -94,7 +94,7 @@ def _forgotten(file: RclpyFile, class_: NodeClass, method: ast.AST) -> Iterator[
 
 
 def _is_set_to_start(file: RclpyFile, class_: NodeClass, stores: list[ast.Name]) -> bool:
-    """Tell whether variables are set to the constant that the attribute has from the start."""
+    """Tell whether variables are set to the initial constant of the attribute."""
     starts = [
         parent.value
         for use in file.module.index.attributes(stores[0].id)
@@ -109,7 +109,7 @@ def _is_set_to_start(file: RclpyFile, class_: NodeClass, stores: list[ast.Name])
 
 
 def _is_logged(file: RclpyFile, name: ast.Name) -> bool:
-    """Tell whether a name is only part of a text that is logged or printed."""
+    """Tell whether a name is only used in a logged or printed text."""
     for parent in file.module.parents(name):
         match parent:
             case ast.Call(func=ast.Attribute(value=ast.Call(func=ast.Attribute(attr=attr)))):
@@ -122,7 +122,7 @@ def _is_logged(file: RclpyFile, name: ast.Name) -> bool:
 
 
 def _is_state(file: RclpyFile, class_: NodeClass, method: ast.AST, name: str) -> bool:
-    """Tell whether an attribute is set by the constructor alone, and read by other methods."""
+    """Tell whether an attribute is only set by the constructor, and read by other methods."""
     uses = [
         use
         for use in file.module.index.attributes(name)
@@ -139,7 +139,7 @@ def _is_state(file: RclpyFile, class_: NodeClass, method: ast.AST, name: str) ->
 
 
 def _is_start(assigned: ast.AST | None) -> bool:
-    """Tell whether an attribute begins as a constant or as the value of a parameter."""
+    """Tell whether the initial value of an attribute is a constant or a parameter."""
     match assigned:
         case ast.Assign(value=ast.Constant() | ast.Attribute(attr="value", value=ast.Call())):
             return True

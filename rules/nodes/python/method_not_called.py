@@ -174,11 +174,11 @@ class MethodNotCalled(RclpyRule):
 _PLACES = frozenset(
     {ast.Attribute, ast.BoolOp, ast.Compare, ast.Expr, ast.If, ast.IfExp, ast.UnaryOp, ast.While}
 )
-"""Where a method that is not called may make no sense."""
+"""Nodes in which an uncalled method may be an error."""
 
 
 def _level(file: RclpyFile, node: ast.Attribute) -> Severity:
-    """Return what it means: what the end of a program leaves out, the system tidies up."""
+    """Return the severity: cleanup at the end of a program is also done by the system."""
     if not isinstance(file.module.parent(node), ast.Expr):
         return Severity.ERROR
     is_late = node.attr in _TIDYING and only_while_stopping(file.module, node)
@@ -192,11 +192,11 @@ _OF_THREADS = {
     "threading.Thread": frozenset({"start", "join"}),
     "threading.Lock": frozenset({"acquire", "release"}),
 }
-"""Methods that are of use only if they are called."""
+"""Methods that are only useful if called."""
 
 
 def _is_method_of_thread(file: RclpyFile, node: ast.Attribute) -> bool:
-    """Tell whether a statement only names a method of a thread, an event or a lock."""
+    """Tell whether a statement consists of an uncalled method of a thread, event or lock."""
     if not isinstance(file.module.parent(node), ast.Expr):
         return False
     made = file.evaluator.single_value(node.value)
@@ -205,7 +205,7 @@ def _is_method_of_thread(file: RclpyFile, node: ast.Attribute) -> bool:
 
 
 def _is_event(file: RclpyFile, node: ast.Attribute) -> bool:
-    """Tell whether an attribute certainly is an event of threads or of asyncio."""
+    """Tell whether an attribute is certainly an event of threading or asyncio."""
     values = file.evaluator.attribute_values(node) or ()
     names = [
         file.module.qualified_name(value.func) if isinstance(value, ast.Call) else None
@@ -215,7 +215,7 @@ def _is_event(file: RclpyFile, node: ast.Attribute) -> bool:
 
 
 def _needs_value(file: RclpyFile, node: ast.Attribute) -> bool:
-    """Return whether a method that is not called makes no sense in this place."""
+    """Return whether an uncalled method is an error in this place."""
     match file.module.parent(node):
         case ast.Attribute(attr=attr):
             return not attr.startswith("__") and attr not in _FUNCTION_HAS
@@ -225,7 +225,7 @@ def _needs_value(file: RclpyFile, node: ast.Attribute) -> bool:
 
 
 def _is_compared(file: RclpyFile, node: ast.expr) -> bool:
-    """Tell whether it is compared with a plain value, which it never is."""
+    """Tell whether it is compared with a plain value, to which it is never equal."""
     match file.module.parent(node):
         case ast.Compare(left=left, comparators=[ast.Constant(value=value)]):
             return left is node and value is not None
@@ -249,7 +249,7 @@ def _is_condition(file: RclpyFile, node: ast.expr) -> bool:
 
 
 def _is_own_method(file: RclpyFile, node: ast.Attribute) -> bool:
-    """Tell whether a node only names one of its own methods, and nothing replaces that."""
+    """Tell whether an expression is an own method of the node that is never replaced."""
     if file.evaluator.stores(node.attr) or _is_read_from(file, node):
         return False
     owner = file.owner_of(node.value)
@@ -260,7 +260,7 @@ def _is_own_method(file: RclpyFile, node: ast.Attribute) -> bool:
 
 
 def _is_passed(file: RclpyFile, node: ast.Attribute) -> bool:
-    """Tell whether the method is a callback somewhere: naming it again does no harm."""
+    """Tell whether the method is a callback elsewhere, so that a mention is harmless."""
     return any(
         not isinstance(above := file.module.parent(use), ast.Expr | ast.Compare)
         and not (isinstance(above, ast.Call) and above.func is use)
@@ -269,7 +269,7 @@ def _is_passed(file: RclpyFile, node: ast.Attribute) -> bool:
 
 
 def _is_read_from(file: RclpyFile, node: ast.Attribute) -> bool:
-    """Tell whether an attribute of the method is read, which may be one that is set elsewhere."""
+    """Tell whether an attribute of the method is read, which may be set elsewhere."""
     return isinstance(file.module.parent(node), ast.Attribute)
 
 

@@ -13,7 +13,7 @@ _REFUSED = {
     "float": frozenset({"ValueError", "TypeError"}),
     "open": frozenset({"OSError", "IOError", "FileNotFoundError", "PermissionError"}),
 }
-"""What functions raise for a wrong argument."""
+"""Exceptions for wrong arguments, by function."""
 _CODE = (
     "def parse(text):\n    try:\n        value = {}\n{}        return value\n"
     "    except {}:\n        print({})\n"
@@ -86,9 +86,9 @@ class NameUnboundInHandler(PythonRule):
 
 
 def _is_assigned_there_alone(module: PythonModule, try_: ast.Try, name: str) -> bool:
-    """Return whether nothing but the body of a ``try`` gives a local name its value.
+    """Return whether a local name is only assigned in the body of a ``try``.
 
-    In a loop an earlier turn may have done so.
+    In a loop, an earlier iteration may have assigned it.
     """
     lookup = module.index.lookup(name, try_.body[0])
     if lookup is None or module.mentions("locals()") or not _is_function(lookup[0]):
@@ -112,7 +112,7 @@ def _is_function(node: ast.AST) -> bool:
 def _comes_from(
     module: PythonModule, call: ast.Call, handler: ast.ExceptHandler, *, is_alone: bool
 ) -> bool:
-    """Return whether a handler gets what a call raises, and that alone."""
+    """Return whether a handler only catches the exceptions of a call."""
     if is_alone:
         return True
     types = handler.type.elts if isinstance(handler.type, ast.Tuple) else [handler.type]

@@ -8,7 +8,7 @@ _OF_RESPONSES = ("add_done_callback", "feedback_callback", ".result(", ".done(",
 
 
 def needs_spin(file: RclpyFile) -> bool:
-    """Return whether a file has anything that only a node that is spun runs.
+    """Return whether a file has anything that only runs if its node is spun.
 
     Requests and goals are sent without it; only their responses need it.
     """

@@ -85,7 +85,7 @@ class InitMissing(Rule):
 
 @fact
 def _problem_of(package: Package, path: str, function: str | None) -> tuple[Location, str] | None:
-    """Return place and message of what is wrong about a program; raises ViewError."""
+    """Return the place and message of the problem of a program; raises ViewError."""
     run = run_of(package, path, function)
     first = next(iter(run.nodes()), None)
     if first is None or run.file.module.in_tests:

@@ -150,7 +150,7 @@ class InitMisused(RclpyRule):
             started = call
 
     def _is_in_node(self, file: RclpyFile, call: RclpyCall) -> bool:
-        """Return whether a method of a node class calls it: the node already exists then."""
+        """Return whether a method of a node class contains the call, so that the node exists."""
         class_ = file.module.enclosing_class(call.call)
         return class_ is not None and file.node_class(class_) is not None
 
@@ -180,7 +180,7 @@ class InitMisused(RclpyRule):
 
 
 def _is_given_more(function: FunctionNode) -> bool:
-    """Tell whether a function needs more than the command line, so that no program starts in it."""
+    """Tell whether a function needs further arguments, so that it is not an entry point."""
     arguments = function.args
     names = [item.arg for item in (*arguments.posonlyargs, *arguments.args)]
     required = names[: len(names) - len(arguments.defaults)]

@@ -110,7 +110,7 @@ class NodeNeverSpun(RclpyRule):
                 yield self.report(file.module.location(call), message)
 
     def _may_run(self, file: RclpyFile) -> bool:
-        """Return whether anything in the file may run callbacks in some other way."""
+        """Return whether anything in the file may run callbacks in another way."""
         names = {node.attr for node in file.module.walk(ast.Attribute)}
         names |= {node.id for node in file.module.walk(ast.Name)}
         return any(word in name.lower() for name in names for word in _RUNNING)
@@ -119,7 +119,7 @@ class NodeNeverSpun(RclpyRule):
 def _left_out(
     package: Package, file: RclpyFile, waiting: Mapping[str, NodeClass]
 ) -> Iterator[ast.Call]:
-    """Yield where nodes are made that others cannot spin: they are given to nobody."""
+    """Yield the creations of nodes that are not passed on, so that nothing else can spin them."""
     objects = {node.constructor_call for node in file.objects if _waits(node)}
     for call in file.module.walk(ast.Call):
         uses: Sequence[ast.Name | ast.Attribute]
@@ -146,7 +146,7 @@ def _left_out(
 
 
 def _spins_itself(file: RclpyFile, class_: NodeClass) -> bool:
-    """Tell whether a node may see to it that it is spun, or a base class that is not here."""
+    """Tell whether a node, or an unknown base class, may spin the node itself."""
     names = (node.attr for node in file.module.below(class_.node, ast.Attribute))
     if any(map(_may_spin, names)) or _is_spun_by_code(file, class_.node):
         return True
@@ -156,7 +156,7 @@ def _spins_itself(file: RclpyFile, class_: NodeClass) -> bool:
 
 
 def _is_spun_by_code(file: RclpyFile, class_: ast.ClassDef) -> bool:
-    # To write it out, without comments, takes long: few texts have the words.
+    # Unparsing is slow, and few files have these words.
     return _may_spin(file.module.text(class_)) and _may_spin(ast.unparse(class_))
 
 
@@ -165,14 +165,14 @@ def _may_spin(words: str) -> bool:
 
 
 def _hands_on(file: RclpyFile, use: ast.Name | ast.Attribute) -> bool:
-    """Tell whether more is done with a node than to call its methods and read its attributes."""
+    """Tell whether a node is passed on, besides calling its methods and reading attributes."""
     parent = file.module.parent(use)
     is_read = isinstance(parent, ast.Attribute) and isinstance(parent.ctx, ast.Load)
     return isinstance(use.ctx, ast.Load) and not is_read
 
 
 def _is_once(file: RclpyFile, spin: RclpyCall) -> bool:
-    """Return whether a program that starts here spins its node once and ends."""
+    """Return whether a program with this entry point spins its node once and ends."""
     if spin.name != "spin_once" or spin.function is None:
         return False
     is_program = file.module.has_main_guard or getattr(spin.function, "name", "") == "main"

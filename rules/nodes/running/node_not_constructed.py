@@ -221,7 +221,7 @@ class NodeNotConstructed(RclpyRule):
 
 
 def _skipping(file: RclpyFile, node: NodeClass) -> tuple[ast.Call, str] | None:
-    """Return a use of ``super`` that does not reach the constructor of Node, and why."""
+    """Return a use of ``super`` that does not call the constructor of Node, and the reason."""
     for call in file.calls_in(node.constructor) if node.constructor else ():
         match call:
             case ast.Call(func=ast.Name(id="super"), args=[ast.Name() as first, _]):
@@ -238,7 +238,7 @@ def _skipping(file: RclpyFile, node: NodeClass) -> tuple[ast.Call, str] | None:
 
 
 def _is_outline(package: Package, file: RclpyFile, node: NodeClass) -> bool:
-    """Tell whether a constructor does nothing yet, and nothing names its class."""
+    """Tell whether a constructor is still empty and its class unused."""
     body = node.constructor.body if node.constructor is not None else []
     if not all(isinstance(item, ast.Pass | ast.Expr) for item in body):
         return False
@@ -251,7 +251,7 @@ def _is_outline(package: Package, file: RclpyFile, node: NodeClass) -> bool:
 
 
 def _is_used_as_node(file: RclpyFile, node: NodeClass) -> bool:
-    """Tell whether code asks an object of a class for what Node has, or hands the object on."""
+    """Tell whether an object of a class is used as a node, or passed on."""
     own = defined_by(node)
     made_here = [
         call
@@ -331,7 +331,7 @@ def _lacks_base(file: RclpyFile, class_: ast.ClassDef) -> bool:
 
 
 def _hands_on(file: RclpyFile, class_: ast.ClassDef) -> bool:
-    """Tell whether a class without bases calls the constructor of the class it is combined with."""
+    """Tell whether a class without bases calls ``super().__init__`` like a mixin."""
     for call in file.module.below(class_, ast.Call):
         match call:
             case ast.Call(

@@ -69,7 +69,7 @@ class ShutdownRepeated(RclpyRule):
     def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
         words = [word.arg for init in file.init_calls for word in init.call.keywords]
         if "signal_handler_options" in words:
-            return  # the signals may not shut down
+            return  # signal handlers may not shut down rclpy
         for call in file.shutdown_calls:
             if call.name != "shutdown" or call.asks_ok or call.call.args or call.call.keywords:
                 continue

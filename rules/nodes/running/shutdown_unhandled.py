@@ -129,7 +129,7 @@ def _handles_int(file: RclpyFile) -> bool:
 
 
 def _is_in_main_loop(file: RclpyFile, call: RclpyCall) -> bool:
-    """Return whether a call is in a loop for as long as rclpy runs."""
+    """Return whether a call is in a loop that lasts until the shutdown of rclpy."""
     if not call.name.endswith("spin_once"):
         return False
     for parent in file.module.parents(call.call):
@@ -146,6 +146,6 @@ def _is_in_main_loop(file: RclpyFile, call: RclpyCall) -> bool:
 
 
 def _never_waits(file: RclpyFile, call: RclpyCall) -> bool:
-    """Return whether ``timeout_sec=0`` lets a loop see the end of rclpy without an exception."""
+    """Return whether ``timeout_sec=0`` lets a loop end on shutdown without an exception."""
     given = [word.value for word in call.call.keywords if word.arg == "timeout_sec"]
     return bool(given) and file.evaluator.evaluate(given[0]) == 0

@@ -11,11 +11,11 @@ from scaffold.api.programs import in_callbacks, in_constructors, in_tasks
 from scaffold.api.rclpy import RclpyFile
 
 MOST = 2
-"""Number of arguments without an executor: the node, and a future."""
+"""The maximum number of arguments without an executor: the node and a future."""
 _ENDING = re.compile(r"\b(?:destroy_node|shutdown|exit)\(")
-"""Matches what ends a node."""
+"""Matches calls that end a node."""
 _PLAIN = (ast.Expr, ast.Raise)
-"""Statements that are executed on every way through a block."""
+"""Statements whose parts are always executed."""
 _NODE = (
     "import rclpy\nfrom rclpy.node import Node\n\n\n"
     "class Caller(Node):\n"
@@ -177,7 +177,7 @@ class SpinInCallback(RclpyRule):
                     continue
                 spun = file.evaluator.self_class(node)
                 if spun is None or (called and called not in file.related_classes(spun)):
-                    continue  # another node than that of the callback
+                    continue  # another node than the one with the callback
                 if _is_last(file, function) or _waits_once(file, call.call):
                     continue
                 if any(isinstance(x, _PLAIN) for x in _endings_after(file, call.call)):
@@ -204,7 +204,7 @@ class SpinInCallback(RclpyRule):
 
 
 def _is_last(file: RclpyFile, function: ast.AST) -> bool:
-    """Tell whether callbacks call a function at the end of the node alone."""
+    """Tell whether callbacks call a function only at the end of the node."""
     start = {executed.function for executed in in_constructors(file)}
     calls = [
         attribute
@@ -217,7 +217,7 @@ def _is_last(file: RclpyFile, function: ast.AST) -> bool:
 def _waits_once(file: RclpyFile, call: ast.Call) -> bool:
     """Tell whether a spin waits for an attribute that stays set, such as a count of messages.
 
-    Whoever was there before the callback may have waited for it already.
+    Callers before the callback may have waited for it already.
     """
     loop = file.module.enclosing(call, ast.While)
     name = getattr(file.function_of(call), "name", "")
@@ -232,7 +232,7 @@ def _waits_once(file: RclpyFile, call: ast.Call) -> bool:
 
 
 def _only_counts(file: RclpyFile, name: str) -> bool:
-    """Tell whether an attribute only grows once the node is made."""
+    """Tell whether an attribute only increases after the construction of the node."""
     start = {executed.function for executed in in_constructors(file)}
     stores = [
         file.module.parent(use)
@@ -245,12 +245,12 @@ def _only_counts(file: RclpyFile, name: str) -> bool:
 
 
 def _ends_after(file: RclpyFile, node: ast.AST) -> bool:
-    """Tell whether the block of a call goes on with what may end the node."""
+    """Tell whether later statements in the block of a call may end the node."""
     return any(True for _ in _endings_after(file, node))
 
 
 def _endings_after(file: RclpyFile, node: ast.AST) -> Iterator[ast.stmt]:
-    """Yield the statements after a call, in its block, that end the node or hold what does."""
+    """Yield the later statements in the block of a call that contain code that ends the node."""
     child = node
     for parent in file.module.parents(node):
         block = getattr(parent, "body", None)

@@ -280,7 +280,7 @@ def _problem(file: RclpyFile, call: RclpyCall, shutdowns: Shutdowns) -> str:
 
 
 def _spinning_threads(file: RclpyFile) -> Iterator[tuple[ast.Call, str]]:
-    """Yield the threads that spin a node, with what the node is called."""
+    """Yield the threads that spin a node, with the name of the node."""
     for call in file.module.calls_of("threading.Thread"):
         words = {word.arg: word.value for word in call.keywords}
         target, args = words.get("target"), words.get("args")
@@ -291,7 +291,7 @@ def _spinning_threads(file: RclpyFile) -> Iterator[tuple[ast.Call, str]]:
 
 
 def _share_scope(file: RclpyFile, thread: ast.Call, call: ast.Call) -> bool:
-    """Return whether a name means the same node in two calls, and the thread runs in both."""
+    """Return whether a name is the same node in two calls, during which the thread runs."""
     functions = [file.module.enclosing_function(node) for node in (thread, call)]
     classes = [file.module.enclosing_class(node) for node in (thread, call)]
     if functions[0] is functions[1]:
@@ -309,7 +309,7 @@ def _share_scope(file: RclpyFile, thread: ast.Call, call: ast.Call) -> bool:
 
 
 def _spun_before(file: RclpyFile, call: RclpyCall) -> int:
-    """Return the line of a call ahead in the same block that spins until the shutdown."""
+    """Return the line of an earlier call in the same block that spins until shutdown."""
     statement = file.module.parent(call.call)
     block = file.module.parent(statement) if isinstance(statement, ast.Expr) else None
     for other in file.spin_calls if call.name == "spin" else ():
@@ -322,7 +322,7 @@ def _spun_before(file: RclpyFile, call: RclpyCall) -> int:
 
 
 def _is_again(file: RclpyFile, before: ast.stmt, call: ast.Call) -> bool:
-    """Return whether rclpy is started anew between two calls."""
+    """Return whether rclpy is initialized again between two calls."""
     return any(before.lineno < init.location.line < call.lineno for init in file.init_calls)
 
 
@@ -351,7 +351,7 @@ def _has_one_thread(file: RclpyFile, call: ast.Call) -> bool:
 
 
 def _left_out(file: RclpyFile, made: ast.Call) -> list[str]:
-    """Return the nodes of an executor that is not spun which nothing else spins either."""
+    """Return the nodes of an unspun executor that nothing else spins either."""
     function = file.module.enclosing_function(made)
     added = [
         call.args[0].id

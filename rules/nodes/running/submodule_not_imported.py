@@ -71,7 +71,7 @@ class SubmoduleNotImported(PythonRule):
         imports = module.imports_by_root["rclpy"]
         loaded = {x.module.split(".")[1] for x in imports if "." in x.module} | _LOADED
         if loaded & {"node", "executors", "action", "lifecycle"}:
-            # Each of these loads most of the others.
+            # Each of these imports most of the others.
             loaded |= SUBMODULES - {"action", "lifecycle"}
         reported: set[str] = set()
         for node in module.walk(ast.Attribute):

@@ -234,7 +234,7 @@ class CallInCallback(RclpyRule):
 
 
 def _deadlock(file: RclpyFile, executed: Executed, client: Entity | None) -> str:
-    """Return why nothing can end a wait; empty if something may."""
+    """Return why a wait never ends; empty if it may."""
     plain = ": deadlock, no response is processed meanwhile"
     is_same_node = executed.entity and client and executed.entity.owner is client.owner
     is_one_thread = spins_in_one_thread(file)
@@ -269,7 +269,7 @@ def _waits(file: RclpyFile, function: ast.AST) -> Iterator[tuple[ast.AST, str, E
 def _waits_elsewhere(
     package: Package, file: RclpyFile, function: ast.AST
 ) -> Iterator[tuple[ast.AST, str, Entity | None]]:
-    """Yield calls of functions of other modules that wait for a client of this file."""
+    """Yield calls of functions in other modules that wait for a client of this file."""
     for call in file.module.below(function, ast.Call):
         module, _, name = (file.module.qualified_name(call.func) or "").rpartition(".")
         if module and file.is_own_module(module):
@@ -281,7 +281,7 @@ def _waits_elsewhere(
 
 @fact
 def _waiting(package: Package, path: str) -> frozenset[str]:
-    """Return the functions of a file that wait for the response to a client that they are given."""
+    """Return the functions of a file that wait for the response to a passed client."""
     module = package.module(path)
     return frozenset(
         function.name
@@ -304,7 +304,7 @@ def _asked(test: ast.expr) -> str:
 
 
 def _ends_at_once(module: PythonModule, loop: ast.While) -> bool:
-    """Tell whether a loop is left in its first pass at the latest."""
+    """Tell whether a loop ends in its first iteration."""
     leaves = any(isinstance(item, ast.Break | ast.Return | ast.Raise) for item in loop.body)
     return leaves and not any(module.below(loop, ast.Continue))
 
@@ -314,7 +314,7 @@ def _has_timeout(call: ast.Call) -> bool:
 
 
 def _awaited(file: RclpyFile, test: ast.expr) -> ast.expr | None:
-    """Return the future that a loop waits for: ``rclpy.ok() and not future.done()``."""
+    """Return the future in a loop condition: ``rclpy.ok() and not future.done()``."""
     match test:
         case ast.BoolOp(op=ast.And(), values=[*values, last]):
             is_plain = all(

@@ -105,7 +105,7 @@ class FutureReadTooEarly(RclpyRule):
                     continue
                 for call in file.calls_in(function):
                     if call.lineno < line:
-                        continue  # another future, which a done callback was given
+                        continue  # another future, passed to a done callback
                     if self._reads(file, call, name) and not _is_asked(file, call, name):
                         at = file.module.location(call)
                         message = f"{name!r} is not done here: result() returns None; "
@@ -135,7 +135,7 @@ class FutureReadTooEarly(RclpyRule):
 
 
 def _unasked(file: RclpyFile, function: FunctionNode) -> Iterator[tuple[ast.expr, str]]:
-    """Yield fields of results that are read after a wait with a timeout, without a question."""
+    """Yield fields of results that are read after a wait with a timeout, without a check."""
     for call in file.calls_in(function):
         match call.func:
             case ast.Attribute(attr="spin_until_future_complete"):
@@ -154,7 +154,7 @@ def _unasked(file: RclpyFile, function: FunctionNode) -> Iterator[tuple[ast.expr
 def _first_read(
     file: RclpyFile, function: FunctionNode, wait: ast.Call, future: str
 ) -> Iterator[tuple[ast.expr, str]]:
-    """Yield the first field of the result of a future that is read below a wait."""
+    """Yield the first access to a field of the result of a future after a wait."""
     names = {future}
     for statement in file.module.below(function, ast.Assign):
         match statement:
@@ -194,7 +194,7 @@ def _is_asked(file: RclpyFile, call: ast.Call, name: str) -> bool:
 
 
 def _futures(module: PythonModule, function: FunctionNode) -> dict[str, int]:
-    """Return the variables that hold the future of an asynchronous call, and from which line on."""
+    """Return the variables with the future of an asynchronous call, and their lines."""
     names: dict[str, int] = {}
     for statement in module.below(function, ast.Assign):
         match statement:
@@ -206,7 +206,7 @@ def _futures(module: PythonModule, function: FunctionNode) -> dict[str, int]:
 
 
 def _waits(module: PythonModule, function: FunctionNode) -> bool:
-    """Return whether anything in a function may let the future finish."""
+    """Return whether anything in a function may wait for the future."""
     if any(True for _ in module.below(function, ast.Await, ast.While, ast.Yield)):
         return True
     attributes = [node.attr for node in module.below(function, ast.Attribute)]

@@ -138,7 +138,7 @@ class GoalNeverCanceled(RclpyRule):
                 yield self.report(file.module.location(asked), message)
 
     def _check_too_early(self, file: RclpyFile) -> Iterator[Diagnostic]:
-        """Check the callbacks that say whether a goal may be canceled."""
+        """Check the callbacks that accept or reject cancel requests."""
         for server in file.action_servers if not file.module.in_tests else ():
             given = server.argument("cancel_callback")
             function = file.callback(given.node).function if given is not None else None
@@ -150,7 +150,7 @@ class GoalNeverCanceled(RclpyRule):
                 yield self.report(file.module.location(call), message)
 
     def _check_unasked(self, file: RclpyFile) -> Iterator[Diagnostic]:
-        """Check a file that never asks whether a goal is to be canceled."""
+        """Check a file that never reads ``is_cancel_requested``."""
         for server in file.action_servers if not file.module.in_tests else ():
             work = _work(file, server)
             kept = _kept_on_cancel(file, server)
@@ -177,7 +177,7 @@ def _cancels(file: RclpyFile, function: FunctionNode | ast.Lambda) -> Iterator[a
 
 
 def _kept_on_cancel(file: RclpyFile, server: ActionServer) -> frozenset[str]:
-    """Return the attributes that the cancel callback sets, ``self.stopped``: the work may ask."""
+    """Return the attributes that the cancel callback sets, which the work may check."""
     given = server.argument("cancel_callback")
     function = file.callback(given.node).function if given is not None else None
     names: set[str] = set()
@@ -190,7 +190,7 @@ def _kept_on_cancel(file: RclpyFile, server: ActionServer) -> frozenset[str]:
 
 
 def _work(file: RclpyFile, server: ActionServer) -> list[FunctionNode | ast.Lambda]:
-    """Return the execute callback and what it calls; none if it may give way to others."""
+    """Return the execute callback and its callees; empty if it may yield to other callbacks."""
     function = server.callback.function if server.callback else None
     if function is None or _gives_way(file, function):
         return []
@@ -198,7 +198,7 @@ def _work(file: RclpyFile, server: ActionServer) -> list[FunctionNode | ast.Lamb
 
 
 def _gives_way(file: RclpyFile, function: FunctionNode | ast.Lambda) -> bool:
-    """Tell whether the executor may go on with other work before a callback is done."""
+    """Tell whether the executor may run other callbacks before a callback is done."""
     return isinstance(function, ast.AsyncFunctionDef) and any(
         file.module.below(function, ast.Await, ast.AsyncFor, ast.AsyncWith)
     )
@@ -221,7 +221,7 @@ def _has_cancel_callback(file: RclpyFile, server: ActionServer) -> bool:
 
 
 def _waits(file: RclpyFile, server: ActionServer) -> bool:
-    """Return whether the work on a goal takes a while: it waits in a loop."""
+    """Return whether the work on a goal takes time: it waits in a loop."""
     for function in _work(file, server):
         for call in file.calls_in(function):
             func = call.func

@@ -11,7 +11,7 @@ from scaffold.api.rclpy import ActionServer, Callback, RclpyFile, worker
 
 _ENDS = frozenset({"abort", "canceled"})
 _DEEPEST = 3
-"""The most functions that a goal handle is followed through."""
+"""The maximum number of functions to follow a goal handle through."""
 _NODE = (
     "from example_interfaces.action import Fibonacci\nfrom rclpy.action import ActionServer\n"
     "from rclpy.node import Node\n\n\n"
@@ -169,7 +169,7 @@ class GoalNeverSucceeds(RclpyRule):
 
 
 def _returned_uncanceled(file: RclpyFile) -> Iterator[ast.Return]:
-    """Yield where an execute callback returns because of a cancellation that nothing confirms."""
+    """Yield the returns of an execute callback after a cancel request without ``canceled()``."""
     for server in file.action_servers:
         function = _work(file, server)
         if function is None or any(x.finalbody for x in file.module.below(function, ast.Try)):
@@ -182,7 +182,7 @@ def _returned_uncanceled(file: RclpyFile) -> Iterator[ast.Return]:
 
 
 def _ends_in(file: RclpyFile, body: list[ast.stmt]) -> bool:
-    """Tell whether statements, or the functions of the file that they call, may end a goal."""
+    """Tell whether statements, or functions of the file that they call, may end a goal."""
     for statement in body:
         for node in ast.walk(statement):
             if isinstance(node, ast.Attribute) and node.attr in {*_ENDS, "succeed"}:
@@ -198,7 +198,7 @@ def _ends_in(file: RclpyFile, body: list[ast.stmt]) -> bool:
 
 
 def _work(file: RclpyFile, server: ActionServer) -> FunctionNode | None:
-    """Return the execute callback, unless it passes the goal handle on to code of others."""
+    """Return the execute callback, unless it passes the goal handle to other modules."""
     callback = worker(file, server.callback) if server.callback else None
     function = callback.function if callback else None
     if callback is None or function is None or isinstance(function, ast.Lambda):
@@ -212,7 +212,7 @@ def _work(file: RclpyFile, server: ActionServer) -> FunctionNode | None:
 
 
 def _hands_on_the_goal(callback: Callback | None) -> bool:
-    """Tell whether all that a lambda gives to the function it calls is the goal handle."""
+    """Tell whether a lambda only passes the goal handle to a function."""
     match callback.function if callback else None:
         case ast.Lambda(
             args=ast.arguments(args=[ast.arg(arg=handle)]),
@@ -223,7 +223,7 @@ def _hands_on_the_goal(callback: Callback | None) -> bool:
 
 
 def _is_kept(file: RclpyFile, function: FunctionNode, name: str, depth: int = 0) -> bool:
-    """Tell whether a goal handle stays in a function and those of the file that it calls."""
+    """Tell whether a goal handle is only used in a function and its callees in the file."""
     for use in ast.walk(function):
         if not isinstance(use, ast.Name) or use.id != name:
             continue
@@ -239,7 +239,7 @@ def _is_kept(file: RclpyFile, function: FunctionNode, name: str, depth: int = 0)
 
 
 def _stays_open(file: RclpyFile, call: ast.Call, at: int, depth: int) -> bool:
-    """Tell whether a call of a function of the file leaves the goal that it gets as it is."""
+    """Tell whether a call of a function of the file does not end its goal."""
     callback = file.callback(call.func)
     function = callback.function
     if function is None or isinstance(function, ast.Lambda) or function.decorator_list:
@@ -254,7 +254,7 @@ def _stays_open(file: RclpyFile, call: ast.Call, at: int, depth: int) -> bool:
 
 
 def _leaves_open(function: FunctionNode) -> bool:
-    """Return whether the last statement returns a result, and no other one ends the goal."""
+    """Return whether the last statement returns a result without ending the goal."""
     last = function.body[-1]
     if not isinstance(last, ast.Return) or last.value is None:
         return False
@@ -267,7 +267,7 @@ def _leaves_open(function: FunctionNode) -> bool:
 
 
 def _executes(package: Package) -> bool:
-    """Return whether any code of the package calls, or passes on, ``execute`` of something."""
+    """Return whether any code of the package calls or passes a method ``execute``."""
     return any(
         isinstance(attribute.ctx, ast.Load)
         for module in package.modules(mentioning=(".execute",))

@@ -145,7 +145,7 @@ class SentBeforeKnown(RclpyRule):
                     yield self.report(file.module.location(call), message)
 
     def _check_publishers(self, file: RclpyFile) -> Iterator[Diagnostic]:
-        """Check what constructors publish with publishers that they have just made."""
+        """Check messages that constructors publish with new publishers."""
         if file.module.mentions(*_WAITING):
             return
         lost = {
@@ -186,14 +186,14 @@ class SentBeforeKnown(RclpyRule):
 
 
 def _is_made_here(file: RclpyFile, made: ast.AST, where: ast.AST) -> bool:
-    """Tell whether a constructor or the same function makes a publisher, no matter what is so."""
+    """Tell whether a constructor or the same function always creates the publisher."""
     function = file.function_of(made)
     is_here = getattr(function, "name", "") == "__init__" or function is where
     return is_here and not conditions_on(file.module, made)
 
 
 def _is_repeated(file: RclpyFile, call: ast.Call) -> bool:
-    """Tell whether a loop sends it again, here or where the function is called."""
+    """Tell whether it is sent in a loop, here or around a call of the function."""
     module = file.module
     function = module.enclosing_function(call)
     name = function.name if function is not None else ""

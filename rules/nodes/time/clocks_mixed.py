@@ -165,7 +165,7 @@ def _of_two_clocks(pair: tuple[str, str], verb: str) -> str:
 def _mixed(
     file: RclpyFile, node: ast.AST, left: ast.expr, right: ast.expr
 ) -> tuple[str, str] | None:
-    """Return the different clocks of two times, if they are sure to meet."""
+    """Return the different clocks of two times, if they are certainly combined."""
     sides = clocks_of(file, left), clocks_of(file, right)
     pairs = [(x, y) for x in sides[0].values() for y in sides[1].values()]
     differing = [(x, y) for x, y in pairs if x and y and x != y]
@@ -183,9 +183,9 @@ def _mixed(
 def _begins_wrong(
     file: RclpyFile, node: ast.AST, side: ast.expr, clocks: Mapping[ast.expr, str | None]
 ) -> bool:
-    """Return whether an attribute has its first value in an operation, whatever comes later.
+    """Return whether an attribute may have its initial value in an operation.
 
-    It has not if a condition asks for it, or for what is set together with it.
+    Not if a condition checks it, or an attribute that is set together with it.
     """
     if not isinstance(side, ast.Attribute):
         return False

@@ -14,7 +14,7 @@ _CLEAR = _RATES - {"rate"}
 _PERIODS = frozenset({"period", "interval"})
 _MILLISECONDS = frozenset({"ms", "msec", "msecs", "millis", "milliseconds", "millisec"})
 _LONG = 100
-"""Periods in whole seconds from here on are implausible: they are milliseconds."""
+"""Seconds; longer integer periods are implausible and in milliseconds."""
 _SECONDS: Mapping[str, tuple[int, str]] = {
     "create_timer": (0, "timer_period_sec"),
     "Duration": (9, "seconds"),
@@ -24,7 +24,7 @@ _SECONDS: Mapping[str, tuple[int, str]] = {
     "spin_once": (9, "timeout_sec"),
     "spin_until_future_complete": (9, "timeout_sec"),
 }
-"""Where functions take seconds: at which place, and by which name."""
+"""The parameters in seconds: position and name, by function."""
 _NODE = (
     "from rclpy.node import Node\n\n\n"
     "class Talker(Node):\n"
@@ -142,7 +142,7 @@ class RateAsPeriod(RclpyRule):
             elif words & _RATES and name == "create_timer" and not words & _PERIODS:
                 yield from self._check_period(file, given, words, number)
             elif isinstance(given, ast.BinOp) and isinstance(given.op, ast.Div):
-                continue  # a period that follows from a rate may be as long
+                continue  # a period computed from a rate may be this long
             elif name == "create_timer" and number is not None and _is_milliseconds(number):
                 message = (
                     f"the period is {number} seconds; write {number / 1000:g} for "
@@ -172,11 +172,11 @@ class RateAsPeriod(RclpyRule):
 
 
 _LEAST_RATE = 1.5
-"""Of what is called a rate: below it may be seconds."""
+"""The minimum value of a rate; lower ones may be seconds."""
 
 
 def _is_of_thousand(file: RclpyFile, given: ast.expr) -> bool:
-    """Tell whether 1000 is divided by something that is no number of that size."""
+    """Tell whether 1000 is divided by a value that is not of that magnitude."""
     match given:
         case ast.BinOp(left=left, op=ast.Div(), right=right):
             divisor = file.evaluator.evaluate(right)
@@ -189,14 +189,14 @@ _THOUSAND = 1000
 
 
 def _is_in_seconds(file: RclpyFile, given: ast.expr) -> bool:
-    """Tell whether the file says somewhere that what is given are seconds."""
+    """Tell whether the file mentions anywhere that the value is in seconds."""
     name = given.attr if isinstance(given, ast.Attribute) else getattr(given, "id", "")
     pattern = rf"\b{re.escape(name)}\b[^\n]*(?:(?<!per )\bsec|\}} ?s\b)"
     return bool(name) and re.search(pattern, file.module.source.text) is not None
 
 
 def _is_milliseconds(number: float) -> bool:
-    """Return whether a number is one that people write for milliseconds, not for minutes."""
+    """Return whether a number is typical for milliseconds, not for minutes."""
     return number >= _LONG and number % 10 == 0 and number % 60 != 0
 
 
@@ -209,7 +209,7 @@ def _argument(call: ast.Call, place: int, name: str) -> ast.expr | None:
 
 
 def _seconds(file: RclpyFile, call: ast.Call, name: str) -> ast.expr | None:
-    """Return the argument of a function that takes seconds."""
+    """Return the argument in seconds of a function."""
     place, word = _SECONDS[name]
     if name == "sleep" and file.module.qualified_name(call.func) != "time.sleep":
         return None
@@ -219,7 +219,7 @@ def _seconds(file: RclpyFile, call: ast.Call, name: str) -> ast.expr | None:
 
 
 def _words(file: RclpyFile, node: ast.expr) -> frozenset[str]:
-    """Return the words in the names that a value goes by, up to where it is computed."""
+    """Return the words in the names of a value, up to the computation."""
     words: set[str] = set()
     for _ in range(10):
         match node:

@@ -85,7 +85,7 @@ def _is_of_simulation(package: Package, file: RclpyFile) -> bool:
 
 
 def _forced(file: RclpyFile, call: ast.Call) -> ast.expr | None:
-    """Return what switches simulated time on in a call."""
+    """Return the expression in a call that turns simulated time on."""
     if not _PARAMETERS.isdisjoint(file.module.qualified_names(call.func)):
         named = [*call.args[:1], *(x.value for x in call.keywords if x.arg == "name")]
         values = [*call.args[2:3], *(x.value for x in call.keywords if x.arg == "value")]

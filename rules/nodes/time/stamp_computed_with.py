@@ -107,7 +107,7 @@ def _is_flawed(file: RclpyFile, node: ast.AST) -> bool:
 
 
 def _are_stamps(file: RclpyFile, *sides: ast.expr) -> bool:
-    """Return whether one side is a message stamp, and the other a stamp, time or number."""
+    """Return whether one operand is a message stamp, and the other a stamp, time or number."""
     stamps = [_is_stamp(file, side) for side in sides]
     return any(stamps) and all(
         is_stamp or _is_time_or_number(file, side)
@@ -116,7 +116,7 @@ def _are_stamps(file: RclpyFile, *sides: ast.expr) -> bool:
 
 
 def _is_stamp(file: RclpyFile, node: ast.expr) -> bool:
-    """Return whether an expression is, through whatever variable, a message of a time."""
+    """Return whether an expression is a time message, also through variables."""
     value = file.evaluator.single_value(node)
     if _is_time_message(file, value):
         return True

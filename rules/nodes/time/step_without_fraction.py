@@ -188,14 +188,14 @@ class StepWithoutFraction(RclpyRule):
 
 
 def _needs_other_part(file: RclpyFile, node: ast.BinOp, part: str) -> bool:
-    """Tell whether a difference of one part is a step in time, for which both are needed."""
+    """Tell whether a difference of one part is a time step, which needs both parts."""
     if _has_other_part(file, node, part) or not _is_step(file, node):
         return False
     return part != "sec" or not _is_meant_whole(file, node)
 
 
 def _is_part(file: RclpyFile, node: ast.expr, part: str) -> bool:
-    """Return whether an expression is one part of a time, wherever that comes from."""
+    """Return whether an expression is one part of a time, of any origin."""
     verdicts = [_is_plain_part(file, origin, part) for origin in _origins(file, node)]
     return bool(verdicts) and all(x is not False for x in verdicts) and True in verdicts
 
@@ -211,7 +211,7 @@ def _origins(file: RclpyFile, node: ast.expr) -> Sequence[ast.expr]:
 
 
 def _is_plain_part(file: RclpyFile, node: ast.expr, part: str) -> bool | None:
-    """Return whether an expression is one part of a time; ``None`` for a start value."""
+    """Return whether an expression is one part of a time; ``None`` for an initial value."""
     match node:
         case ast.Call(func=ast.Name(id=name), args=[inner]) if name in _WRAPPERS:
             return _is_plain_part(file, inner, part)
@@ -228,7 +228,7 @@ def _is_plain_part(file: RclpyFile, node: ast.expr, part: str) -> bool | None:
 
 
 def _has_other_part(file: RclpyFile, node: ast.AST, part: str) -> bool:
-    """Return whether the function uses the other part of a time as well."""
+    """Return whether the function also uses the other part of the time."""
     function = file.function_of(node) or file.module.tree
     other = _PARTS[1 - _PARTS.index(part)]
     return any(
@@ -251,7 +251,7 @@ def _is_step(file: RclpyFile, node: ast.expr) -> bool:
 
 
 def _is_meant_whole(file: RclpyFile, node: ast.BinOp) -> bool:
-    """Tell whether a number of whole seconds does: compared alone, or each second counts once."""
+    """Tell whether whole seconds are enough: only compared, or counted once per second."""
     match file.module.parent(node):
         case ast.Assign(targets=[ast.Name() | ast.Attribute() as target]):
             tests = [file.module.parent(use) for use in _uses(file, target)]
@@ -270,7 +270,7 @@ def _is_meant_whole(file: RclpyFile, node: ast.BinOp) -> bool:
 
 
 def _uses(file: RclpyFile, target: ast.expr) -> Sequence[ast.Name | ast.Attribute]:
-    """Return where a variable is read; of a local one, in its function."""
+    """Return the reads of a variable; of a local one, in its function."""
     if isinstance(target, ast.Attribute):
         uses: Sequence[ast.Name | ast.Attribute] = file.module.index.attributes(target.attr)
     else:

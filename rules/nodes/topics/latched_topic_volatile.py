@@ -51,12 +51,12 @@ _PROGRAM = (
     "    rclpy.init()\n    teller = Teller()\n    {}\n    teller.tell()\n    rclpy.shutdown()\n"
 )
 _SEEKING = ("get_subscription_count", "count_subscribers", "get_subscriptions_info_by_topic")
-"""What asks whether anybody subscribes."""
+"""Methods that check for subscribers."""
 _WAITING = ("spin", "sleep", "wait", *_SEEKING, "input(", "Thread(", "asyncio")
-"""What programs contain that last longer, or look for subscribers."""
+"""Code in programs that keep running, or wait for subscribers."""
 _LOOPS = (ast.For, ast.While, ast.AsyncFor)
 _MOST_CALLS = 5
-"""Functions between the start of a program and what publishes."""
+"""The maximum number of calls between the entry point and ``publish``."""
 
 
 class LatchedTopicVolatile(RclpyRule):
@@ -245,7 +245,7 @@ class LatchedTopicVolatile(RclpyRule):
 
 
 def _is_late(package: Package, endpoint: Subscription, topic: str) -> bool:
-    """Tell whether all that the package publishes for a volatile subscription is published once."""
+    """Tell whether the package publishes everything for a volatile subscription only once."""
     endpoints = topics_of(package).get(topic)
     if endpoint.qos is None or endpoint.qos.durability != "VOLATILE" or endpoints is None:
         return False
@@ -258,12 +258,12 @@ def _is_late(package: Package, endpoint: Subscription, topic: str) -> bool:
 
 
 def _waits(file: RclpyFile, call: ast.Call) -> bool:
-    """Tell whether a program may last until its message is sent."""
+    """Tell whether a program may run until its message is sent."""
     return file.module.in_tests or file.module.mentions(*_WAITING) or _is_repeated(file, call, 0)
 
 
 def _is_repeated(file: RclpyFile, node: ast.AST, depth: int) -> bool:
-    """Tell whether something is in a loop, or in a function that is called in one or repeatedly."""
+    """Tell whether code is in a loop, or in a function that is called repeatedly."""
     module = file.module
     function = file.function_of(node)
     if any(isinstance(parent, _LOOPS) for parent in module.parents(node)) or depth == _MOST_CALLS:

@@ -205,7 +205,7 @@ class MadeAndUnused(RclpyRule):
 
 
 def _undrawn(package: Package, file: RclpyFile) -> Iterator[ast.Call]:
-    """Yield the first window of a package that shows images and handles no events of windows."""
+    """Yield the first window of a package that shows images but does not process GUI events."""
     if not file.module.mentions("imshow("):
         return
     words = ("waitKey", "pollKey", "startWindowThread")
@@ -219,11 +219,11 @@ def _undrawn(package: Package, file: RclpyFile) -> Iterator[ast.Call]:
 
 
 def _callbacks(file: RclpyFile, class_: NodeClass) -> Iterator[tuple[str, str]]:
-    """Yield the methods named like callbacks that only this package can register, and messages."""
+    """Yield the unregistered methods named like callbacks, with messages."""
     if class_.is_lifecycle or file.module.mentions("getattr(self"):
         return
     if len(class_.node.bases) != 1:
-        return  # a mixin may register what has a certain name
+        return  # a mixin may register methods by name
     for name, method in class_.methods.items():
         takes_message = len(method.args.args) > 1
         is_named = re.search(_NAMES, name) is not None and (
@@ -244,7 +244,7 @@ def _kept_in(file: RclpyFile, call: ast.Call) -> str:
 
 
 def _setups(file: RclpyFile, class_: NodeClass) -> Iterator[tuple[str, str]]:
-    """Yield the methods without arguments that create entities, and messages."""
+    """Yield the uncalled methods without arguments that create entities, with messages."""
     if class_.is_lifecycle or class_.base is not None or len(class_.node.bases) != 1:
         return
     if file.module.mentions("getattr("):
@@ -265,7 +265,7 @@ def _setups(file: RclpyFile, class_: NodeClass) -> Iterator[tuple[str, str]]:
 
 
 def _is_replaced(file: RclpyFile, call: ast.Call, name: str) -> bool:
-    """Tell whether a loop over topics keeps each publisher in the same attribute, and no other."""
+    """Tell whether a loop over topics stores all publishers only in the same attribute."""
     loop = file.module.enclosing(call, ast.For)
     if loop is None or file.function_of(loop) is not file.function_of(call):
         return False

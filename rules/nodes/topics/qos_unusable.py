@@ -147,7 +147,7 @@ class QosUnusable(RclpyRule):
         if entity.has_unknown_arguments or _has_old_keyword(entity.call):
             return None
         if entity.owner is None and entity.name_argument is None:
-            return None  # a method of this name that is not rclpy's
+            return None  # a method of this name of another library
         if entity.argument("qos_profile") is None and entity.qos is None:
             method = "create_publisher" if isinstance(entity, Publisher) else "create_subscription"
             return f"{method}() is missing a depth or a QoS profile: TypeError"
@@ -191,5 +191,5 @@ def _problem_of_word(file: RclpyFile, word: ast.keyword) -> str:
 
 
 def _has_old_keyword(call: ast.Call) -> bool:
-    """Tell whether the depth has the name that it has in ROS 1, which TY004 reports."""
+    """Tell whether the depth has its ROS 1 name, which TY004 reports."""
     return any(word.arg == "queue_size" for word in call.keywords)

@@ -26,7 +26,7 @@ _REGISTER = "        self.sync.registerCallback(self.view)\n\n"
 
 
 _LONG = 5
-"""A slop in seconds from here on is implausible: it may be in milliseconds."""
+"""Seconds; a larger slop is implausible and may be in milliseconds."""
 
 
 class SynchronizerMisused(MessageRule):

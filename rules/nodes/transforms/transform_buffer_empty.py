@@ -118,7 +118,7 @@ class TransformBufferEmpty(RclpyRule):
 
 
 def _is_made_to_ask(file: RclpyFile, made: ast.Call) -> bool:
-    """Return whether a callback makes a buffer in which it looks something up."""
+    """Return whether a callback creates a buffer for its own lookups."""
     function = file.function_of(made)
     return (
         function in phases_of(file).running
@@ -132,7 +132,7 @@ def _is_made_to_ask(file: RclpyFile, made: ast.Call) -> bool:
 
 
 def _is_only_asked(package: Package, file: RclpyFile, made: ast.Call) -> bool:
-    """Return whether something is looked up in a buffer, and nothing else is done with it."""
+    """Return whether a buffer is only used for lookups."""
     attribute, variable = file.stored_in(made)
     uses: list[ast.expr]
     if attribute:

@@ -85,7 +85,7 @@ class TransformErrorUncaught(RclpyRule):
 
 
 def _asks_first(file: RclpyFile, lookup: Lookup) -> bool:
-    """Return whether a condition asks for the transform before it is looked up."""
+    """Return whether a condition checks the transform before it is looked up."""
     return any(
         isinstance(part, ast.Attribute) and "can_transform" in part.attr
         for condition in conditions_on(file.module, lookup.call)
@@ -94,7 +94,7 @@ def _asks_first(file: RclpyFile, lookup: Lookup) -> bool:
 
 
 def _caught_outside(file: RclpyFile, function: FunctionNode) -> frozenset[str]:
-    """Return what callers of a function in the file catch around any call of it."""
+    """Return the exceptions that callers of a function in the file catch."""
     result: frozenset[str] = frozenset()
     seen = {function}
     pending = [function]

@@ -107,7 +107,7 @@ def _is_now(file: RclpyFile, node: ast.expr) -> bool:
 
 
 def _has_timeout(file: RclpyFile, lookup: Lookup) -> bool:
-    """Return whether a timeout is given that may be more than 0."""
+    """Return whether a timeout is passed that may be greater than 0."""
     given = lookup.arguments.get("timeout")
     if given is None:
         return any(word.arg is None for word in lookup.call.keywords)

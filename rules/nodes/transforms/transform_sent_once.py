@@ -124,7 +124,7 @@ class TransformSentOnce(RclpyRule):
 
 
 def _frame(file: RclpyFile, call: ast.Call) -> str | None:
-    """Return the child frame of the transform that a call sends; ``None`` if that is not known."""
+    """Return the child frame of the transform that a call sends; ``None`` if unknown."""
     sent, function = _sent(file, call)
     match sent:
         case ast.Name(id=name):
@@ -141,7 +141,7 @@ def _frame(file: RclpyFile, call: ast.Call) -> str | None:
 
 
 def _sent(file: RclpyFile, call: ast.Call) -> tuple[ast.expr | None, ast.AST | None]:
-    """Return what a call sends, and the function that makes it: maybe another one of the file."""
+    """Return the sent value of a call, and the function that creates it."""
     match call:
         case ast.Call(args=[ast.Call() as inner], keywords=[]):
             function = file.callback(inner.func).function

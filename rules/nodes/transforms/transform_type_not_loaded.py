@@ -9,7 +9,7 @@ from scaffold.api.messages import MessageTypes
 from scaffold.api.rclpy import CONVERSIONS, lookups_in
 
 _MODULES = {"geometry_msgs": "tf2_geometry_msgs", "sensor_msgs": "tf2_sensor_msgs"}
-"""The modules that load the conversions for the messages of packages."""
+"""The modules with the conversions for the messages of packages."""
 _NODE = (
     "from geometry_msgs.msg import PointStamped\nfrom rclpy.node import Node\n{}"
     "from tf2_ros import Buffer, TransformListener\n\n\n"
@@ -96,7 +96,7 @@ def _is_loaded(package: Package, path: str, wanted: str) -> bool:
 
 
 def _together(package: Package, path: str) -> set[str]:
-    """Return the modules that imports connect with a file: one process may run them."""
+    """Return the modules connected with a file by imports: they may run in one process."""
     uses = {
         module.path: {
             part
@@ -118,6 +118,6 @@ def _together(package: Package, path: str) -> set[str]:
 
 
 def _stem(path: str) -> str:
-    """Return the name that imports have for a module."""
+    """Return the name of a module in imports."""
     parts = path.removesuffix(".py").split("/")
     return parts[-2] if parts[-1] == "__init__" and len(parts) > 1 else parts[-1]
