@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -45,6 +46,18 @@ def test_strict_pyright_has_no_findings_in_stubs(workspace: Path) -> None:
     command = [sys.executable, "-m", "basedpyright", "typings/rclpy", "typings/ament_flake8"]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stdout
+
+
+def test_mypy_has_no_findings_in_stubs_of_another_distribution(workspace: Path) -> None:
+    main(["stubs", "--distro", "lyrical"])
+    (workspace / "program.py").write_text(
+        "from rclpy.action import ActionServer\n\nprint(ActionServer.wrong)\n"
+    )
+    command = [sys.executable, "-m", "mypy", "--config-file=", "--strict", "program.py"]
+    environment = {**os.environ, "MYPYPATH": "typings"}
+    done = subprocess.run(command, capture_output=True, text=True, check=False, env=environment)
+    found = [line.partition(": error")[0] for line in done.stdout.splitlines() if ": error" in line]
+    assert found == ["program.py:3"], done.stdout
 
 
 def test_only_changed_stubs_are_rewritten(
