@@ -66,7 +66,9 @@ class DeclaredNotFound(Rule):
         cmake = package.cmake
         if package.build_type != "ament_cmake" or cmake.finds_automatically:
             return
-        if has_unknown_commands(package) or any("${" in find for find in self._finds(package)):
+        if has_unknown_commands(package) or any(
+            "${" in find for find in self._found_names(package)
+        ):
             return
         for dependency in package.manifest.dependencies:
             name = dependency.name
@@ -80,7 +82,7 @@ class DeclaredNotFound(Rule):
                 )
                 yield self.report(dependency, message)
 
-    def _finds(self, package: Package) -> list[str]:
+    def _found_names(self, package: Package) -> list[str]:
         return [value for call in package.cmake.find("find_package") for value in call.values[:1]]
 
     def _arguments(self, package: Package) -> Iterator[str]:

@@ -220,7 +220,7 @@ class FoundUndeclared(Rule):
         for declared in manifest.dependencies:
             kinds.setdefault(declared.name, set()).add(declared.kind)
         only = {name for name, item in kinds.items() if item == {"exec_depend"}}
-        along = _there(package) if only else set()
+        along = _transitive_dependencies(package) if only else set()
         for found_package in package.cmake.found_packages:
             name = found_package.name
             if (
@@ -268,7 +268,7 @@ def _tag(found: FoundPackage) -> str:
     return "buildtool_depend" if is_tool else "build_depend"
 
 
-def _there(package: Package) -> set[str]:
+def _transitive_dependencies(package: Package) -> set[str]:
     """Return the transitive build and test dependencies."""
     manifest = package.manifest
     result: set[str] = set()

@@ -84,10 +84,10 @@ class InterfaceDependencyMissing(Rule):
         for call in generations(package):
             if call.dependencies is None:
                 continue
-            reached = _reached(definitions, call.dependencies)
+            reached = _with_dependencies(definitions, call.dependencies)
             if reached is None:
                 continue
-            for name, path, line in _used(package, call):
+            for name, path, line in _used_packages(package, call):
                 if name not in {*reached, package.name}:
                     message = (
                         f"{path}:{line} uses a type of {name!r}, which is not among the "
@@ -111,7 +111,7 @@ class InterfaceDependencyMissing(Rule):
                     yield self.report(call.command.name_location, message)
 
 
-def _used(package: Package, call: Generation) -> Iterator[tuple[str, str, int]]:
+def _used_packages(package: Package, call: Generation) -> Iterator[tuple[str, str, int]]:
     """Yield each package that the listed files use, with the first place."""
     listed = {file.path for file in call.files}
     seen: set[str] = set()
@@ -124,7 +124,7 @@ def _used(package: Package, call: Generation) -> Iterator[tuple[str, str, int]]:
                     yield name, file.path, field.location.line
 
 
-def _reached(definitions: Definitions, names: list[str]) -> set[str] | None:
+def _with_dependencies(definitions: Definitions, names: list[str]) -> set[str] | None:
     """Return some packages with their dependencies; ``None`` if unknown."""
     result = {"service_msgs", "action_msgs", "builtin_interfaces", "unique_identifier_msgs"}
     pending = [*names]

@@ -139,11 +139,11 @@ class MinimumVersionUnfit(Rule):
     def _check_version(self, cmake: CMakeLists, command: Command) -> Iterator[Diagnostic]:
         match command.arguments:
             case [word, version, *_] if word.value == "VERSION":
-                numbers = _numbers(version.value)
+                numbers = _parsed_version(version.value)
                 if numbers is None:
                     return
-                message, wanted, severity = _verdict(version.value, numbers)
-                own = _numbers(target().fact("cmake"))
+                message, wanted, severity = _problem_and_fix(version.value, numbers)
+                own = _parsed_version(target().fact("cmake"))
                 if own is not None and numbers > own:
                     message = f"{_cmake()} is older than {version.value}: CMake stops"
                     yield self.report(version, message, severity=Severity.ERROR)
@@ -153,15 +153,15 @@ class MinimumVersionUnfit(Rule):
                     yield self.report(version, message, fix, severity=severity)
 
 
-def _verdict(version: str, numbers: tuple[int, int]) -> tuple[str, str, Severity | None]:
+def _problem_and_fix(version: str, numbers: tuple[int, int]) -> tuple[str, str, Severity | None]:
     """Return a message, the version to write and the severity; no message if it is valid."""
     stops = target().fact("build.cmake_minimum_error_below")
     warns = target().fact("build.cmake_minimum_warning_below")
     cmake = _cmake()
-    if stops and numbers < (_numbers(stops) or _OLDEST):
+    if stops and numbers < (_parsed_version(stops) or _OLDEST):
         message = f"{cmake} stops at {version}: it supports {stops} and newer"
         return message, warns, Severity.ERROR
-    if warns and numbers < (_numbers(warns) or _OLDEST):
+    if warns and numbers < (_parsed_version(warns) or _OLDEST):
         message = f"{cmake} warns of {version}, and a later one stops"
         return message, warns, Severity.INFO
     if numbers < _OLDEST:
@@ -174,7 +174,7 @@ def _cmake() -> str:
     return f"CMake {target().fact('cmake').rpartition('.')[0]} of {target().title}"
 
 
-def _numbers(version: str) -> tuple[int, int] | None:
+def _parsed_version(version: str) -> tuple[int, int] | None:
     """Return a version as numbers; ranges are not supported."""
     matched = re.fullmatch(r"(\d{1,9})\.(\d{1,9})(?:\.[\d.]*)?", version)
     if matched is None or ".." in version:

@@ -55,12 +55,12 @@ def _is_number(node: ast.AST) -> bool:
     return isinstance(node, ast.Constant) and type(node.value) in _NUMBERS
 
 
-def _truth(launch: LaunchFile, _: LaunchCall, node: ast.expr) -> Iterator[Flaw]:
+def _judge_condition(launch: LaunchFile, _: LaunchCall, node: ast.expr) -> Iterator[Flaw]:
     """Judge the value of a condition; another rule judges numbers."""
     yield from _text(launch, node, is_number_read=True)
 
 
-def _words(launch: LaunchFile, call: LaunchCall, node: ast.expr) -> Iterator[Flaw]:
+def _judge_words(launch: LaunchFile, call: LaunchCall, node: ast.expr) -> Iterator[Flaw]:
     """Judge a list of command-line words; another rule reports other types."""
     if isinstance(node, ast.List | ast.Tuple):
         yield from _texts(launch, call, node)
@@ -72,7 +72,7 @@ def _command(launch: LaunchFile, call: LaunchCall, node: ast.expr) -> Iterator[F
         yield node, "launch splits a string into letters: write a list of words"
     if not isinstance(node, ast.List) or not node.elts:
         return
-    yield from _words(launch, call, node)
+    yield from _judge_words(launch, call, node)
     first = node.elts[0]
     if isinstance(first, ast.Constant) and isinstance(first.value, str):
         text = first.value.strip()
@@ -218,11 +218,11 @@ _PROCESS: Mapping[str, Judge] = {
 _NODE: Mapping[str, Judge] = {
     **_PROCESS,
     **_of_texts("executable", "package", "name", "namespace", "exec_name"),
-    "arguments": _words,
+    "arguments": _judge_words,
     "output": _output,
     "parameters": _parameters,
     "remappings": _remappings,
-    "ros_arguments": _words,
+    "ros_arguments": _judge_words,
 }
 _ARGUMENTS: Mapping[str, Mapping[str, Judge]] = {
     **dict.fromkeys(NODES, _NODE),
@@ -236,7 +236,7 @@ _ARGUMENTS: Mapping[str, Mapping[str, Judge]] = {
     "ExecuteProcess": {**_PROCESS, "cmd": _command},
     "FindExecutable": _of_texts("name"),
     "FindPackageShare": _of_texts("package"),
-    "IfCondition": {"predicate_expression": _truth},
+    "IfCondition": {"predicate_expression": _judge_condition},
     "IncludeLaunchDescription": {
         **_of_texts("launch_description_source"),
         "launch_arguments": _arguments_of_include,
@@ -252,6 +252,6 @@ _ARGUMENTS: Mapping[str, Mapping[str, Judge]] = {
     "SetRemap": _of_texts("src", "dst"),
     "TextSubstitution": _of_texts("text"),
     "TimerAction": {"period": _period},
-    "UnlessCondition": {"predicate_expression": _truth},
+    "UnlessCondition": {"predicate_expression": _judge_condition},
 }
 """The check of an argument, by class and argument name."""

@@ -204,7 +204,9 @@ class ActionMadeWrongly(LaunchRule):
         for item in entities(launch):
             description = describe(launch, item.node)
             if description and not (item.is_alone and description in _ALONE):
-                message = f"{description}, but {item.taker} takes actions{_hint(description)}"
+                message = (
+                    f"{description}, but {item.taker} takes actions{_replacement(description)}"
+                )
                 yield self.report(launch.location(item.node), message)
         for call in launch.calls:
             listed = call.given.get("composable_node_descriptions")
@@ -242,7 +244,7 @@ def _is_script(launch: LaunchFile, call: LaunchCall) -> bool:
     return isinstance(name, str) and name.endswith(".py") and "/" not in name
 
 
-def _hint(kind: str) -> str:
+def _replacement(kind: str) -> str:
     """Return what to write instead."""
     if kind == "this is a list":
         return ": unpack it with *"

@@ -87,7 +87,7 @@ class FileOfOtherKind(LaunchRule):
     )
 
     def check_file(self, launch: LaunchFile) -> Iterator[Diagnostic]:
-        for at in _reads(launch):
+        for at in _places_reading(launch):
             message = "a xacro file is read without expanding its macros; run xacro in a Command"
             yield self.report(at, message)
         for kind, endings in _ENDINGS.items():
@@ -99,7 +99,7 @@ class FileOfOtherKind(LaunchRule):
                     yield self.report(source, f"{kind} cannot read {name}: {advice}")
 
 
-def _reads(launch: LaunchFile) -> Iterator[Location]:
+def _places_reading(launch: LaunchFile) -> Iterator[Location]:
     """Yield the places that read the text of a xacro file."""
     module = launch.module
     if module.mentions("xacro.process", "xacro.parse", "import xacro"):

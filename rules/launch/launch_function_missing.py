@@ -149,7 +149,7 @@ class LaunchFunctionMissing(LaunchRule):
     ) -> Iterator[Diagnostic]:
         statements = sorted(returned(node), key=lambda item: item.lineno)
         for item in statements:
-            wrong = _wrong(launch, item.value)
+            wrong = _wrong_result(launch, item.value)
             if wrong:
                 message = f"generate_launch_description returns {wrong}, not a LaunchDescription"
                 yield self.report(launch.location(item), message)
@@ -184,7 +184,7 @@ def _loaded_files(package: Package) -> frozenset[str]:
     )
 
 
-def _wrong(launch: LaunchFile, value: ast.expr | None) -> str | None:
+def _wrong_result(launch: LaunchFile, value: ast.expr | None) -> str | None:
     """Return the returned expression, if it is certainly not a LaunchDescription."""
     if value is None or (isinstance(value, ast.Constant) and value.value is None):
         return "None"

@@ -201,19 +201,19 @@ def _callback_problem(launch: LaunchFile, node: ast.expr, count: int) -> str:
     """Return the problem with a function that launch calls with a number of arguments."""
     given = "the event" if count == 1 else "event and context"
     if isinstance(node, ast.Lambda):
-        return "" if _takes(node.args, count) else f"launch calls this with {given}: TypeError"
+        return "" if _accepts(node.args, count) else f"launch calls this with {given}: TypeError"
     called = isinstance(node, ast.Call) and not (node.args or node.keywords)
     function = function_of(launch, node.func if called and isinstance(node, ast.Call) else node)
     if function is None or function.decorator_list:
         return ""
-    if called and not _takes(function.args, 0):
+    if called and not _accepts(function.args, 0):
         return f"{function.name}() is called here: pass the function itself"
-    if not called and not _takes(function.args, count):
+    if not called and not _accepts(function.args, count):
         return f"launch calls {function.name} with {given}: TypeError"
     return ""
 
 
-def _takes(arguments: ast.arguments, count: int) -> bool:
+def _accepts(arguments: ast.arguments, count: int) -> bool:
     """Tell whether a function can be called with this many positional arguments."""
     most = len(arguments.posonlyargs) + len(arguments.args)
     least = most - len(arguments.defaults)

@@ -59,12 +59,12 @@ class NamespaceNotInFile(Rule):
             for named, _ in node.parameter_files:
                 path = installed.get(named, named)
                 file = parameter_file(package, path) if package.has(path) else None
-                message = _complaint(package, node, file) if file is not None else None
+                message = _problem(package, node, file) if file is not None else None
                 if message is not None:
                     yield self.report(node.namespace_location, message)
 
 
-def _complaint(package: Package, node: StartedNode, file: ParameterFile) -> str | None:
+def _problem(package: Package, node: StartedNode, file: ParameterFile) -> str | None:
     full = node.full_name(package) or ""
     if any(section.fits(full) for section in file.sections):
         return None

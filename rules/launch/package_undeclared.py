@@ -184,7 +184,7 @@ class PackageUndeclared(Rule):
             other = next((item for item in manifest.dependencies if item.name == use.name), None)
             if other is not None:
                 message = (
-                    f"{_does(use)} {use.name!r}, and line {other.location.line} of package.xml "
+                    f"{_usage(use)} {use.name!r}, and line {other.location.line} of package.xml "
                     f"declares it only if {other.condition}, which excludes "
                     f"{target().title}; change the condition"
                 )
@@ -193,7 +193,7 @@ class PackageUndeclared(Rule):
             needed = declaring(package, tag, use.name)
             yield self.report(
                 use.location,
-                f"{_does(use)} {use.name!r}, which no dependency in package.xml provides; "
+                f"{_usage(use)} {use.name!r}, which no dependency in package.xml provides; "
                 f"{needed.advice}",
                 needed.fix,
                 severity=severity,
@@ -201,7 +201,7 @@ class PackageUndeclared(Rule):
             )
 
 
-def _does(use: Reference) -> str:
+def _usage(use: Reference) -> str:
     """Return how a launch file uses a package."""
     if use.program:
         return f"runs {use.program!r} of"

@@ -147,13 +147,13 @@ class StaticTransformMisused(Rule):
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         for transform in static_transforms(package):
-            for angle in _angles(transform.words):
+            for angle in _angle_words(transform.words):
                 if _is_beyond_a_turn(angle.text):
                     message = f"angles are in radians: {angle.text} is more than a turn"
                     yield self.report(angle.location, message)
             whole = transform.given if transform.attribute is not None else transform.location
             options = [n for n, word in enumerate(transform.words) if word.text.startswith("--")]
-            for word in _refused(transform.words):
+            for word in _invalid_numbers(transform.words):
                 message = f"{word.text!r} is not a number: {PROGRAM} ends at once"
                 yield self.report(word.location, message)
             if options:
@@ -198,7 +198,7 @@ class StaticTransformMisused(Rule):
             yield self.report(whole, message)
 
 
-def _refused(words: Sequence[Word]) -> Iterator[Word]:
+def _invalid_numbers(words: Sequence[Word]) -> Iterator[Word]:
     """Yield the words that should be numbers but are not."""
     if of_program(PROGRAM).is_removed:
         return  # positional arguments are rejected anyway
@@ -208,7 +208,7 @@ def _refused(words: Sequence[Word]) -> Iterator[Word]:
     yield from (value for value in values if value.is_no_number)
 
 
-def _angles(words: Sequence[Word]) -> Sequence[Word]:
+def _angle_words(words: Sequence[Word]) -> Sequence[Word]:
     """Return the words that are angles."""
     if len(words) == _POSITIONAL[0] and not any(word.text.startswith("--") for word in words):
         return words[3:6]

@@ -87,7 +87,7 @@ def _call_flaws(types: MessageTypes, call: ast.Call) -> Iterator[Flaw]:
 
 def _encoding_problem(types: MessageTypes, node: ast.expr, what_happens: str) -> str:
     value = types.file.evaluator.evaluate(node)
-    meant = _meant(value) if isinstance(value, str) else ""
+    meant = _intended_encoding(value) if isinstance(value, str) else ""
     return f"unknown encoding {value!r}: {what_happens}; write {meant!r}" if meant else ""
 
 
@@ -113,7 +113,7 @@ def _step_problem(types: MessageTypes, holder: ast.expr, step: ast.expr) -> str:
     return ""
 
 
-def _meant(encoding: str) -> str:
+def _intended_encoding(encoding: str) -> str:
     """Return the encoding meant by an unknown one; empty if it may be custom."""
     if encoding in _ENCODINGS or re.fullmatch(r"(8|16|32|64)[USF]C\d+", encoding):
         return ""

@@ -136,7 +136,7 @@ class ColorOrderSwapped(MessageRule):
                 ):
                     name = (module.qualified_name(code) or "").removeprefix("cv2.")
                     wanted = _CODE.fullmatch(name)
-                    order = _order(types, image)
+                    order = _color_order(types, image)
                     if wanted is not None and order == _OTHER[wanted[1]]:
                         message = (
                             f"{image.id!r} is {order}, but {name} takes {wanted[1]}: red and blue "
@@ -156,7 +156,7 @@ def _sent_problem(types: MessageTypes, call: ast.Call, image: ast.Name) -> str:
     wanted = _ORDER.get(_encoding(types, call, "encoding"), "")
     if wanted and _is_gray(types, image):
         return f"{image.id!r} is gray, but is sent as {wanted}: CvBridgeError; write 'mono8'"
-    order = _order(types, image)
+    order = _color_order(types, image)
     if order and wanted and order != wanted:
         return f"{image.id!r} is {order}, but is sent as {wanted}: red and blue are swapped"
     return ""
@@ -206,13 +206,13 @@ _DEEPEST = 5
 """The maximum number of conversions to trace an image through."""
 
 
-def _order(types: MessageTypes, image: ast.Name, depth: int = _DEEPEST) -> str:
+def _color_order(types: MessageTypes, image: ast.Name, depth: int = _DEEPEST) -> str:
     """Return the color order of an image; empty if unknown."""
     if _is_frame(types, image):
         return "BGR"
     passed = _passed(types, image)
     if passed is not None:
-        return _order(types, passed, depth - 1) if depth else ""
+        return _color_order(types, passed, depth - 1) if depth else ""
     made = _value_before(types, image) or types.file.evaluator.single_value(image)
     if not isinstance(made, ast.Call):
         return ""
@@ -251,7 +251,7 @@ def _converted_order(types: MessageTypes, call: ast.Call, depth: int) -> str:
         return ""
     before = ""
     if code.startswith(("COLOR_BGR", "COLOR_RGB")) and isinstance(call.args[0], ast.Name):
-        before = _order(types, call.args[0], depth - 1) if depth else ""
+        before = _color_order(types, call.args[0], depth - 1) if depth else ""
     return _OTHER[before] if before else converted[1]
 
 

@@ -109,7 +109,9 @@ class FieldTypeUnusable(Rule):
         for file in interface_files(package):
             for section in file.definition.sections:
                 for field in section.fields:
-                    message = _flaw(definitions, field.type, str(field.type.element), package.name)
+                    message = _problem(
+                        definitions, field.type, str(field.type.element), package.name
+                    )
                     if message:
                         yield self.report(field.type_location, message)
 
@@ -127,13 +129,13 @@ class FieldTypeUnusable(Rule):
             for type_, at in inner.items():
                 if type_ == name:
                     yield self.report(at, f"message {name!r} contains itself: the build stops")
-                elif name in _reached(held, type_):
+                elif name in _contained_messages(held, type_):
                     message = f"message {name!r} contains {type_!r}, which contains {name!r}: "
                     message += "the build stops"
                     yield self.report(at, message)
 
 
-def _flaw(definitions: Definitions, type_: FieldType, written: str, own: str) -> str | None:
+def _problem(definitions: Definitions, type_: FieldType, written: str, own: str) -> str | None:
     names = definitions.names(type_.package, "msg") if type_.package else None
     if names is None or type_.name in names:
         return None
@@ -149,7 +151,7 @@ def _flaw(definitions: Definitions, type_: FieldType, written: str, own: str) ->
     return f"type {written!r}: {type_.package} has no message {type_.name!r}{hint}"
 
 
-def _reached(held: Mapping[str, Mapping[str, Location]], name: str) -> set[str]:
+def _contained_messages(held: Mapping[str, Mapping[str, Location]], name: str) -> set[str]:
     """Return the messages of the package that a message contains, directly or not."""
     reached: set[str] = set()
     pending = [name]

@@ -339,7 +339,7 @@ class FieldValueUnfit(MessageRule):
                     misfits.is_alike(item) or misfits.is_zero(item) or misfits.is_unreachable(item)
                 )
                 severity = Severity.WARNING if is_harmless else Severity.ERROR
-                message += "" if is_harmless else _consequence(item.field.type.name, problem)
+                message += "" if is_harmless else _effect(item.field.type.name, problem)
                 yield self.report(types.module.location(item.value), message, severity=severity)
 
     def _check_times(self, types: MessageTypes) -> Iterator[Diagnostic]:
@@ -360,7 +360,7 @@ class FieldValueUnfit(MessageRule):
             yield self.report(types.module.location(value), message, fix)
 
 
-def _consequence(type_: str, problem: str) -> str:
+def _effect(type_: str, problem: str) -> str:
     """Return the effect of an int in a field for other numbers, and the replacement."""
     instead = _FOR_INTS.get(type_, "") if problem.endswith(" is an int") else ""
     if not instead:

@@ -202,7 +202,7 @@ def _problems(types: MessageTypes, made: ast.Assign, name: ast.Name) -> Iterator
     if uses is None or not isinstance(made.value, ast.Call):
         return
     words = {word.arg or "": word.value for word in made.value.keywords}
-    actions = {types.module.text(value) for value in _given(types, uses, words, "action")}
+    actions = {types.module.text(value) for value in _field_values(types, uses, words, "action")}
     fields = {types.module.text(use).partition(".")[2] for use in uses} | words.keys()
     if actions <= _ADDING and fields.isdisjoint(_COLORS):
         yield "nothing sets color.a, which is 0 then: RViz does not show this marker"
@@ -211,7 +211,7 @@ def _problems(types: MessageTypes, made: ast.Assign, name: ast.Name) -> Iterator
     loop = _loop_around(types, made)
     if loop is None or not actions <= _ADDING or _ends_early(loop):
         return
-    ids, spaces = (list(_given(types, uses, words, key)) for key in ("id", "ns"))
+    ids, spaces = (list(_field_values(types, uses, words, key)) for key in ("id", "ns"))
     values = [types.file.evaluator.evaluate(value) for value in (*ids, *spaces)]
     if len(ids) <= 1 and len(spaces) <= 1 and all(map(is_known, values)):
         shown = f"the id {values[0]}" if ids else "the id 0"
@@ -339,7 +339,7 @@ def _loop_around(types: MessageTypes, made: ast.Assign) -> ast.For | ast.ListCom
     return next((parent for parent in above if isinstance(parent, ast.For | ast.ListComp)), None)
 
 
-def _given(
+def _field_values(
     types: MessageTypes,
     uses: Sequence[ast.Attribute],
     words: Mapping[str, ast.expr],

@@ -138,7 +138,7 @@ class MessageFieldUnknown(MessageRule):
     def check_file(self, types: MessageTypes) -> Iterator[Diagnostic]:
         yield from self._check_wrapped(types)
         for node in types.module.walk(ast.Attribute):
-            message = _flaw(types, node)
+            message = _problem(types, node)
             if message and not types.is_tolerated(node):
                 start, end = types.module.span(node)
                 at = types.module.source.location(max(start, end - len(node.attr)), end)
@@ -154,7 +154,7 @@ class MessageFieldUnknown(MessageRule):
                 yield self.report(types.module.location(node), message)
 
 
-def _flaw(types: MessageTypes, node: ast.Attribute) -> str | None:
+def _problem(types: MessageTypes, node: ast.Attribute) -> str | None:
     owner = types.type_of(node.value)
     if owner is not None:
         return None if owner.allows(node.attr) else _message(owner, node.attr)

@@ -176,7 +176,7 @@ def _made_once(
 ) -> ast.expr | None:
     """Return the creation of an object that is changed and appended several times."""
     module = types.module
-    made = _maker(types, item)
+    made = _only_value(types, item)
     if not isinstance(made, ast.Call) or types.class_of(made.func) is None:
         return None
     function = module.enclosing_function(call)
@@ -184,7 +184,7 @@ def _made_once(
         loops = [
             parent for parent in module.parents(call) if isinstance(parent, ast.For | ast.While)
         ]
-        if not loops or loops[0] in module.parents(made) or _leaves(loops[0], call):
+        if not loops or loops[0] in module.parents(made) or _ends_after_append(loops[0], call):
             return None
         is_filled = _is_changed(types, loops[0], item) and not _is_emptied(types, loops[0], holder)
         return made if is_filled else None
@@ -197,7 +197,7 @@ def _made_once(
     return made if _is_changed(types, function, item) else None
 
 
-def _maker(types: MessageTypes, item: ast.Name | ast.Attribute) -> ast.expr | None:
+def _only_value(types: MessageTypes, item: ast.Name | ast.Attribute) -> ast.expr | None:
     """Return the only value assigned to a name or an attribute of ``self``."""
     if isinstance(item, ast.Name):
         return types.file.evaluator.single_value(item)
@@ -212,7 +212,7 @@ def _maker(types: MessageTypes, item: ast.Name | ast.Attribute) -> ast.expr | No
     return values[0] if len(values) == 1 and text.startswith("self.") else None
 
 
-def _leaves(loop: ast.For | ast.While, call: ast.Call) -> bool:
+def _ends_after_append(loop: ast.For | ast.While, call: ast.Call) -> bool:
     """Tell whether a loop ends after an element is appended."""
     return any(
         isinstance(node, ast.Break | ast.Return) and node.lineno > call.lineno

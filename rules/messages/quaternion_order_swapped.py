@@ -97,14 +97,18 @@ class QuaternionOrderSwapped(MessageRule):
         for name, order in _TAKES.items():
             for call in types.module.calls_of(name):
                 for given in call.args:
-                    yield from self._compare(types, given, _given(types, given), order, name)
+                    yield from self._compare(
+                        types, given, _order_of_parts(types, given), order, name
+                    )
         for assigned in types.module.walk(ast.Assign):
-            name = _giver(types, assigned.value)
+            name = _creating_function(types, assigned.value)
             for target in assigned.targets if name else ():
-                order = _order(target.elts) if isinstance(target, ast.Tuple | ast.List) else ""
+                order = (
+                    _order_of_names(target.elts) if isinstance(target, ast.Tuple | ast.List) else ""
+                )
                 yield from self._compare(types, target, order, _GIVES[name], name)
         for index in _last_parts(types):
-            name = _giver(types, types.file.evaluator.single_value(index.value))
+            name = _creating_function(types, types.file.evaluator.single_value(index.value))
             number = types.file.evaluator.evaluate(index.slice)
             if name and number in {0, 3}:
                 order = "wxyz" if number == 0 else "xyzw"
@@ -122,19 +126,19 @@ class QuaternionOrderSwapped(MessageRule):
             yield self.report(types.module.location(at), message)
 
 
-def _giver(types: MessageTypes, value: ast.expr) -> str:
+def _creating_function(types: MessageTypes, value: ast.expr) -> str:
     """Return the function that creates a quaternion; empty if unknown."""
     name = types.module.qualified_name(value.func) if isinstance(value, ast.Call) else None
     return name if name in _GIVES else ""
 
 
-def _given(types: MessageTypes, node: ast.expr) -> str:
+def _order_of_parts(types: MessageTypes, node: ast.expr) -> str:
     """Return the order of the parts in a list or tuple."""
     value = types.file.evaluator.single_value(node)
-    return _order(value.elts) if isinstance(value, ast.Tuple | ast.List) else ""
+    return _order_of_names(value.elts) if isinstance(value, ast.Tuple | ast.List) else ""
 
 
-def _order(items: Sequence[ast.expr]) -> str:
+def _order_of_names(items: Sequence[ast.expr]) -> str:
     """Return the last letters of names if they are the components of a quaternion."""
     names = [
         item.attr if isinstance(item, ast.Attribute) else getattr(item, "id", "") for item in items

@@ -101,11 +101,11 @@ class TopicTypeDiffers(Rule):
                 differing = [x for x in others if x.interface != endpoint.interface]
                 if differing:
                     message = f"{name!r} has type {endpoint.interface} here, but"
-                    message = f"{message} {_listed(differing)}: they never connect"
+                    message = f"{message} {_types_with_places(differing)}: they never connect"
                     yield self.report(endpoint.type_location, message, cause=f"types of {name}")
 
 
-def _listed(endpoints: Sequence[NamedEndpoint]) -> str:
+def _types_with_places(endpoints: Sequence[NamedEndpoint]) -> str:
     """Return types with the places that use them: ``std_msgs/msg/Bool in a.py:1, b.py:2``."""
     places: dict[str, list[str]] = {}
     for endpoint in endpoints:

@@ -298,7 +298,7 @@ def _vector(types: MessageTypes, holder: ast.expr) -> tuple[str, str]:
 def _unit(types: MessageTypes, node: ast.expr, depth: int = 0) -> tuple[str, bool]:
     """Return the unit of a value, and whether only its name implies it; empty if unknown."""
     for _ in range(_DEEPEST):
-        inner = _inside(node)
+        inner = _origin(node)
         if inner is None:
             break
         node = inner
@@ -314,7 +314,7 @@ def _unit(types: MessageTypes, node: ast.expr, depth: int = 0) -> tuple[str, boo
     return "", False
 
 
-def _inside(node: ast.expr) -> ast.expr | None:
+def _origin(node: ast.expr) -> ast.expr | None:
     """Return the origin of the value of an expression in the same unit."""
     match node:
         case ast.UnaryOp(operand=inner) | ast.Starred(value=inner):

@@ -444,12 +444,14 @@ class ImportUndeclared(Rule):
             tag = "test_depend" if need.for_tests else "exec_depend"
             tag = "run_depend" if manifest.format == 1 and tag == "exec_depend" else tag
             needed = declaring(package, tag, need.keys[0])
-            message = f"imports {need.module!r}, which {_why(package, need)}; {needed.advice}"
+            message = (
+                f"imports {need.module!r}, which {_why_missing(package, need)}; {needed.advice}"
+            )
             cause = f"dependency {need.keys[0]}"
             yield self.report(need, message, needed.fix, severity=severity, cause=cause)
 
 
-def _why(package: Package, need: requirements.Requirement) -> str:
+def _why_missing(package: Package, need: requirements.Requirement) -> str:
     """Return why a package may be missing where the import runs."""
     for dependency in package.manifest.dependencies:
         if dependency.name in need.keys and dependency.kind.startswith("build"):

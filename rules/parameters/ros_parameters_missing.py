@@ -68,7 +68,7 @@ class RosParametersMissing(Rule):
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         paths = parameter_paths(package)
-        paths += [path for path in self._given(package) if path not in paths]
+        paths += [path for path in self._launched_files(package) if path not in paths]
         for path in paths:
             file = parameter_file(package, path)
             if file is None or not file.misplaced:
@@ -92,7 +92,7 @@ class RosParametersMissing(Rule):
         """Return whether this is a parameter file, not a file of another tool with such a key."""
         return all(entry.node_key is not None and entry.depth == 1 for entry in misplaced)
 
-    def _given(self, package: Package) -> Iterator[str]:
+    def _launched_files(self, package: Package) -> Iterator[str]:
         """Yield the files that launch files pass to nodes."""
         for node in consumers(package):
             for path, _ in node.parameter_files:

@@ -76,7 +76,7 @@ class LicenseClassifier(Rule):
         advice = "remove it" if has_license else "write license='...' instead"
         for item in named:
             is_last = len(named) == len(classifiers.node.elts)
-            edit = _without(setup, item) if has_license and not is_last else None
+            edit = _removal(setup, item) if has_license and not is_last else None
             message = f"setuptools {setuptools} of {target().title} warns of license classifiers"
             fix = Fix("remove the classifier", (edit,)) if edit else None
             yield self.report(setup.module.location(item), f"{message}; {advice}", fix)
@@ -87,7 +87,7 @@ def _is_license(item: ast.expr) -> bool:
     return is_text and str(ast.literal_eval(item)).startswith(_BEGINNING)
 
 
-def _without(setup: SetupPy, item: ast.expr) -> Edit | None:
+def _removal(setup: SetupPy, item: ast.expr) -> Edit | None:
     """Return the edit that removes the lines of an item, if they contain nothing else."""
     start, end = setup.module.span(item)
     text = setup.module.source.text

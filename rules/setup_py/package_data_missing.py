@@ -87,7 +87,7 @@ class PackageDataMissing(Rule):
             return
         at = setup.keyword("package_data") or setup.keyword("packages") or setup
         for file in own_files(package):
-            holder = self._holder(package, file.path)
+            holder = self._owning_package(package, file.path)
             if holder is None or file.path.endswith((".py", ".pyi")):
                 continue
             if any(matches(pattern, [file.path]) for pattern in patterns):
@@ -99,7 +99,7 @@ class PackageDataMissing(Rule):
             )
             yield self.report(at, message)
 
-    def _holder(self, package: Package, path: str) -> str | None:
+    def _owning_package(self, package: Package, path: str) -> str | None:
         """Return the Python package that a file is installed with."""
         directory = path.rpartition("/")[0]
         while directory and not package.has(f"{directory}/__init__.py"):

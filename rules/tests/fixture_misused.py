@@ -128,7 +128,7 @@ class FixtureMisused(Rule):
             if "pytest" not in module.imports_by_root:
                 continue
             for call in module.walk(ast.Call):
-                name = _called(module, call)
+                name = _called_fixture(module, call)
                 if name:
                     message = f"{name} is a fixture: take it as an argument instead of calling it"
                     yield self.report(module.location(call), message)
@@ -193,7 +193,7 @@ def _is_name(node: ast.expr, name: str) -> bool:
     return isinstance(node, ast.Name) and node.id == name
 
 
-def _called(module: PythonModule, call: ast.Call) -> str:
+def _called_fixture(module: PythonModule, call: ast.Call) -> str:
     """Return the name of the called fixture of the same file."""
     if not isinstance(call.func, ast.Name):
         return ""

@@ -86,7 +86,7 @@ def _is_computed(package: Package, module: PythonModule, node: ast.expr, depth: 
         case ast.Attribute(value=value) | ast.Subscript(value=value):
             parts = (value,)
         case ast.BinOp(left=ast.Constant(), right=ast.Constant()):
-            return _differs(node)
+            return _is_inexact(node)
         case ast.BinOp(left=left, right=right):
             parts = (left, right)
         case ast.Name(id=name):
@@ -110,7 +110,7 @@ def _unpacked(module: PythonModule, node: ast.AST) -> ast.expr | None:
     return None
 
 
-def _differs(node: ast.BinOp) -> bool:
+def _is_inexact(node: ast.BinOp) -> bool:
     """Tell whether a sum of numbers is not exact."""
     match node:
         case ast.BinOp(

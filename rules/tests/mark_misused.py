@@ -120,7 +120,7 @@ def _parametrize_problem(module: PythonModule, call: ast.Call) -> str:
         return "there are no values: pytest skips the test"
     count = _count(names)
     for value in values.elts if count > 1 else ():
-        given = _given(module, value)
+        given = _value_count(module, value)
         if given is not None and given != count:
             return f"there are {count} names, and {module.text(value)} has {given} values"
     return ""
@@ -135,7 +135,7 @@ def _count(names: ast.expr | None) -> int:
     return 0
 
 
-def _given(module: PythonModule, value: ast.expr) -> int | None:
+def _value_count(module: PythonModule, value: ast.expr) -> int | None:
     """Return the number of values for one call of the test."""
     items: list[ast.expr] | None = None
     match value:

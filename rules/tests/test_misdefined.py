@@ -60,7 +60,7 @@ class TestMisdefined(Rule):
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         modules = [*package.modules(files_of_tests(package))]
-        taken = {name for module in modules for name in _taken(module)}
+        taken = {name for module in modules for name in _all_parameters(module)}
         for module in modules:
             functions: list[FunctionNode] = [*module.walk(ast.FunctionDef)]
             functions += module.walk(ast.AsyncFunctionDef)
@@ -70,7 +70,7 @@ class TestMisdefined(Rule):
                 if _lacks_self(module, function):
                     message = f"{function.name} is a method without self: TypeError"
                     yield self.report(module.name_location(function), message)
-                for node, name in _given(module, function):
+                for node, name in _parametrized_names(module, function):
                     if name not in taken:
                         message = f"{function.name} takes no argument {name!r}: pytest stops here"
                         yield self.report(module.location(node), message)
@@ -89,7 +89,7 @@ class TestMisdefined(Rule):
                 yield self.report(section.name_location, message)
 
 
-def _taken(module: PythonModule) -> Iterator[str]:
+def _all_parameters(module: PythonModule) -> Iterator[str]:
     """Yield the names of all parameters in a file: fixtures may request others than tests."""
     for arguments in module.walk(ast.arguments):
         for posonlyarg in [*arguments.posonlyargs, *arguments.args, *arguments.kwonlyargs]:
@@ -104,7 +104,9 @@ def _lacks_self(module: PythonModule, function: FunctionNode) -> bool:
     )
 
 
-def _given(module: PythonModule, function: FunctionNode) -> Iterator[tuple[ast.expr, str]]:
+def _parametrized_names(
+    module: PythonModule, function: FunctionNode
+) -> Iterator[tuple[ast.expr, str]]:
     """Yield the parameter names from ``parametrize``, with their places."""
     for decorator in function.decorator_list:
         if not isinstance(decorator, ast.Call) or not decorator.args:

@@ -121,7 +121,7 @@ class TestNeverRun(Rule):
             decorators = function.node.decorator_list
             if function.name.startswith("test") and fixture_decorator(module, function.node):
                 message = f"{function.name} is a fixture, so pytest does not run it as a test"
-            elif has_tests and not decorators and _asserts(function.node, set(fixture_names)):
+            elif has_tests and not decorators and _could_be_test(function.node, set(fixture_names)):
                 message = f"pytest does not run {function.name}: its name does not begin with test"
             else:
                 continue
@@ -174,7 +174,7 @@ def _states(method: FunctionNode) -> bool:
     return False
 
 
-def _asserts(function: FunctionNode, fixture_names: set[str]) -> bool:
+def _could_be_test(function: FunctionNode, fixture_names: set[str]) -> bool:
     """Tell whether a function could be a test: it asserts, and its parameters are fixtures."""
     name, arguments = function.name, {arg.arg for arg in function.args.args}
     if (

@@ -53,7 +53,7 @@ class TestWithoutTests(TestRule):
         if directory not in {"test", "tests"} or not name.startswith("test_"):
             return
         yield from self._check_returns(module)
-        for class_ in _refused(module):
+        for class_ in _skipped_classes(module):
             message = f"pytest does not collect {class_.name}: it has a constructor"
             yield self.report(module.name_location(class_), message)
         if not _has_tests(module) and _asserts(module):
@@ -77,7 +77,7 @@ def _methods(class_: ast.ClassDef) -> set[str]:
     return {node.name for node in class_.body if isinstance(node, ast.FunctionDef)}
 
 
-def _refused(module: PythonModule) -> list[ast.ClassDef]:
+def _skipped_classes(module: PythonModule) -> list[ast.ClassDef]:
     """Return the test classes that pytest skips because of their constructor."""
     return [
         class_.node
@@ -97,7 +97,7 @@ def _has_tests(module: PythonModule) -> bool:
     names = {*module.functions, *module.index.bindings(module.tree)}
     if any(name.startswith(("test", *_LAUNCH)) for name in names):
         return True
-    refused = _refused(module)
+    refused = _skipped_classes(module)
     return any(
         class_.node not in refused
         and (class_.name.startswith("Test") or class_.node.bases or class_.node.decorator_list)

@@ -54,7 +54,7 @@ def _missing(finding: TypeFinding) -> str:
     if any(word.arg == _OF_ROS1 for call in _calls(finding) for word in call.keywords):
         return ""  # the misnamed depth is passed, which is reported
     names = [repr(name) for name in re.findall(r"`(\w+)`", matched["names"])]
-    return f"{_shown(matched['callee'])} lacks {' and '.join(names)}"
+    return f"{_call_text(matched['callee'])} lacks {' and '.join(names)}"
 
 
 def _too_many(finding: TypeFinding) -> str:
@@ -69,7 +69,7 @@ def _too_many(finding: TypeFinding) -> str:
     takes = f"{most} positional {arguments} at most" if most else "no positional argument"
     names = keywords(finding.package, matched["callee"])
     hint = f" (as keywords: {', '.join(names)})" if names else ""
-    return f"{_shown(matched['callee'])} takes {takes}, not {count}{hint}"
+    return f"{_call_text(matched['callee'])} takes {takes}, not {count}{hint}"
 
 
 def _too_many_to_log(finding: TypeFinding) -> str:
@@ -101,10 +101,10 @@ def _unknown(finding: TypeFinding) -> str:
     callee = matched["callee"]
     names = [*parameters(finding.package, callee), *keywords(finding.package, callee)]
     if _depth(finding) is not None:
-        return f"{_shown(callee)} has no argument {_OF_ROS1!r}, which is qos_profile= in ROS 2"
+        return f"{_call_text(callee)} has no argument {_OF_ROS1!r}, which is qos_profile= in ROS 2"
     closest = closest_name(finding.package, matched["name"], names, 0.6)
     hint = f" (did you mean {closest!r}?)" if closest else ""
-    return f"{_shown(callee)} has no argument {matched['name']!r}{hint}"
+    return f"{_call_text(callee)} has no argument {matched['name']!r}{hint}"
 
 
 def outcome(finding: TypeFinding) -> str:
@@ -119,7 +119,7 @@ def _repeated(finding: TypeFinding) -> str:
     matched = finding.match(rf"Multiple values provided for parameter `(?P<name>\w+)` of {_CALLEE}")
     if matched is None:
         return ""
-    return f"{_shown(matched['callee'])} gets {matched['name']!r} twice"
+    return f"{_call_text(matched['callee'])} gets {matched['name']!r} twice"
 
 
 def _of_no_overload(finding: TypeFinding) -> str:
@@ -128,10 +128,10 @@ def _of_no_overload(finding: TypeFinding) -> str:
     if matched is None or call is None:
         return ""
     problem = overload_problem(finding.package, matched["callee"], call)
-    return f"{_shown(matched['callee'])} {problem}" if problem else ""
+    return f"{_call_text(matched['callee'])} {problem}" if problem else ""
 
 
-def _shown(callee: str) -> str:
+def _call_text(callee: str) -> str:
     """Return a call as text: ``create_timer()``, ``TransformListener()``."""
     owner, _, method = callee.rpartition(".")
     name = owner if method in {"__init__", "__new__"} else method
@@ -177,14 +177,14 @@ def _as_keyword(finding: TypeFinding, names: Sequence[str], bound: int) -> Fix |
     call = finding.enclosing_call
     if call is None or matched is None or len(call.args) != int(matched["most"]) - bound + 1:
         return None
-    name = _meant(finding, call.args[-1], names)
+    name = _intended_parameter(finding, call.args[-1], names)
     if not name or any(word.arg in {name, None} for word in call.keywords):
         return None
     start, _ = finding.module.span(call.args[-1])
     return Fix(f"pass it as {name}=", (Edit(finding.path, start, start, f"{name}="),))
 
 
-def _meant(finding: TypeFinding, node: ast.expr, names: Sequence[str]) -> str:
+def _intended_parameter(finding: TypeFinding, node: ast.expr, names: Sequence[str]) -> str:
     """Return the name of the parameter that a value is meant for; empty if uncertain."""
     match node:
         case ast.Name(id=name) if name in names:

@@ -620,7 +620,7 @@ class AttributeMissing(TypeRule):
             return None
         shown, names = object_
         method = shown.rpartition(".")[2] if METHOD.fullmatch(owner) else ""
-        hint = f"; write [{name!r}]" if is_entry else _instead(shown, name, method)
+        hint = f"; write [{name!r}]" if is_entry else _replacement(shown, name, method)
         closest = "" if hint else closest_name(finding.package, name, names - {name}, 0.6)
         if closest:
             hint = f"; did you mean {closest!r}?"
@@ -649,7 +649,7 @@ def _is_named(finding: TypeFinding, name: str, owner: str) -> bool:
     )
 
 
-def _instead(shown: str, name: str, method: str) -> str:
+def _replacement(shown: str, name: str, method: str) -> str:
     """Return the replacement, if it is not another name of the same object."""
     if method:
         return f"; write {method}()"

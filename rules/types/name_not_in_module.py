@@ -130,7 +130,7 @@ class NameNotInModule(TypeRule):
         if module == "collections" and name in collections.abc.__all__:
             fix = self._fix(finding)
             return self.report(finding, f"{message}; it is in 'collections.abc'", fix)
-        return self.report(finding, f"{message}{_instead(finding.package, module, name)}")
+        return self.report(finding, f"{message}{_replacement(finding.package, module, name)}")
 
     def _fix(self, finding: TypeFinding) -> Fix | None:
         for node in finding.module.walk(ast.ImportFrom):
@@ -145,7 +145,7 @@ class NameNotInModule(TypeRule):
         return None
 
 
-def _instead(package: Package, module: str, name: str) -> str:
+def _replacement(package: Package, module: str, name: str) -> str:
     """Return the import to use instead: the same name from elsewhere, or a similar name."""
     change = removed_interface(f"{module}.{name}".replace(".", "/"))
     if change is not None:

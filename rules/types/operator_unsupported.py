@@ -183,7 +183,7 @@ class OperatorUnsupported(TypeRule):
         if not any(classes) or not all(map(is_certain, types)):
             return None
         pair = " and ".join(dict.fromkeys(map(in_words, types)))
-        hints = [_hint(full_name(class_), operator) for class_ in classes if class_]
+        hints = [_replacement(full_name(class_), operator) for class_ in classes if class_]
         hint = next(filter(None, hints), "")
         message = f"{operator!r} does not work on {pair}: TypeError"
         return self.report(finding, f"{message}; {hint}" if hint else message)
@@ -206,7 +206,7 @@ def _on_plain(operator: str, words: Sequence[str]) -> str:
     return f"{operator!r} does not work on {pair}: TypeError{hint}"
 
 
-def _hint(class_: str, operator: str) -> str:
+def _replacement(class_: str, operator: str) -> str:
     """Return the replacement for an operator on an object of a class."""
     if class_ not in _TIMES:
         return _INSTEAD.get(class_, "")

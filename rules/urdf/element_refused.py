@@ -236,7 +236,7 @@ class ElementRefused(Rule):
                 others = [name for name in part.attributes if name not in names]
                 suggestions = [closest_name(package, name, others, 0.6) for name in missing]
                 hint = "".join(f"; {closest!r} is not read" for closest in suggestions if closest)
-                which = f"<{part.tag}> has no {_listed(missing)}"
+                which = f"<{part.tag}> has no {_or_list(missing)}"
                 yield self.report(part, f"{which}: urdfdom rejects the whole file{hint}")
         for path in robot_paths(package):
             try:
@@ -286,7 +286,7 @@ class ElementRefused(Rule):
                 yield self.report(part, message)
             for name, value in part.attributes.items():
                 count = _COUNTS.get((part.tag, name))
-                if count and is_known(value) and not _fits(value, count):
+                if count and is_known(value) and not _has_numbers(value, count):
                     numbers = "a number" if count == 1 else f"{count} numbers with spaces between"
                     message = (
                         f"{name} is {value!r}, but must be {numbers}: urdfdom rejects the whole "
@@ -295,7 +295,7 @@ class ElementRefused(Rule):
                     yield self.report(part.at(name), message)
 
 
-def _listed(names: Sequence[str]) -> str:
+def _or_list(names: Sequence[str]) -> str:
     """Return names as in a sentence: ``'ixx', 'iyy' or 'izz'``."""
     *others, last = [repr(name) for name in names]
     return f"{', '.join(others)} or {last}" if others else last
@@ -316,7 +316,7 @@ def _missing(element: Element) -> list[str]:
     return [name for name in names if element.get(name) is None]
 
 
-def _fits(value: str, count: int) -> bool:
+def _has_numbers(value: str, count: int) -> bool:
     """Tell whether a text consists of this many numbers."""
     words = value.split()
     try:

@@ -245,7 +245,7 @@ def _shown(callback: Callback) -> str:
 def _given_callbacks(file: RclpyFile) -> Iterator[tuple[tuple[tuple[int, ...], str], Callback]]:
     """Yield the callbacks of a file, each with the arguments it gets."""
     for entity, callback in file.callbacks:
-        given = _given(entity)
+        given = _argument_counts(entity)
         if given is not None:
             yield from ((given, item) for item in alternatives(file, callback))
     for attribute in file.module.index.attributes("add_done_callback"):
@@ -255,7 +255,7 @@ def _given_callbacks(file: RclpyFile) -> Iterator[tuple[tuple[tuple[int, ...], s
                     yield ((1,), "a future passes itself: TypeError"), file.callback(passed)
 
 
-def _given(entity: Entity) -> tuple[tuple[int, ...], str] | None:
+def _argument_counts(entity: Entity) -> tuple[tuple[int, ...], str] | None:
     """Return the possible numbers of arguments of a callback, and their description."""
     if isinstance(entity, Subscription):
         return (1, 2), "a subscription passes the message: RuntimeError"

@@ -436,7 +436,7 @@ def _returns_nothing(function: ast.FunctionDef) -> bool:
     return is_plain and does_something and may_end(function) and not returned(function)
 
 
-def _plain(types: MessageTypes, value: ast.expr) -> str:
+def _not_a_message(types: MessageTypes, value: ast.expr) -> str:
     """Describe a returned value that is certainly not a message; empty for others."""
     match value:
         case ast.Constant(value=constant):
@@ -454,7 +454,7 @@ def _wrong_response(types: MessageTypes, service: Service, value: ast.expr | Non
     """Describe a returned value that is certainly not the response; empty for others."""
     if value is None:
         return "nothing"
-    plain = _plain(types, value)
+    plain = _not_a_message(types, value)
     if plain:
         return plain
     field = types.field_type_of(value)

@@ -207,14 +207,14 @@ def _is_taken_by_call(file: RclpyFile, node: ast.AST, lock: ast.expr) -> bool:
             return False
     if not isinstance(function, ast.FunctionDef):
         return False
-    return any(_takes(file, inner, lock) for inner in file.reached(function))
+    return any(_acquires(file, inner, lock) for inner in file.reached(function))
 
 
 def _is_property(function: ast.FunctionDef) -> bool:
     return any(isinstance(x, ast.Name) and x.id == "property" for x in function.decorator_list)
 
 
-def _takes(file: RclpyFile, function: FunctionNode | ast.Lambda, lock: ast.expr) -> bool:
+def _acquires(file: RclpyFile, function: FunctionNode | ast.Lambda, lock: ast.expr) -> bool:
     """Return whether a function unconditionally acquires a lock before releasing it."""
     released = [
         func.lineno
@@ -223,11 +223,13 @@ def _takes(file: RclpyFile, function: FunctionNode | ast.Lambda, lock: ast.expr)
     ]
     return any(
         _is_taken(file, node, lock) and not any(line < node.lineno for line in released)
-        for node in _own(file, function)
+        for node in _unconditional(file, function)
     )
 
 
-def _own(file: RclpyFile, function: FunctionNode | ast.Lambda) -> Iterator[ast.With | ast.Call]:
+def _unconditional(
+    file: RclpyFile, function: FunctionNode | ast.Lambda
+) -> Iterator[ast.With | ast.Call]:
     """Yield the unconditional blocks and calls of a function."""
     for node in file.module.below(function, ast.With):
         if file.function_of(node) is function and not file.is_conditional(node):

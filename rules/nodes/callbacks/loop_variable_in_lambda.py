@@ -63,7 +63,7 @@ def _late_name(file: RclpyFile, function: ast.Lambda) -> str:
     for parent in file.module.parents(function):
         if isinstance(parent, ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda):
             break
-        if isinstance(parent, ast.For) and not _leaves(parent):
+        if isinstance(parent, ast.For) and not _may_end_early(parent):
             names = {node.id for node in ast.walk(parent.target) if isinstance(node, ast.Name)}
             late = sorted((names & read) - given)
             if late:
@@ -71,6 +71,6 @@ def _late_name(file: RclpyFile, function: ast.Lambda) -> str:
     return ""
 
 
-def _leaves(loop: ast.For) -> bool:
+def _may_end_early(loop: ast.For) -> bool:
     """Return whether a loop may end in its first iteration."""
     return any(isinstance(node, ast.Break | ast.Return) for node in ast.walk(loop))

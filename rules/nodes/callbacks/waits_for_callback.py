@@ -304,7 +304,7 @@ def _waits(file: RclpyFile, executed: Executed) -> Iterator[tuple[ast.expr | ast
                 is_for_good = is_event and (not _is_limited(node) or _is_asked(file, node))
                 if is_for_good and not _is_in_spinning_loop(file, node):
                     yield node, {name}
-            case ast.While() if not _leaves(node):
+            case ast.While() if not _may_end(node):
                 names = attributes_asked(file, node)
                 if names:
                     yield node, names
@@ -325,7 +325,7 @@ def _is_asked(file: RclpyFile, call: ast.Call) -> bool:
     return False
 
 
-def _leaves(loop: ast.While) -> bool:
+def _may_end(loop: ast.While) -> bool:
     """Return whether a loop may end by itself, or lets callbacks run."""
     return any(
         isinstance(node, ast.Break | ast.Return | ast.Raise | ast.Yield | ast.Await) or _spins(node)

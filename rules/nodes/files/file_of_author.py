@@ -72,7 +72,7 @@ class FileOfAuthor(RclpyRule):
                 yield self.report(module.location(call.args[0]), message)
             elif (
                 module.qualified_name(call.func) == "open"
-                and _reads(call)
+                and _opens_for_reading(call)
                 and _is_in(package, text)
             ):
                 message = (
@@ -82,7 +82,7 @@ class FileOfAuthor(RclpyRule):
                 yield self.report(module.location(call.args[0]), message)
 
 
-def _reads(call: ast.Call) -> bool:
+def _opens_for_reading(call: ast.Call) -> bool:
     """Return whether ``open`` reads: it has no mode, or a literal mode for reading."""
     modes = [*call.args[1:2], *(word.value for word in call.keywords if word.arg == "mode")]
     return all(isinstance(mode, ast.Constant) and str(mode.value)[:1] == "r" for mode in modes)

@@ -128,7 +128,7 @@ class ParameterDeclaredWrongly(RclpyRule):
 
     def _check_made(self, file: RclpyFile) -> Iterator[Diagnostic]:
         made = (_made(file, call) for call in file.module.calls_of(PARAMETER, "rclpy.Parameter"))
-        for node, problem in (*chain.from_iterable(made), *_listed(file)):
+        for node, problem in (*chain.from_iterable(made), *_without_default(file)):
             yield self.report(file.module.location(node), problem)
 
 
@@ -170,7 +170,7 @@ def _descriptor_problem(file: RclpyFile, parameter: Parameter, node: ast.expr) -
     return ""
 
 
-def _listed(file: RclpyFile) -> Iterator[tuple[ast.AST, str]]:
+def _without_default(file: RclpyFile) -> Iterator[tuple[ast.AST, str]]:
     """Yield the first parameter of each list that has no default."""
     for called in file.module.index.attributes("declare_parameters"):
         call = file.module.parent(called)

@@ -193,7 +193,7 @@ class ParameterValueUnfit(RclpyRule):
             problem = _never_equal(package, file, comparison)
             if problem:
                 yield self.report(file.module.location(comparison), problem)
-        for node, problem in _truths(package, file):
+        for node, problem in _text_conditions(package, file):
             yield self.report(file.module.location(node), problem)
 
     def _check_fields(self, package: Package, file: RclpyFile) -> Iterator[Diagnostic]:
@@ -257,7 +257,7 @@ def _operand(
     return ""
 
 
-def _truths(package: Package, file: RclpyFile) -> Iterator[tuple[ast.expr, str]]:
+def _text_conditions(package: Package, file: RclpyFile) -> Iterator[tuple[ast.expr, str]]:
     """Yield conditions on a string parameter with a default such as ``'false'``."""
     branches: list[ast.If | ast.IfExp] = [*file.module.walk(ast.If), *file.module.walk(ast.IfExp)]
     for branch in branches:

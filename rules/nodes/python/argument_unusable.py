@@ -190,7 +190,7 @@ class ArgumentUnusable(RclpyRule):
 
     def _check_order(self, file: RclpyFile) -> Iterator[Diagnostic]:
         for entity in file.entities:
-            wanted = self._wanted(file, entity)
+            wanted = self._swapped_arguments(file, entity)
             if wanted:
                 first, second = entity.call.args[:2]
                 path = file.module.path
@@ -201,7 +201,7 @@ class ArgumentUnusable(RclpyRule):
                 at = file.module.location(first)
                 yield self.report(at, wanted, Fix("swap the arguments", edits))
 
-    def _wanted(self, file: RclpyFile, entity: Entity) -> str | None:
+    def _swapped_arguments(self, file: RclpyFile, entity: Entity) -> str | None:
         """Return the message if the first two arguments are certainly swapped."""
         if len(entity.call.args) < 2:  # noqa: PLR2004  the two that may be swapped
             return None

@@ -101,7 +101,7 @@ class AttributeOfNodeReplaced(RclpyRule):
                 subject = f"{target.attr!r} is an attribute of rclpy's Node"
                 yield self.report(at, f"{subject}: {effect}; choose another name")
             for name, method in node.methods.items():
-                if _breaks(name, method):
+                if _breaks_node(name, method):
                     at = file.module.name_location(method)
                     message = (
                         f"{name!r} overrides an attribute of rclpy's Node; choose another name"
@@ -128,7 +128,7 @@ class AttributeOfNodeReplaced(RclpyRule):
                 yield self.report(at, message, severity=Severity.WARNING)
 
 
-def _breaks(name: str, method: FunctionNode) -> bool:
+def _breaks_node(name: str, method: FunctionNode) -> bool:
     """Return whether a method overrides an attribute of Node in a way rclpy cannot use."""
     if name in _LISTS:
         return not method.decorator_list

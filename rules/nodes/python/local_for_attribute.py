@@ -66,7 +66,7 @@ class LocalForAttribute(RclpyRule):
             return
         for class_ in file.classes:
             for method in class_.methods.values():
-                for name in _forgotten(file, class_, method):
+                for name in _only_logged(file, class_, method):
                     if not is_used_elsewhere(package, file, name.id):
                         message = (
                             f"{name.id!r} is a local variable, which ends with {method.name}(): "
@@ -75,7 +75,7 @@ class LocalForAttribute(RclpyRule):
                         yield self.report(file.module.location(name), message)
 
 
-def _forgotten(file: RclpyFile, class_: NodeClass, method: ast.AST) -> Iterator[ast.Name]:
+def _only_logged(file: RclpyFile, class_: NodeClass, method: ast.AST) -> Iterator[ast.Name]:
     """Yield the first assignments of local names that a method only logs."""
     names: dict[str, list[ast.Name]] = {}
     for name in file.module.below(method, ast.Name):

@@ -173,7 +173,7 @@ class EndlessLoop(RclpyRule):
     def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
         seen: set[ast.AST] = set()
         for executed in (*in_constructors(file), *in_callbacks(file), *in_tasks(file)):
-            for loop in _endless(file, executed):
+            for loop in _endless_loops(file, executed):
                 if loop not in seen and blocks_node(file, executed):
                     seen.add(loop)
                     message = f"endless loop: {executed.origin} never returns; use a timer"
@@ -190,11 +190,11 @@ def _is_in_emergency(file: RclpyFile, loop: ast.While) -> bool:
     return any(map(_EMERGENCY.search, names))
 
 
-def _endless(file: RclpyFile, executed: Executed) -> Iterator[ast.While]:
+def _endless_loops(file: RclpyFile, executed: Executed) -> Iterator[ast.While]:
     for loop in file.module.below(executed.function, ast.While):
         if file.function_of(loop) is not executed.function:
             continue
-        if _is_endless(file, loop.test) and not any(_leaves(node) for node in ast.walk(loop)):
+        if _is_endless(file, loop.test) and not any(_may_end(node) for node in ast.walk(loop)):
             yield loop
 
 
@@ -204,7 +204,7 @@ def _is_endless(file: RclpyFile, test: ast.expr) -> bool:
     return isinstance(test, ast.Call) and file.module.qualified_name(test.func) == "rclpy.ok"
 
 
-def _leaves(node: ast.AST) -> bool:
+def _may_end(node: ast.AST) -> bool:
     """Return whether a node may end a loop or let callbacks run in it."""
     match node:
         case ast.Break() | ast.Return() | ast.Raise() | ast.Yield() | ast.Await():

@@ -62,7 +62,7 @@ class MainGuardMissing(Rule):
             if problem is not None:
                 yield self.report(*problem)
                 continue
-            if module.has_main_guard or "main(" in self._rest(module.source.text):
+            if module.has_main_guard or "main(" in self._without_definition(module.source.text):
                 continue
             end = len(module.source.text)
             text = _GUARD if module.source.text.endswith("\n") else f"\n{_GUARD}"
@@ -83,7 +83,7 @@ class MainGuardMissing(Rule):
                         return module.location(body[0]), "'main' is not called here; write main()"
         return None
 
-    def _rest(self, text: str) -> str:
+    def _without_definition(self, text: str) -> str:
         return text.replace("def main(", "")
 
 

@@ -108,7 +108,7 @@ def _follows(file: RclpyFile, call: RclpyCall, spin: RclpyCall) -> bool:
         block, number = file.module.index.place(parent)
         other, later = file.module.index.place(statement)
         is_same = file.module.parent(parent) is file.module.parent(statement) and block == other
-        return is_same and later > number and not any(map(_leaves, ast.walk(handlers[0])))
+        return is_same and later > number and not any(map(_leaves_function, ast.walk(handlers[0])))
     return False
 
 
@@ -121,7 +121,7 @@ def _catches_interrupt(file: RclpyFile, handler: ast.ExceptHandler) -> bool:
     return not names.isdisjoint({"KeyboardInterrupt", "BaseException"})
 
 
-def _leaves(node: ast.AST) -> bool:
+def _leaves_function(node: ast.AST) -> bool:
     match node:
         case ast.Return() | ast.Raise() | ast.Name(id="exit" | "quit"):
             return True

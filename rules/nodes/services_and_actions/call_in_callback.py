@@ -287,7 +287,7 @@ def _waiting(package: Package, path: str) -> frozenset[str]:
         function.name
         for function in module.function_nodes
         for loop in module.below(function, ast.While)
-        for asked in [_asked(loop.test)]
+        for asked in [_pending_future(loop.test)]
         if asked and not _ends_at_once(module, loop) and "spin" not in ast.unparse(loop)
         for assigned in module.below(function, ast.Assign)
         if ast.unparse(assigned.targets[0]) == asked
@@ -296,7 +296,7 @@ def _waiting(package: Package, path: str) -> frozenset[str]:
     )
 
 
-def _asked(test: ast.expr) -> str:
+def _pending_future(test: ast.expr) -> str:
     match test:
         case ast.UnaryOp(op=ast.Not(), operand=ast.Call(func=ast.Attribute(attr="done") as done)):
             return ast.unparse(done.value)

@@ -97,7 +97,7 @@ class FutureReadTooEarly(RclpyRule):
 
     def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
         for function in file.module.function_nodes:
-            for read, text in _unasked(file, function):
+            for read, text in _unchecked_reads(file, function):
                 message = f"{text} may be None here: the wait has a timeout; check done() first"
                 yield self.report(file.module.location(read), message, severity=Severity.WARNING)
             for name, line in _futures(file.module, function).items():
@@ -106,7 +106,7 @@ class FutureReadTooEarly(RclpyRule):
                 for call in file.calls_in(function):
                     if call.lineno < line:
                         continue  # another future, passed to a done callback
-                    if self._reads(file, call, name) and not _is_asked(file, call, name):
+                    if self._reads_result(file, call, name) and not _is_asked(file, call, name):
                         at = file.module.location(call)
                         message = f"{name!r} is not done here: result() returns None; "
                         message += "use add_done_callback()"
@@ -114,7 +114,7 @@ class FutureReadTooEarly(RclpyRule):
                         severity = Severity.WARNING if is_dropped and not call.args else None
                         yield self.report(at, message, severity=severity)
 
-    def _reads(self, file: RclpyFile, call: ast.Call, name: str) -> bool:
+    def _reads_result(self, file: RclpyFile, call: ast.Call, name: str) -> bool:
         match call.func:
             case ast.Attribute(value=ast.Name(id=owner), attr="result"):
                 return owner == name
@@ -134,7 +134,7 @@ class FutureReadTooEarly(RclpyRule):
         )
 
 
-def _unasked(file: RclpyFile, function: FunctionNode) -> Iterator[tuple[ast.expr, str]]:
+def _unchecked_reads(file: RclpyFile, function: FunctionNode) -> Iterator[tuple[ast.expr, str]]:
     """Yield fields of results that are read after a wait with a timeout, without a check."""
     for call in file.calls_in(function):
         match call.func:

@@ -152,7 +152,7 @@ class GoalNeverCanceled(RclpyRule):
     def _check_unasked(self, file: RclpyFile) -> Iterator[Diagnostic]:
         """Check a file that never reads ``is_cancel_requested``."""
         for server in file.action_servers if not file.module.in_tests else ():
-            work = _work(file, server)
+            work = _execution(file, server)
             kept = _kept_on_cancel(file, server)
             used = (item for node in work for item in file.module.below(node, ast.Attribute))
             if any(item.attr in kept for item in used):
@@ -189,7 +189,7 @@ def _kept_on_cancel(file: RclpyFile, server: ActionServer) -> frozenset[str]:
     return frozenset(names)
 
 
-def _work(file: RclpyFile, server: ActionServer) -> list[FunctionNode | ast.Lambda]:
+def _execution(file: RclpyFile, server: ActionServer) -> list[FunctionNode | ast.Lambda]:
     """Return the execute callback and its callees; empty if it may yield to other callbacks."""
     function = server.callback.function if server.callback else None
     if function is None or _gives_way(file, function):
@@ -205,7 +205,7 @@ def _gives_way(file: RclpyFile, function: FunctionNode | ast.Lambda) -> bool:
 
 
 def _where_asked(file: RclpyFile, server: ActionServer) -> ast.Attribute | None:
-    work = _work(file, server)
+    work = _execution(file, server)
     for asked in file.module.index.attributes("is_cancel_requested"):
         if file.function_of(asked) in work:
             return asked
@@ -222,7 +222,7 @@ def _has_cancel_callback(file: RclpyFile, server: ActionServer) -> bool:
 
 def _waits(file: RclpyFile, server: ActionServer) -> bool:
     """Return whether the work on a goal takes time: it waits in a loop."""
-    for function in _work(file, server):
+    for function in _execution(file, server):
         for call in file.calls_in(function):
             func = call.func
             name = func.attr if isinstance(func, ast.Attribute) else getattr(func, "id", "")

@@ -141,7 +141,7 @@ class GoalNeverSucceeds(RclpyRule):
         if file.module.index.attributes("succeed"):
             return
         for server in file.action_servers:
-            function = _work(file, server)
+            function = _execute_callback(file, server)
             if function is not None and function not in seen:
                 seen.add(function)
                 if _leaves_open(function):
@@ -171,7 +171,7 @@ class GoalNeverSucceeds(RclpyRule):
 def _returned_uncanceled(file: RclpyFile) -> Iterator[ast.Return]:
     """Yield the returns of an execute callback after a cancel request without ``canceled()``."""
     for server in file.action_servers:
-        function = _work(file, server)
+        function = _execute_callback(file, server)
         if function is None or any(x.finalbody for x in file.module.below(function, ast.Try)):
             continue
         for test in file.module.below(function, ast.If):
@@ -197,7 +197,7 @@ def _ends_in(file: RclpyFile, body: list[ast.stmt]) -> bool:
     return False
 
 
-def _work(file: RclpyFile, server: ActionServer) -> FunctionNode | None:
+def _execute_callback(file: RclpyFile, server: ActionServer) -> FunctionNode | None:
     """Return the execute callback, unless it passes the goal handle to other modules."""
     callback = worker(file, server.callback) if server.callback else None
     function = callback.function if callback else None

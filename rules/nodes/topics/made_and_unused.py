@@ -150,7 +150,7 @@ class MadeAndUnused(RclpyRule):
     )
 
     def check_in(self, package: Package, file: RclpyFile) -> Iterator[Diagnostic]:
-        for window in _undrawn(package, file):
+        for window in _windows_without_events(package, file):
             message = "OpenCV draws no window without cv2.waitKey(1) after it: it stays empty"
             yield self.report(file.module.location(window), message, severity=Severity.ERROR)
         yield from self._check_entities(package, file)
@@ -175,7 +175,7 @@ class MadeAndUnused(RclpyRule):
                 )
                 yield self.report(publisher, message)
         for class_ in file.classes:
-            for name, message in (*_setups(file, class_), *_callbacks(file, class_)):
+            for name, message in (*_uncalled_setups(file, class_), *_callbacks(file, class_)):
                 if package.is_mentioned_once(name, path):
                     yield self.report(file.module.name_location(class_.methods[name]), message)
 
@@ -204,7 +204,7 @@ class MadeAndUnused(RclpyRule):
             yield self.report(file.module.location(call), message)
 
 
-def _undrawn(package: Package, file: RclpyFile) -> Iterator[ast.Call]:
+def _windows_without_events(package: Package, file: RclpyFile) -> Iterator[ast.Call]:
     """Yield the first window of a package that shows images but does not process GUI events."""
     if not file.module.mentions("imshow("):
         return
@@ -243,7 +243,7 @@ def _kept_in(file: RclpyFile, call: ast.Call) -> str:
     return ""
 
 
-def _setups(file: RclpyFile, class_: NodeClass) -> Iterator[tuple[str, str]]:
+def _uncalled_setups(file: RclpyFile, class_: NodeClass) -> Iterator[tuple[str, str]]:
     """Yield the uncalled methods without arguments that create entities, with messages."""
     if class_.is_lifecycle or class_.base is not None or len(class_.node.bases) != 1:
         return

@@ -89,13 +89,13 @@ def _is_loaded(package: Package, path: str, wanted: str) -> bool:
         for item in module.imports
         if item.root in names or "convert" in item.root or "registration" in item.module
     }
-    return bool(loading and loading & _together(package, path)) or any(
+    return bool(loading and loading & _connected_modules(package, path)) or any(
         module.mentions("TransformRegistration")
         for module in package.modules(mentioning=("TransformRegistration",))
     )
 
 
-def _together(package: Package, path: str) -> set[str]:
+def _connected_modules(package: Package, path: str) -> set[str]:
     """Return the modules connected with a file by imports: they may run in one process."""
     uses = {
         module.path: {
@@ -111,13 +111,13 @@ def _together(package: Package, path: str) -> set[str]:
     while pending:
         current = pending.pop()
         for other in uses.keys() - result:
-            if _stem(other) in uses.get(current, ()) or _stem(current) in uses[other]:
+            if _import_name(other) in uses.get(current, ()) or _import_name(current) in uses[other]:
                 result.add(other)
                 pending.append(other)
     return result
 
 
-def _stem(path: str) -> str:
+def _import_name(path: str) -> str:
     """Return the name of a module in imports."""
     parts = path.removesuffix(".py").split("/")
     return parts[-2] if parts[-1] == "__init__" and len(parts) > 1 else parts[-1]
