@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Set
+from contextlib import suppress
 from typing import TYPE_CHECKING
 
+from scaffold.model.facts import fact
 from scaffold.model.launch.python_file import LaunchFile
 from scaffold.source import ViewError
 
@@ -15,6 +18,13 @@ ENDINGS = ("launch.py", "launch.xml", "launch.yaml", "launch.yml")
 DIRECTORIES = ("launch/", "launches/")
 _USERS = (".py", ".xml", ".yaml", ".yml", ".cpp", ".hpp")
 _LONGEST_PATH = 200
+_WORD = re.compile(r"(?<![^\"'\s=/])(?!self\.)[\w-]*\.[\w.-]*")
+"""Matches what may be the name of a file in a text, but no attribute of ``self``."""
+_OF_DATA = (
+    *(".yaml", ".yml", ".json", ".xml", ".rviz", ".urdf", ".xacro", ".sdf", ".world", ".pgm"),
+    *(".png", ".dae", ".stl", ".csv", ".cfg", ".ini", ".toml", ".lua"),
+)
+"""How the names of most data files end."""
 DATA_DIRECTORIES = ("config", "params", "param", "rviz", "urdf", "maps", "worlds", "meshes")
 """Directories whose files are read at run time from ``share/<package>``."""
 
@@ -41,33 +51,61 @@ def is_named(package: Package, directory: str) -> bool:
     for other in package.workspace:
         wanted = names
         if other.name != package.name:  # which may refer to its own file of this name
-            wanted = names.difference(
-                *(_names(data_files(other, item)) for item in DATA_DIRECTORIES)
-            )
-        for path in other.files if wanted else ():
+            wanted = names - _data_names(other)
+        if not wanted or (wanted.isdisjoint(_words(other)) and all(map(_is_word, wanted))):
+            continue
+        for path in other.files:
             is_own = other.name == package.name and path.startswith(f"{directory}/")
-            if is_own or not path.endswith(_USERS):
-                continue
-            try:
-                text = other.source(path).text
-            except ViewError:
-                continue
-            named = {name for name in wanted if name in text and _is_named_in(text, name)}
-            named -= _of_other_packages(package, other, path)
-            if other.name != package.name:
-                named = {name for name in named if not _is_of_neighbor(package, name)}
-            if named:
+            if not is_own and _named_in(package, other, path, wanted):
                 return True
     return False
+
+
+def _named_in(package: Package, user: Package, path: str, wanted: Set[str]) -> Set[str]:
+    """Return which of some data files of a package a file of a package names."""
+    if not path.endswith(_USERS):
+        return set()
+    try:
+        text = user.source(path).text
+    except ViewError:
+        return set()
+    named = {name for name in wanted if name in text and _is_named_in(text, name)}
+    if named:
+        named -= _of_other_packages(package, user, path)
+    if user.name == package.name:
+        return named
+    return {name for name in named if not _is_of_neighbor(package, name)}
+
+
+@fact
+def _words(package: Package) -> frozenset[str]:
+    """Return the words that may name data files in the code and launch files of a package."""
+    result: set[str] = set()
+    for path in package.files:
+        if path.endswith(_USERS):
+            with suppress(ViewError):
+                result.update(_WORD.findall(package.source(path).text))
+    return frozenset(word for word in result if word.endswith(_OF_DATA))
+
+
+def _is_word(name: str) -> bool:
+    return name.endswith(_OF_DATA) and _WORD.fullmatch(name) is not None
+
+
+@fact
+def _data_names(package: Package) -> frozenset[str]:
+    """Return the names of the data files of a package."""
+    return frozenset(
+        name
+        for directory in DATA_DIRECTORIES
+        for name in _names(data_files(package, directory))
+    )
 
 
 def _is_of_neighbor(package: Package, name: str) -> bool:
     """Tell whether another package has a data file with this name."""
     return any(
-        name in _names(data_files(other, directory))
-        for other in package.workspace
-        if other.name != package.name
-        for directory in DATA_DIRECTORIES
+        name in _data_names(other) for other in package.workspace if other.name != package.name
     )
 
 
