@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Set
+from collections.abc import Set as AbstractSet
 from contextlib import suppress
 from typing import TYPE_CHECKING
 
@@ -61,7 +61,9 @@ def is_named(package: Package, directory: str) -> bool:
     return False
 
 
-def _named_in(package: Package, user: Package, path: str, wanted: Set[str]) -> Set[str]:
+def _named_in(
+    package: Package, user: Package, path: str, wanted: AbstractSet[str]
+) -> AbstractSet[str]:
     """Return which of some data files of a package a file of a package names."""
     if not path.endswith(_USERS):
         return set()
@@ -96,9 +98,7 @@ def _is_word(name: str) -> bool:
 def _data_names(package: Package) -> frozenset[str]:
     """Return the names of the data files of a package."""
     return frozenset(
-        name
-        for directory in DATA_DIRECTORIES
-        for name in _names(data_files(package, directory))
+        name for directory in DATA_DIRECTORIES for name in _names(data_files(package, directory))
     )
 
 
