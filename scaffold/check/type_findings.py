@@ -113,7 +113,7 @@ class TypeFindings:
             check.close()
 
     def of(self, package: Package) -> Typed:
-        """Return what types show in a package."""
+        """Return the type findings in a package."""
         types = self._check_of(package)
         if types is None:
             return Typed()

@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 
 from scaffold import distributions
+from scaffold.check import type_findings
 from scaffold.cli.main import main
 from scaffold.files import cache
 from scaffold.model.package import Package
@@ -121,6 +122,16 @@ def test_types_reach_across_files_and_packages(check: Check, source: Path) -> No
     )
     make_package(source, "talker", {"talker/talk.py": node, "talker/more.py": own})
     assert check(".") == ["talker/talker/more.py:3:TY004", f"talker/{FOUND}"]
+
+
+def test_batches_find_what_one_run_finds(
+    check: Check, source: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(type_findings, "BATCH", 1)
+    names = ("hall", "kitchen", "talker")
+    for name in names:
+        make_package(source, name, {f"{name}/talk.py": NODE})
+    assert check(".", code=1) == [f"{name}/{name}/talk.py:8:TY004" for name in names]
 
 
 def test_equal_module_names_of_packages_are_separate(check: Check, source: Path) -> None:
