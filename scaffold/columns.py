@@ -11,7 +11,7 @@ _CONTROL = re.compile(r"\x1b\[[0-9;]*m")  # linear: no repetition follows anothe
 """Matches escape sequences of colors."""
 _HANGING = 4
 """The indentation of continuation lines."""
-_LEAST = 20
+_MIN_WIDTH = 20
 """The minimum number of columns for wrapping."""
 MORE = "..."
 USUAL = 80
@@ -24,7 +24,7 @@ def of_terminal(out: TextIO) -> int | None:
         width = os.get_terminal_size(out.fileno()).columns if out.isatty() else 0
     except (OSError, ValueError):
         return None
-    return width if width >= _LEAST else None
+    return width if width >= _MIN_WIDTH else None
 
 
 def columns(text: str) -> int:

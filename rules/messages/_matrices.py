@@ -19,7 +19,7 @@ _SIZES = {36: 6, 9: 3}
 """The numbers of rows of the matrices in messages, by the numbers of elements."""
 _ACROSS = frozenset({"w", "width", "cols", "columns", "img_w", "img_width", "image_width"})
 _DOWN = frozenset({"h", "height", "rows", "img_h", "img_height", "image_height"})
-_MOST_ARRAYS = 20
+_MAX_ARRAYS = 20
 """The maximum number of arrays to trace an array through."""
 _SHAPED = (".shape = ", "reshape((w", "reshape(w")
 """Words in code that creates arrays with the width first."""
@@ -155,6 +155,6 @@ def _is_transposed(types: MessageTypes, image: ast.expr) -> bool:
         match array:
             case ast.Subscript(value=whole) | ast.Call(func=ast.Attribute(value=whole)):
                 pending.append(whole)
-            case ast.Name() | ast.Attribute() if len(pending) < _MOST_ARRAYS:
+            case ast.Name() | ast.Attribute() if len(pending) < _MAX_ARRAYS:
                 pending += types.file.evaluator.values(array)
     return False

@@ -164,7 +164,7 @@ def _sent_problem(types: MessageTypes, call: ast.Call, image: ast.Name) -> str:
 
 def _is_gray(types: MessageTypes, image: ast.Name) -> bool:
     """Tell whether an image was converted to grayscale or a mask, and only filtered since."""
-    for _ in range(_DEEPEST):
+    for _ in range(_MAX_DEPTH):
         made = (
             _thresholded(types, image)
             or _value_before(types, image)
@@ -202,11 +202,11 @@ _FILTERS = frozenset(
         *("equalizeHist", "dilate", "erode", "Canny", "threshold", "adaptiveThreshold"),
     )
 )
-_DEEPEST = 5
+_MAX_DEPTH = 5
 """The maximum number of conversions to trace an image through."""
 
 
-def _color_order(types: MessageTypes, image: ast.Name, depth: int = _DEEPEST) -> str:
+def _color_order(types: MessageTypes, image: ast.Name, depth: int = _MAX_DEPTH) -> str:
     """Return the color order of an image; empty if unknown."""
     if _is_frame(types, image):
         return "BGR"

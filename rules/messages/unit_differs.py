@@ -130,7 +130,7 @@ _OF_RADIANS = frozenset(
 _SAME = frozenset({"float", "abs", "round", "list", "array", "asarray", "float32", "float64"})
 _OF_ITSELF = frozenset({"tolist", "copy", "astype", "item", "flatten"})
 _AXES = frozenset({"x", "y", "z"})
-_DEEPEST = 6
+_MAX_DEPTH = 6
 _PER = re.compile(r"_(?:per|p)_?(?:s|sec|second)$|_s$")
 
 
@@ -297,7 +297,7 @@ def _vector(types: MessageTypes, holder: ast.expr) -> tuple[str, str]:
 
 def _unit(types: MessageTypes, node: ast.expr, depth: int = 0) -> tuple[str, bool]:
     """Return the unit of a value, and whether only its name implies it; empty if unknown."""
-    for _ in range(_DEEPEST):
+    for _ in range(_MAX_DEPTH):
         inner = _origin(node)
         if inner is None:
             break
@@ -309,7 +309,7 @@ def _unit(types: MessageTypes, node: ast.expr, depth: int = 0) -> tuple[str, boo
             return _unit_named(name), True
         case ast.Subscript(slice=ast.Constant(value=str() as name)):
             return _unit_named(name), True
-        case ast.Name() | ast.Attribute() if depth < _DEEPEST:
+        case ast.Name() | ast.Attribute() if depth < _MAX_DEPTH:
             return _unit_of_name(types, node, depth)
     return "", False
 

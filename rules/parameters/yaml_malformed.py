@@ -12,7 +12,7 @@ from scaffold.api.parameters import mistake, parameter_paths
 
 _LAUNCH = "launch:\n- node: {{pkg: talker, exec: talker{}\n- node: {{pkg: talker, exec: ear}}\n"
 _OTHER_FORMATS = rb"\A%YAML:|\{%|\{\{"
-_LONGEST = 64_000
+_MAX_LENGTH = 64_000
 """The maximum size of a hand-written file in bytes."""
 _POINTS = "points:\n- [1.0, 2.0\n- [3.0, 4.0]\n"
 _LOADING = (
@@ -97,7 +97,7 @@ def _written_by_hand(package: Package, paths: Container[str]) -> Iterator[str]:
         if path in paths or is_of_tests or not path.endswith((".yaml", ".yml")):
             continue
         with suppress(OSError):
-            if re.search(_OTHER_FORMATS, package.bytes_of(path, _LONGEST)) is None:
+            if re.search(_OTHER_FORMATS, package.bytes_of(path, _MAX_LENGTH)) is None:
                 yield path
 
 

@@ -34,7 +34,7 @@ _SETUP = (
     "    license='{}',\n"
     ")\n"
 )
-_LONGEST = 40
+_MAX_LENGTH = 40
 """The maximum length of a text in a one-line message."""
 _CONTEXT = 15
 """The number of characters to show before the first difference."""
@@ -232,13 +232,13 @@ def _short(first: str, second: str) -> list[str]:
     plain = [_normal(first), _normal(second)]
     pairs = enumerate(zip(*plain, strict=False))
     same = next((at for at, (left, right) in pairs if left != right), min(map(len, plain)))
-    start = max(same - _CONTEXT, 0) if same > _LONGEST - _CONTEXT else 0
+    start = max(same - _CONTEXT, 0) if same > _MAX_LENGTH - _CONTEXT else 0
     return [repr(_part(text, start)) for text in plain]
 
 
 def _part(text: str, start: int) -> str:
-    part = f"...{text[start:]}" if start and len(text) > _LONGEST else text
-    return part if len(part) <= _LONGEST else f"{part[: _LONGEST - 3]}..."
+    part = f"...{text[start:]}" if start and len(text) > _MAX_LENGTH else text
+    return part if len(part) <= _MAX_LENGTH else f"{part[: _MAX_LENGTH - 3]}..."
 
 
 def _is_named_elsewhere(package: Package) -> bool:

@@ -10,7 +10,7 @@ from scaffold.api.rclpy import RclpyFile, rclpy_file
 from scaffold.api.types import TypeFinding
 
 _LIBRARIES = frozenset({"ament_index_python", "numpy"})
-_DEEPEST = 4
+_MAX_DEPTH = 4
 """The maximum number of names to trace a value through."""
 
 
@@ -28,7 +28,7 @@ def are_sure(finding: TypeFinding) -> bool:
         case _:
             return False
     file = rclpy_file(finding.package, finding.path)
-    return all(_is_sure(file, operand, _DEEPEST) for operand in operands)
+    return all(_is_sure(file, operand, _MAX_DEPTH) for operand in operands)
 
 
 def _is_sure(file: RclpyFile, node: ast.expr, depth: int) -> bool:

@@ -24,7 +24,7 @@ _URL = re.compile(r"(\w+://[^/]*/.+|[^@/\s]+@[^:/\s]+:.+)@([^@:]+)")
 """The URL up to the last '@'; an earlier one may precede a host."""
 _REVISION = re.compile(r"\w[\w./+-]*", re.ASCII)
 _COMMIT = re.compile(r"[0-9a-f]{7,64}")
-_MOST_NAMED = 8
+_MAX_NAMED = 8
 """The maximum number of tags and branches in an error."""
 
 
@@ -104,7 +104,7 @@ def _names(mirror: str) -> str:
     words = ("for-each-ref", "--sort=-creatordate", "--format=%(refname:short)")
     done = git.run("--git-dir=.", *words, "refs/tags", "refs/heads", directory=mirror)
     names = done.stdout.decode(errors="replace").split()
-    return f"; it has {', '.join(names[:_MOST_NAMED])}" if names else "; it is empty"
+    return f"; it has {', '.join(names[:_MAX_NAMED])}" if names else "; it is empty"
 
 
 def _fetch(url: str, mirror: str) -> None:

@@ -20,7 +20,7 @@ _PYTHON = "python3-"
 _SHORT = 5
 """Length from which a different digit is not a typo: turtlebot4 is not turtlebot3."""
 _SHORTEST = 3
-_MOST_HINTS = 3
+_MAX_HINTS = 3
 
 _RULES = frozenset({"dependency-misspelled", "dependency-of-ros1", "dependency-unresolvable"})
 """The rules about names; they do not know the workspace of a new package."""
@@ -52,9 +52,9 @@ def notes(names: Iterable[str], origin: str, directory: str) -> Iterator[str]:
             other for other in sorted({*_names(), *surroundings.packages}) if _is_slip(name, other)
         ]
         hints = slips or get_close_matches(
-            name, {*_names(), *surroundings.packages}, _MOST_HINTS, 0.75
+            name, {*_names(), *surroundings.packages}, _MAX_HINTS, 0.75
         )
-        hint = f"; did you mean {' or '.join(map(repr, hints[:_MOST_HINTS]))}?" if hints else ""
+        hint = f"; did you mean {' or '.join(map(repr, hints[:_MAX_HINTS]))}?" if hints else ""
         if slips or resolves is False:
             raise InputError(f"{origin}: there is no package or rosdep key {name!r}{hint}")
         yield (

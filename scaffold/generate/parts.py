@@ -23,7 +23,7 @@ _WORDS: Mapping[Role, str] = {
 }
 _SECTIONS = ("topics", "services and actions", "transforms", "timers, parameters and states")
 """Headings of nodes, the most common first."""
-_MOST_NAMED = 3
+_MAX_NAMED = 3
 """The maximum number of parts listed one by one."""
 
 
@@ -210,8 +210,8 @@ def contents(requested: Iterable[Request]) -> str:
         _WORDS[item.template.role].format(kind=item.template.name.replace("_", " "), name=item.name)
         for item in requested
     ]
-    if len(words) > _MOST_NAMED:
-        words = [*words[: _MOST_NAMED - 1], f"{len(words) - _MOST_NAMED + 1} more"]
+    if len(words) > _MAX_NAMED:
+        words = [*words[: _MAX_NAMED - 1], f"{len(words) - _MAX_NAMED + 1} more"]
     return " and ".join(filter(None, [", ".join(words[:-1]), *words[-1:]]))
 
 

@@ -16,7 +16,7 @@ from scaffold.reporters.paths import in_repository
 from scaffold.reporters.summary import summary
 
 _COMMANDS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "notice"}
-_MOST_LISTED = 100
+_MAX_LISTED = 100
 """The maximum number of findings in a summary, which may have 1 MiB."""
 
 
@@ -59,9 +59,9 @@ def job_summary(results: Sequence[Result], options: ReportOptions) -> str:
     findings = _worst_first(results)
     lines = ["### ros2-scaffold check", "", summary(results, options._replace(unsafe=False)), ""]
     if findings:
-        lines += _table(findings[:_MOST_LISTED])
-        if len(findings) > _MOST_LISTED:
-            lines += ["", f"The first {_MOST_LISTED} of {len(findings)} findings."]
+        lines += _table(findings[:_MAX_LISTED])
+        if len(findings) > _MAX_LISTED:
+            lines += ["", f"The first {_MAX_LISTED} of {len(findings)} findings."]
         lines += ["", *_counts([item for _, item in findings])]
     return "\n".join(lines) + "\n"
 

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 SCHEMA = "https://json.schemastore.org/sarif-2.1.0.json"
 _LEVELS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "note"}
 _PROBLEMS = {**_LEVELS, Severity.INFO: "recommendation"}
-_MOST_CHARACTERS = 1024
+_MAX_CHARACTERS = 1024
 """The maximum length of a description; code scanning rejects longer ones."""
 
 Data = dict[str, Any]
@@ -146,4 +146,4 @@ def _without_markup(markdown: str) -> str:
 
 
 def _shortened(text: str) -> str:
-    return text if len(text) <= _MOST_CHARACTERS else f"{text[: _MOST_CHARACTERS - 1]}…"
+    return text if len(text) <= _MAX_CHARACTERS else f"{text[: _MAX_CHARACTERS - 1]}…"

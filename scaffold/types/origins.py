@@ -8,9 +8,9 @@ from collections.abc import Iterator, Sequence
 from scaffold.model.python.given_arguments import given_argument
 from scaffold.model.python.module import PythonModule
 
-_DEEPEST = 20
+_MAX_DEPTH = 20
 """The maximum number of names, attributes, elements and calls to trace a value through."""
-_MOST_FUNCTIONS = 4
+_MAX_FUNCTIONS = 4
 """The maximum number of functions that pass it on."""
 _HANDING_ON = frozenset({"enumerate", "iter", "list", "next", "reversed", "sorted", "tuple", "zip"})
 _PUTTING = frozenset({"append", "appendleft", "insert", "setdefault"})
@@ -47,7 +47,7 @@ def is_attribute(module: PythonModule, node: ast.AST) -> bool:
 
 def _origins(module: PythonModule, node: ast.AST, depth: int = 0) -> Iterator[ast.AST]:
     """Yield an expression and its origins: ``a.b``, then ``a``, also in other functions."""
-    for _ in range(_DEEPEST if depth < _MOST_FUNCTIONS else 0):
+    for _ in range(_MAX_DEPTH if depth < _MAX_FUNCTIONS else 0):
         yield node
         match node:
             case ast.Attribute(value=value) | ast.Subscript(value=value):

@@ -29,7 +29,7 @@ _RIGHT = "return super().on_activate(state)"
 
 _OWN_TRANSITIONS = ("on_configure", "on_activate", "on_deactivate", "on_cleanup")
 """The transition callbacks whose names have no other meaning."""
-_FEWEST = 2
+_MIN_METHODS = 2
 """The minimum number of such methods in a class meant as a lifecycle node."""
 _WITH_STATE = 2
 """Parameters of a transition callback: ``self`` and the state."""
@@ -142,7 +142,7 @@ class TransitionResult(RclpyRule):
     def _check_plain(self, file: RclpyFile, class_: NodeClass) -> Iterator[Diagnostic]:
         """Check a node without a lifecycle: rclpy never calls its transition callbacks."""
         methods = [class_.methods[name] for name in _OWN_TRANSITIONS if name in class_.methods]
-        if len(methods) < _FEWEST or class_.base is not None or len(class_.node.bases) != 1:
+        if len(methods) < _MIN_METHODS or class_.base is not None or len(class_.node.bases) != 1:
             return
         if any(
             not ast.unparse(use).startswith("super().")

@@ -10,7 +10,7 @@ from scaffold.api.python import FunctionNode
 from scaffold.api.rclpy import ActionServer, Callback, RclpyFile, worker
 
 _ENDS = frozenset({"abort", "canceled"})
-_DEEPEST = 3
+_MAX_DEPTH = 3
 """The maximum number of functions to follow a goal handle through."""
 _NODE = (
     "from example_interfaces.action import Fibonacci\nfrom rclpy.action import ActionServer\n"
@@ -230,7 +230,7 @@ def _is_kept(file: RclpyFile, function: FunctionNode, name: str, depth: int = 0)
         match file.module.parent(use):
             case ast.Attribute():
                 continue
-            case ast.Call(args=args, keywords=[]) as call if use in args and depth < _DEEPEST:
+            case ast.Call(args=args, keywords=[]) as call if use in args and depth < _MAX_DEPTH:
                 if not _stays_open(file, call, args.index(use), depth):
                     return False
             case _:

@@ -156,7 +156,7 @@ class RateAsPeriod(RclpyRule):
         is_clear = not words.isdisjoint(_CLEAR)
         if (number is None and not is_clear) or _is_in_seconds(file, given):
             return
-        if number is not None and (number <= 1 or (not is_clear and number < _LEAST_RATE)):
+        if number is not None and (number <= 1 or (not is_clear and number < _MIN_RATE)):
             return
         rate = "a rate" if number is None else f"a rate of {number:g} Hz"
         happens = "one call in as many seconds" if number is None else f"one call in {number:g} s"
@@ -171,7 +171,7 @@ class RateAsPeriod(RclpyRule):
             yield self.report(file.module.location(given), message)
 
 
-_LEAST_RATE = 1.5
+_MIN_RATE = 1.5
 """The minimum value of a rate; lower ones may be seconds."""
 
 

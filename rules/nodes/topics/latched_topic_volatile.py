@@ -55,7 +55,7 @@ _SEEKING = ("get_subscription_count", "count_subscribers", "get_subscriptions_in
 _WAITING = ("spin", "sleep", "wait", *_SEEKING, "input(", "Thread(", "asyncio")
 """Code in programs that keep running, or wait for subscribers."""
 _LOOPS = (ast.For, ast.While, ast.AsyncFor)
-_MOST_CALLS = 5
+_MAX_CALLS = 5
 """The maximum number of calls between the entry point and ``publish``."""
 
 
@@ -266,7 +266,7 @@ def _is_repeated(file: RclpyFile, node: ast.AST, depth: int) -> bool:
     """Tell whether code is in a loop, or in a function that is called repeatedly."""
     module = file.module
     function = file.function_of(node)
-    if any(isinstance(parent, _LOOPS) for parent in module.parents(node)) or depth == _MOST_CALLS:
+    if any(isinstance(parent, _LOOPS) for parent in module.parents(node)) or depth == _MAX_CALLS:
         return True
     name = getattr(function, "name", "")
     calls = [*module.index.names(name), *module.index.attributes(name)] if name else []

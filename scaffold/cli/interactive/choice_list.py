@@ -17,7 +17,7 @@ from scaffold.cli.interactive.screen import STYLE, columns, ended
 
 NAME_WIDTH = 22
 """The width of the name column."""
-_MOST_FOOT = 3
+_MAX_FOOT = 3
 """The maximum number of lines for the full summary of the current choice."""
 
 
@@ -138,7 +138,7 @@ class ChoiceList:
             return []
         matches = self._matches()
         text = matches[self._at].summary if matches else ""
-        return textwrap.wrap(text, max(columns() - 1, 2), max_lines=_MOST_FOOT, placeholder="...")
+        return textwrap.wrap(text, max(columns() - 1, 2), max_lines=_MAX_FOOT, placeholder="...")
 
     def _foot(self) -> FormattedText:
         return FormattedText([("", "\n".join(self._foot_lines()))])

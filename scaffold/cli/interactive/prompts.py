@@ -21,7 +21,7 @@ from scaffold.cli.interactive.history import BACK, BackError
 from scaffold.cli.interactive.screen import STYLE, columns, ended, is_dumb, say
 from scaffold.printable import printable
 
-_LEAST_INPUT = 24
+_MIN_INPUT = 24
 """The minimum width of the input next to its question; otherwise it is on its own line."""
 
 
@@ -80,7 +80,7 @@ def several(question: str, choices: Sequence[Choice], default: Sequence[str] = (
 def _read(question: str, default: str, completions: Sequence[str]) -> str:
     """Read a line, initially the default; surrounding spaces are ignored."""
     lines = textwrap.wrap(f"? {ended(question)}", max(columns() - 1, 2))
-    if len(lines) > 1 or len(lines[0]) + _LEAST_INPUT > columns():
+    if len(lines) > 1 or len(lines[0]) + _MIN_INPUT > columns():
         lines.append(">")
     if is_dumb():
         shown = f" [{printable(default)}]" if default else ""

@@ -40,7 +40,7 @@ _TAKEN = frozenset({"self", "count", "step", *ROOTS, *_MODULES}) | {
     name for name in dir(builtins) if name[0].islower()
 }
 """Names that a local variable must not have."""
-_LONGEST = 20
+_MAX_LENGTH = 20
 """Maximum length of a local name."""
 
 
@@ -55,7 +55,7 @@ def variable(field: Field) -> str:
 
 def shortened(name: str) -> str:
     """Return a name, or its last word if it is too long for a local name."""
-    return name if len(name) <= _LONGEST else name.rpartition("_")[2]
+    return name if len(name) <= _MAX_LENGTH else name.rpartition("_")[2]
 
 
 def is_free(name: str) -> bool:

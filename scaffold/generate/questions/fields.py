@@ -14,7 +14,7 @@ from scaffold.source import Source
 
 _OWN = "own_package"
 """Placeholder for the name of the package, which does not matter here."""
-_MOST = 2**32 - 1
+_MAX_BOUND = 2**32 - 1
 """Maximum length of arrays and strings, which generated code can count on every platform."""
 _TURNING = "\u202a\u202b\u202c\u202d\u202e\u2066\u2067\u2068\u2069"
 """Bidirectional control characters, of which compilers warn."""
@@ -99,8 +99,8 @@ def _refuse_garbled(lines: Iterable[str]) -> None:
 
 def _refuse_large(type_: FieldType, line: str) -> None:
     for number in (type_.array_size, type_.text_bound):
-        if number is not None and number > _MOST:
-            raise InputError(f"{line!r}: {number} is too large; the limit is {_MOST}")
+        if number is not None and number > _MAX_BOUND:
+            raise InputError(f"{line!r}: {number} is too large; the limit is {_MAX_BOUND}")
 
 
 def refuse_missing(wanted: Fields, messages: Iterable[str]) -> None:

@@ -10,7 +10,7 @@ from jinja2.bccache import Bucket
 from scaffold.files import cache
 
 _HEAD = b"scaffold-template-2\n"
-_MOST = 500
+_MAX_FILES = 500
 """The maximum number of cached templates per form."""
 
 
@@ -40,4 +40,4 @@ class Compiled(BytecodeCache):
             return
         place = os.path.join(self._kept, bucket.key)
         if cache.write_sealed(place, _HEAD, bucket.bytecode_to_string()):
-            cache.trim(self._kept, _MOST)
+            cache.trim(self._kept, _MAX_FILES)

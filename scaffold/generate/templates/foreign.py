@@ -35,7 +35,7 @@ _START = (
 )
 _SIZE = 8
 """The size of the length prefix of a message."""
-_MOST_SHOWN = 80
+_MAX_SHOWN = 80
 """The number of characters of a short text shown in a message."""
 
 
@@ -104,7 +104,7 @@ class ForeignEngine:
             places = [os.path.join(place, rest) for place in self._directories[first]]
             return next(filter(os.path.exists, places), places[-1])
         inner = name.removeprefix("{% if ").removesuffix(" %}true{% endif %}")
-        short = inner if len(inner) <= _MOST_SHOWN else f"{inner[:_MOST_SHOWN]}..."
+        short = inner if len(inner) <= _MAX_SHOWN else f"{inner[:_MAX_SHOWN]}..."
         for directories in self._directories.values():
             manifest = os.path.join(directories[-1], "template.yaml")
             with open(manifest, encoding="utf-8", errors="replace") as file:

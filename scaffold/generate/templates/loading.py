@@ -175,11 +175,11 @@ def _manifests(directories: Sequence[str]) -> list[dict[str, Any]]:
         return result
     made = [_manifest(path) for path in paths]
     if kept and cache.write_sealed(place, head, marshal.dumps(made)):
-        cache.trim(kept, _MOST_KEPT)
+        cache.trim(kept, _MAX_KEPT)
     return made
 
 
-_MOST_KEPT = 16
+_MAX_KEPT = 16
 """The maximum number of cached sets of content directories."""
 
 

@@ -12,9 +12,9 @@ from jinja2.sandbox import ImmutableSandboxedEnvironment
 
 from scaffold.errors import ContentError
 
-_MOST_ROUNDS = 1_000_000
+_MAX_ROUNDS = 1_000_000
 """The total length of all ranges in the files of a package."""
-_MOST_REPEATED = 1_000_000
+_MAX_REPEATED = 1_000_000
 """The maximum length of a repeated text or list, and of the digits of a power."""
 
 
@@ -31,8 +31,8 @@ class Sandbox(ImmutableSandboxedEnvironment):
     def _range(self, *arguments: int) -> range:
         result = range(*arguments)
         self._rounds += len(result)
-        if self._rounds > _MOST_ROUNDS:
-            raise SecurityError(f"more than {_MOST_ROUNDS} iterations of loops")
+        if self._rounds > _MAX_ROUNDS:
+            raise SecurityError(f"more than {_MAX_ROUNDS} iterations of loops")
         return result
 
     def call_binop(
@@ -43,11 +43,11 @@ class Sandbox(ImmutableSandboxedEnvironment):
         right: Any,  # noqa: ANN401
     ) -> Any:  # noqa: ANN401
         """Multiply, or raise to a power, within the limit."""
-        if operator == "**" and _size(left) * abs(right) > _MOST_REPEATED:
+        if operator == "**" and _size(left) * abs(right) > _MAX_REPEATED:
             raise SecurityError("a power is too large")
         if operator == "*":
             for some, times in ((left, right), (right, left)):
-                if hasattr(some, "__len__") and len(some) * times > _MOST_REPEATED:
+                if hasattr(some, "__len__") and len(some) * times > _MAX_REPEATED:
                     raise SecurityError("a repetition is too large")
         return super().call_binop(context, operator, left, right)
 

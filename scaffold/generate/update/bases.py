@@ -25,7 +25,7 @@ _ABOUT = "# Rendered templates, for `ros2-scaffold update`. Commit this file; do
 _SAFE = "/:+@ ,{}()[]="
 """Characters that are not escaped in paths; all that could end a field or a line are."""
 _MARKS = ("<<<<<<<", "|||||||", "=======", ">>>>>>>")
-_MOST_EQUAL = 200_000
+_MAX_EQUAL = 200_000
 """The maximum number of compared pairs of equal lines; far more than in normal files."""
 
 
@@ -110,7 +110,7 @@ def combined(texts: Sequence[str]) -> str:
 
 def _union(ours: list[str], theirs: list[str]) -> str:
     counts = Counter(theirs)
-    if sum(counts[line] for line in ours) > _MOST_EQUAL:
+    if sum(counts[line] for line in ours) > _MAX_EQUAL:
         return "".join(ours)
     lines: list[str] = []
     for tag, start, end, other_start, other_end in SequenceMatcher(

@@ -14,7 +14,7 @@ Parts = Sequence[Mapping[str, Any]]
 Drafted = Callable[[Parts], Mapping[str, str]]
 """Renders the package with a given list of parts."""
 
-_MOST_PARTS = 8
+_MAX_PARTS = 8
 """The maximum number of parts, as in the worst case each way to split them is rendered."""
 
 
@@ -29,7 +29,7 @@ def joined(old: Provenance, drafted: Drafted) -> Provenance:
         drafted: Renders the package with the current templates.
     """
     parts = old.answers.get(ADD, [])
-    if not old.merged or len(parts) > _MOST_PARTS:
+    if not old.merged or len(parts) > _MAX_PARTS:
         return old
     try:
         if any(_is_merge_of(old, drafted(ours), drafted(theirs)) for ours, theirs in _sides(parts)):

@@ -206,7 +206,7 @@ class _TypeError(Exception):
     """An entry of a record has the wrong type."""
 
 
-_MOST_SIDES = 100
+_MAX_SIDES = 100
 """The maximum number of duplicates of an entry, and of items of merged lists."""
 
 
@@ -218,7 +218,7 @@ def _merged_entries(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     entries: dict[str, Any] = {}
     for name, value in pairs:
         old = entries.get(name, value)
-        if isinstance(old, (list, tuple)) and len(old) > _MOST_SIDES and name in entries:
+        if isinstance(old, (list, tuple)) and len(old) > _MAX_SIDES and name in entries:
             raise _TypeError
         if isinstance(old, list) and isinstance(value, list) and name in entries:
             entries[name] = [*old, *(item for item in value if item not in old)]
@@ -310,7 +310,7 @@ def _release(version: str) -> list[int]:
     return numbers
 
 
-_MOST_DEEP = 10
+_MAX_DEPTH = 10
 """The maximum depth of answers; generated ones have four levels."""
 
 
@@ -320,9 +320,9 @@ def _depth(value: object) -> int:
     A tuple, which is an entry that differs between two sides of a merge, is too deep anywhere.
     """
     depth, level = 0, [value]
-    while level and depth <= _MOST_DEEP:
+    while level and depth <= _MAX_DEPTH:
         if any(isinstance(item, tuple) for item in level):
-            return _MOST_DEEP + 1
+            return _MAX_DEPTH + 1
         inner: list[object] = []
         for element in level:
             inner += (
@@ -340,7 +340,7 @@ def _are_answers(answers: object) -> bool:
     """Tell whether answers have the right structure; each is validated later."""
     if not isinstance(answers, dict) or not isinstance(answers.get("package"), str):
         return False
-    if _depth(answers) > _MOST_DEEP:
+    if _depth(answers) > _MAX_DEPTH:
         return False
     parts = answers.get("add", [])
     return (

@@ -42,8 +42,8 @@ _INSTALL_KEYWORDS = frozenset(
 _FOR_BUILDING = ("ARCHIVE", "LIBRARY", "RUNTIME", "OBJECTS", "FRAMEWORK", "BUNDLE")
 _FOR_USERS = ("INCLUDES", "PUBLIC_HEADER", "PRIVATE_HEADER", "RESOURCE", "FILE_SET")
 _ARTIFACTS = frozenset({*_FOR_BUILDING, *_FOR_USERS})
-_MOST_ITEMS = 20_000  # installed items; lists and loops multiply
-_DEEPEST = 200  # blocks around a command; deeper ones count as not guarded
+_MAX_ITEMS = 20_000  # installed items; lists and loops multiply
+_MAX_DEPTH = 200  # blocks around a command; deeper ones count as not guarded
 _PREFIX = "${CMAKE_INSTALL_PREFIX}/"
 _NO_BINDINGS: Mapping[str, str] = {}
 
@@ -223,7 +223,7 @@ class CMakeLists:
         """Tell whether a command only runs when tests are built: ``if(BUILD_TESTING)``."""
         if any(left.index < command.index for left in self._leaves_without_testing):
             return True
-        if command.depth > _DEEPEST:
+        if command.depth > _MAX_DEPTH:
             return False
         at = command
         while at.parent is not None and at.branch is not None:
@@ -238,7 +238,7 @@ class CMakeLists:
 
     def conditions(self, command: Command) -> Iterator[Sequence[str]]:
         """Yield the conditions around a command; for ``else``, that of its ``if``."""
-        at = command if command.depth <= _DEEPEST else None
+        at = command if command.depth <= _MAX_DEPTH else None
         while at is not None and at.parent is not None and at.branch is not None:
             if at.parent.name == "if":
                 yield (at.parent if at.branch.name == "else" else at.branch).values
@@ -246,7 +246,7 @@ class CMakeLists:
 
     def is_for_ros1(self, command: Command) -> bool:
         """Tell whether a command runs with ROS 1 only: ``if($ENV{ROS_VERSION} EQUAL 1)``."""
-        at = command if command.depth <= _DEEPEST else None
+        at = command if command.depth <= _MAX_DEPTH else None
         while at is not None and at.parent is not None and at.branch is not None:
             if at.parent.name == "if":
                 asked = at.parent if at.branch.name == "else" else at.branch
@@ -258,7 +258,7 @@ class CMakeLists:
     def is_off(self, command: Command) -> bool:
         """Tell whether a command only runs if an option is switched on."""
         off = self._options_off
-        at = command if off and command.depth <= _DEEPEST else None
+        at = command if off and command.depth <= _MAX_DEPTH else None
         while at is not None and at.parent is not None and at.branch is not None:
             asked = at.branch.values if at.branch.name != "else" else []
             if len(asked) == 1 and asked[0] in off:
@@ -332,7 +332,7 @@ class CMakeLists:
                 continue
             # A loop over unknown values still has literal arguments.
             for bindings in self._variables.combinations(command) or ({},):
-                if items > _MOST_ITEMS:
+                if items > _MAX_ITEMS:
                     return result
                 result.extend(self._installs_of(command, bindings))
                 items += len(result[-1].items) if result else 0

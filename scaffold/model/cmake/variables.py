@@ -15,10 +15,10 @@ ROOT = "\0"
 _PIECE = re.compile(r"\\([\s\S])|\$\{|\}|[^\\$}]+|\$")
 _SPLIT = re.compile(r"(?:[^;\\]|\\[\s\S]?)+")
 _ESCAPES = {"t": "\t", "n": "\n", "r": "\r", ";": "\\;"}
-_MOST_TURNS = 20_000  # turns of loops followed in a file
+_MAX_TURNS = 20_000  # turns of loops followed in a file
 _LONGEST_VALUE = 20_000
-_MOST_ENTRIES = 16  # commands examined for one value
-_DEEPEST = 200  # blocks around a command; deeper ones make values unknown
+_MAX_ENTRIES = 16  # commands examined for one value
+_MAX_DEPTH = 200  # blocks around a command; deeper ones make values unknown
 
 HARMLESS = frozenset(
     """
@@ -69,7 +69,7 @@ class Variables:
             ),
             current,
         )
-        self._turns = _MOST_TURNS
+        self._turns = _MAX_TURNS
         self._history: dict[str, list[_Entry]] = {}
         self._names = {
             argument.value
@@ -136,7 +136,7 @@ class Variables:
 
         One empty mapping without a loop; ``None`` if a loop is over unknown values.
         """
-        if command.depth > _DEEPEST:
+        if command.depth > _MAX_DEPTH:
             return None
         loops = [block for block in command.blocks if block.name in _LOOPS]
         if not loops:
@@ -188,9 +188,9 @@ class Variables:
         before = len(history)
         if at is not None:
             before = bisect_left(history, at.index, key=_index)
-        if before > _MOST_ENTRIES:
-            history = history[before - _MOST_ENTRIES : before]
-            before = _MOST_ENTRIES
+        if before > _MAX_ENTRIES:
+            history = history[before - _MAX_ENTRIES : before]
+            before = _MAX_ENTRIES
         for number in range(before - 1, -1, -1):
             entry = history[number]
             seen = _reaches(entry.command, at)
@@ -198,7 +198,7 @@ class Variables:
                 return entry.value
             if seen == "perhaps":
                 return None
-        return None if before == _MOST_ENTRIES else self._fixed.get(name)
+        return None if before == _MAX_ENTRIES else self._fixed.get(name)
 
     # -- following
 
@@ -267,7 +267,7 @@ class Variables:
                 self._note(command, argument.raw, None)
 
     def _note(self, command: Command, name: str, value: str | None) -> None:
-        if command.depth > _DEEPEST or (
+        if command.depth > _MAX_DEPTH or (
             value is not None and any(block.name in _LOOPS for block in command.blocks)
         ):
             value = None  # each turn of the loop may set another value
@@ -285,7 +285,7 @@ def split_list(value: str) -> list[str]:
 
 def _reaches(setter: Command, reader: Command | None) -> str:
     """Tell whether a value reaches another command: ``certainly``, ``perhaps``, ``never``."""
-    if max(setter.depth, reader.depth if reader is not None else 0) > _DEEPEST:
+    if max(setter.depth, reader.depth if reader is not None else 0) > _MAX_DEPTH:
         return "perhaps"
     opens_own_scope = setter.name in {"foreach", "function", "macro"}
     around = {id(block) for block in reader.blocks} if reader is not None else set()

@@ -35,7 +35,7 @@ _VENDORED = frozenset(
 )
 _LICENCES = ("LICENSE", "LICENCE", "COPYING")
 """Prefixes of license files, which vendored code includes."""
-_MOST_BYTES = 200_000
+_MAX_BYTES = 200_000
 """The size limit of git files with patterns or paths."""
 
 
@@ -220,7 +220,7 @@ def _index_of(disk: Disk, repository: str) -> str:
 
 def _text(disk: Disk, path: str) -> str:
     try:
-        return disk.read(path, _MOST_BYTES).decode(errors="replace")
+        return disk.read(path, _MAX_BYTES).decode(errors="replace")
     except OSError:
         return ""
 

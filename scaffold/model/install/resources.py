@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 ROOT = "/<source>/"
 """The prefix of paths relative to the root of the package."""
-_DEEPEST = 50
+_MAX_DEPTH = 50
 """The maximum depth of paths in a package."""
 _MENTIONS = (b"__file__", b"resources", b"get_data", b"pkg_resources")
 _SAME = frozenset({"resolve", "absolute", "expanduser"})
@@ -58,7 +58,7 @@ class _FileEvaluator(Evaluator):
         if not isinstance(path, PathValue):
             return UNKNOWN
         parents: list[PathValue] = []
-        while "/" in path.text.removeprefix(ROOT) and len(parents) < _DEEPEST:
+        while "/" in path.text.removeprefix(ROOT) and len(parents) < _MAX_DEPTH:
             path = PathValue(_dirname(path.text))
             parents.append(path)
         if node.attr == "parents":

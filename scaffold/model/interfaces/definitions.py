@@ -281,8 +281,8 @@ def _is_copy(full_name: str) -> bool:
 
 
 _ALIKE = 0.7
-_MOST_KNOWN = 300
-_LONGEST = 200
+_MAX_KNOWN = 300
+_MAX_LENGTH = 200
 """The length of words from which they are not compared, to save time."""
 _SAME_KIND = 0.1
 _FAR = 0.5
@@ -299,7 +299,7 @@ def closest_word(word: str, words: Sequence[str]) -> str:
     """Return the end of a message, ``; did you mean ...``; empty if nothing is similar."""
     from difflib import get_close_matches
 
-    if len(words) > _MOST_KNOWN or len(word) > _LONGEST:
+    if len(words) > _MAX_KNOWN or len(word) > _MAX_LENGTH:
         return ""
     lowered = {name.lower(): name for name in reversed(words)}
     closest = get_close_matches(word.lower(), list(lowered), n=1, cutoff=0.6)

@@ -20,7 +20,7 @@ HOLE = "__unknown__"
 """The placeholder of unknown parts: a valid Python name, as the text may be an expression."""
 _TRUE = frozenset({"true", "1"})
 _FALSE = frozenset({"false", "0"})
-_LONGEST = 1000
+_MAX_LENGTH = 1000
 
 
 class Text(NamedTuple):
@@ -90,7 +90,7 @@ def applied(kind: str, operands: Sequence[Text]) -> Text:
 
 def _evaluated(expression: Text) -> Text:
     """Evaluate a Python expression statically."""
-    if len(expression.value) > _LONGEST:
+    if len(expression.value) > _MAX_LENGTH:
         return UNKNOWN
     try:
         with warnings.catch_warnings():

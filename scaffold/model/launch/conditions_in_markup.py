@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from scaffold.model.launch.conditions import UNKNOWN, Text, applied, joined, truth
 
-_DEEPEST = 20
+_MAX_DEPTH = 20
 """The maximum depth of nested substitutions and variables."""
 
 
@@ -26,7 +26,7 @@ class Variables:
 
     def text(self, value: str, depth: int = 0) -> Text:
         """Return an attribute with its substitutions replaced."""
-        if depth > _DEEPEST:
+        if depth > _MAX_DEPTH:
             return UNKNOWN
         return joined(self._parts(value, depth))
 

@@ -27,7 +27,7 @@ _OF_LISTS: Mapping[str, str] = {"AllSubstitution": "all", "AnySubstitution": "an
 _FIRST: Mapping[str, int] = {"EnvironmentVariable": 1, "PythonExpression": 1}
 """The number of arguments used."""
 _SETTERS = {"DeclareLaunchArgument": "default_value", "SetLaunchConfiguration": "value"}
-_DEEPEST = 20
+_MAX_DEPTH = 20
 
 
 class Conditions:
@@ -55,7 +55,7 @@ class Conditions:
 
     def text(self, node: ast.expr, depth: int = 0) -> Text:
         """Return the text of a substitution, a list of them or a string."""
-        if depth > _DEEPEST:
+        if depth > _MAX_DEPTH:
             return UNKNOWN
         if isinstance(node, ast.List | ast.Tuple):
             return joined(self.text(item, depth + 1) for item in node.elts)

@@ -24,7 +24,7 @@ _HARMLESS = ("RegisterEventHandler", "TimerAction")
 """Actions without effects of their own."""
 _MAY_SET = ("IncludeLaunchDescription", "OpaqueFunction")
 """Actions after which any configuration may be set."""
-_DEEPEST = 6
+_MAX_DEPTH = 6
 
 
 class Step(NamedTuple):
@@ -128,7 +128,7 @@ def _configurations_in(launch: LaunchFile, node: ast.expr, depth: int) -> Iterat
             is_read = call is not None and call.kind == "LaunchConfiguration"
             if is_read and call is not None and "default" not in call.given and not call.is_open:
                 yield call
-        elif isinstance(part, ast.Name) and depth < _DEEPEST:
+        elif isinstance(part, ast.Name) and depth < _MAX_DEPTH:
             value = launch.module.index.only_value(part)
             if value is not None:
                 yield from _configurations_in(launch, value, depth + 1)

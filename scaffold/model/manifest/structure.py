@@ -21,7 +21,7 @@ from scaffold.source import Location
 if TYPE_CHECKING:
     from scaffold.model.package import Package
 
-_MOST_UNKNOWN = 1000  # reported elements; each is compared with all known ones
+_MAX_UNKNOWN = 1000  # reported elements; each is compared with all known ones
 FORMATS = (1, 2, 3)
 PLAIN = ("name", "version", "description", "maintainer", "license", "url", "author")
 REQUIRED = PLAIN[:5]
@@ -84,8 +84,7 @@ class Structure:
         elements = [] if self.is_manifest else [self.root]
         elements += [child for child in self.children if child.tag not in self.sections]
         return [
-            Unknown(element, self._first_format(element.tag))
-            for element in elements[:_MOST_UNKNOWN]
+            Unknown(element, self._first_format(element.tag)) for element in elements[:_MAX_UNKNOWN]
         ]
 
     def _first_format(self, tag: str) -> int | None:

@@ -36,7 +36,7 @@ PARTS = {
 _NOT_FIELDS = frozenset({"get_fields_and_field_types", "SLOT_TYPES", "check_fields"})
 _PARAMETER_VALUE = "rcl_interfaces.msg.ParameterValue"
 _DEPTH = 12
-_MOST_BINDINGS = 200  # assignments of one name or attribute; with more its type is unknown
+_MAX_BINDINGS = 200  # assignments of one name or attribute; with more its type is unknown
 _EXPECTED = frozenset({"AttributeError", "TypeError", "AssertionError", "ValueError"})
 _RAISES = frozenset({"raises", "assertRaises", "assertRaisesRegex"})
 _ASKS_TYPE = frozenset({"isinstance", "type", "hasattr", "getattr", "setattr", "issubclass"})
@@ -243,7 +243,7 @@ class MessageTypes:
             return None
         scope, all_bindings = lookup
         bindings = [binding for binding in all_bindings if binding.kind != "annotation"]
-        if len(bindings) > _MOST_BINDINGS or self._is_asked(scope, node.id):
+        if len(bindings) > _MAX_BINDINGS or self._is_asked(scope, node.id):
             return None
         types = [self._type_of_binding(binding) for binding in bindings]
         return types[0] if types and all(type_ == types[0] for type_ in types) else None
@@ -266,7 +266,7 @@ class MessageTypes:
             return None
         values = evaluator.attribute_values(node)
         values = [v for v in values or () if not _is_none(v)]
-        if len(values) > _MOST_BINDINGS:
+        if len(values) > _MAX_BINDINGS:
             return None
         types = [self._type(value) for value in values]
         if not types or types[0] is None or any(type_ != types[0] for type_ in types):

@@ -27,7 +27,7 @@ _REDUCING = frozenset(
 )
 """Functions and array methods that return one number of the element type."""
 _ARRAYS = frozenset({"numpy.array", "numpy.asarray"})
-_DEEPEST = 6
+_MAX_DEPTH = 6
 """The maximum number of names, slices and copies to follow."""
 
 
@@ -52,7 +52,7 @@ def numpy_class(types: MessageTypes, node: ast.expr) -> tuple[str, str] | None:
 
 def _is_single_precision(types: MessageTypes, node: ast.expr) -> bool:
     """Tell whether numpy converts a field to an array of 32-bit floats."""
-    for _ in range(_DEEPEST):
+    for _ in range(_MAX_DEPTH):
         node = types.file.evaluator.single_value(node)
         field = types.field_type_of(node)
         if field is not None:

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from scaffold.model.python.module import PythonModule
 
 
-_DEEPEST = 10
+_MAX_DEPTH = 10
 """The maximum number of names to follow."""
 
 
@@ -183,7 +183,7 @@ class AttributeEvaluator(Evaluator):
             values = (node.body, node.orelse)
         elif isinstance(node, ast.Name | ast.Attribute):
             values = self.values(node)
-        if not values or depth > _DEEPEST:
+        if not values or depth > _MAX_DEPTH:
             return (node,)
         sources = [item for value in values for item in self.origins(value, depth + 1)]
         return list(dict.fromkeys(sources))

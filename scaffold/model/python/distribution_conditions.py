@@ -28,7 +28,7 @@ _ROS_VERSION = "ROS_VERSION"
 _OF_ENVIRONMENT = (VARIABLE, _ROS_VERSION)
 ASKED = (*_OF_ENVIRONMENT, "ros_version", "version_info", "hexversion")
 """Words in files that test the distribution or its Python version."""
-_DEEPEST = 20
+_MAX_DEPTH = 20
 """The maximum number of names to follow in a condition."""
 
 
@@ -58,7 +58,7 @@ def holds(
     value, notes = _DistributionEvaluator(module).trace(test)
     if (is_asked or notes) and is_known(value):
         return bool(value)
-    named = _only_value(module, test) if depth < _DEEPEST else None
+    named = _only_value(module, test) if depth < _MAX_DEPTH else None
     return None if named is None else holds(module, named, depth + 1, is_asked=is_asked)
 
 
@@ -81,7 +81,7 @@ def open_parts(module: SyntaxTree, test: ast.expr, depth: int = 0) -> Iterator[a
         case ast.BoolOp(values=values):
             parts = values
         case ast.Name():
-            named = _only_value(module, test) if depth < _DEEPEST else None
+            named = _only_value(module, test) if depth < _MAX_DEPTH else None
             if isinstance(named, ast.BoolOp | ast.UnaryOp | ast.Name) and asks(module, named):
                 parts = [named]
     for part in parts:

@@ -20,7 +20,7 @@ _NEEDED = {
 """The required value of the condition of a mark, for the test to run and pass."""
 _OF_BLOCK = "pytestmark"
 """The name of the marks of all tests in a module or a class."""
-_DEEPEST = 5
+_MAX_DEPTH = 5
 
 
 class SkipCondition(NamedTuple):
@@ -56,7 +56,7 @@ def _conditions(module: PythonModule, mark: ast.expr, depth: int) -> Iterator[Sk
         case ast.List(elts=parts) | ast.Tuple(elts=parts):
             for part in parts:
                 yield from _conditions(module, part, depth + 1)
-        case ast.Name(id=name) if depth < _DEEPEST:
+        case ast.Name(id=name) if depth < _MAX_DEPTH:
             lookup = module.index.lookup(name, mark)
             for binding in lookup[1] if lookup and len(lookup[1]) == 1 else ():
                 if binding.kind == "assignment" and binding.value is not None:

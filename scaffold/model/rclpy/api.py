@@ -63,7 +63,7 @@ _RESULTS: Mapping[str, str] = {
 """The classes of the results of futures returned by methods."""
 GOAL_HANDLE = "rclpy.action.server.ServerGoalHandle"
 _GOAL_CALLBACKS = ("execute_callback", "handle_accepted_callback", "cancel_callback")
-_DEEPEST = 20
+_MAX_DEPTH = 20
 
 
 def known_names() -> Mapping[str, frozenset[str]]:
@@ -106,7 +106,7 @@ def _places(distribution: Distribution) -> Mapping[str, str]:
 def class_of(file: RclpyFile, node: ast.expr, depth: int = 0) -> str | None:
     """Return the rclpy class of an expression, by its name in the table."""
     classes = file.classes_of
-    if node not in classes and depth <= _DEEPEST:
+    if node not in classes and depth <= _MAX_DEPTH:
         classes[node] = None  # ends the recursion of what is assigned to itself
         classes[node] = _find_class(file, node, depth)
     return classes.get(node)

@@ -30,7 +30,7 @@ _METHODS = frozenset(
     ("astype", "clip", "copy", "flatten", "ravel", "repeat", "reshape", "squeeze", "transpose")
 )
 """Methods of arrays that return arrays."""
-_DEEPEST = 8
+_MAX_DEPTH = 8
 
 
 def is_array(file: RclpyFile, node: ast.expr, depth: int = 0) -> bool:
@@ -46,7 +46,7 @@ def is_array(file: RclpyFile, node: ast.expr, depth: int = 0) -> bool:
         if not file.module.qualified_names(value.func).isdisjoint(_MAKERS):
             return True
         match value.func:
-            case ast.Attribute(attr=name, value=base) if name in _METHODS and depth < _DEEPEST:
+            case ast.Attribute(attr=name, value=base) if name in _METHODS and depth < _MAX_DEPTH:
                 return is_array(file, base, depth + 1)
         return False
     argument = file.parameter_of(value if isinstance(value, ast.expr) else node)

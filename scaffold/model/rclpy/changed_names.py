@@ -32,7 +32,7 @@ _VERSION = re.compile(
 """Matches conditions on a version of Python, of ROS or of a package."""
 _FINDERS = frozenset({"importlib.util.find_spec", "pkgutil.find_loader", IMPORT_OR_SKIP})
 """Functions that test whether a module exists."""
-_MOST = 3
+_MAX_POSITIONAL = 3
 """The number of positional arguments from which a call may give any of them."""
 _CONSTANT = re.compile(r"\b[A-Z_][A-Z0-9_]*")
 
@@ -259,7 +259,7 @@ def _argument_meant(call: ast.Call, change: Change) -> ast.AST | None:
     words = {word.arg: word for word in call.keywords}
     if change.having or None in words:
         return words.get(change.having) if change.having else None
-    is_by_position = len(call.args) > _MOST or any(
+    is_by_position = len(call.args) > _MAX_POSITIONAL or any(
         isinstance(argument, ast.Starred) for argument in call.args
     )
     return None if change.without in words or is_by_position else call.func

@@ -22,7 +22,7 @@ _DEFAULTS: Mapping[str, tuple[int, str]] = {
 NUMBER = "number"
 """The pseudo clock type of a number in place of a time."""
 _SECONDS = frozenset({"time.time", "time.monotonic", "time.perf_counter", "time.time_ns"})
-_DEEPEST = 5
+_MAX_DEPTH = 5
 
 
 def clocks_of(file: RclpyFile, node: ast.expr, depth: int = 0) -> Mapping[ast.expr, str | None]:
@@ -32,7 +32,7 @@ def clocks_of(file: RclpyFile, node: ast.expr, depth: int = 0) -> Mapping[ast.ex
     """
     result: dict[ast.expr, str | None] = {}
     for origin in file.evaluator.origins(node):
-        result[origin] = _clock_of(file, origin, depth) if depth <= _DEEPEST else None
+        result[origin] = _clock_of(file, origin, depth) if depth <= _MAX_DEPTH else None
     return result
 
 

@@ -18,7 +18,7 @@ Value = str | int | float | bool
 UNKNOWN_MARK = "\0"
 SHARE_MARK = "\2"
 """The marks around the package name of ``$(find package)``."""
-_MOST_TEXT = 5_000
+_MAX_TEXT = 5_000
 _TOKEN = re.compile(r"\${2,99}[{(]|\$\{[^}]{0,900}\}|\$\([^)]{0,900}\)|[^$]+|\$")
 _MATH: Mapping[str, object] = {
     name: value for name, value in vars(math).items() if not name.startswith("_")
@@ -120,7 +120,7 @@ def evaluate(expression: str, look_up: Callable[[str], Value]) -> Value:
         raise
     except (ArithmeticError, LookupError, SyntaxError, TypeError, ValueError) as error:
         raise NotKnownError from error
-    if not isinstance(value, (str, int, float)) or len(str(value)) > _MOST_TEXT:
+    if not isinstance(value, (str, int, float)) or len(str(value)) > _MAX_TEXT:
         raise NotKnownError
     return value
 

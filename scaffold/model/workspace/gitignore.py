@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from scaffold.model.package import Package
 
 _FILE = ".gitignore"
-_MOST_BYTES = 200_000
+_MAX_BYTES = 200_000
 """The size limit of ``.gitignore`` files."""
 _SUBMODULES = ".gitmodules"
 
@@ -38,7 +38,7 @@ def _ignore_files(package: Package, path: str) -> Iterator[tuple[str, str, str]]
     directory, *rest = path.split("/")
     while rest and directory and ".." not in directory.split("/"):
         with contextlib.suppress(OSError):
-            text = package.bytes_of(f"{directory}/{_FILE}", _MOST_BYTES).decode(errors="replace")
+            text = package.bytes_of(f"{directory}/{_FILE}", _MAX_BYTES).decode(errors="replace")
             yield "/".join(rest), "/".join(rest), text
         directory = f"{directory}/{rest.pop(0)}"
 
@@ -77,11 +77,11 @@ def _texts(package: Package, name: str) -> Iterator[tuple[str, str]]:
     Each with the relative path from its directory to the package: ``src/talker/``.
     """
     with contextlib.suppress(OSError):
-        yield "", package.bytes_of(name, _MOST_BYTES).decode(errors="replace")
+        yield "", package.bytes_of(name, _MAX_BYTES).decode(errors="replace")
     disk = package.outside
     for directory in directories_above(package):
         with contextlib.suppress(OSError):
-            text = disk.read(os.path.join(directory, name), _MOST_BYTES).decode(errors="replace")
+            text = disk.read(os.path.join(directory, name), _MAX_BYTES).decode(errors="replace")
             way = os.path.relpath(disk.real(package.root or ""), directory)
             yield f"{way.replace(os.sep, '/')}/", text
 

@@ -16,7 +16,7 @@ PERIOD = 0.5
 
 _TICKS = os.sysconf("SC_CLK_TCK")
 _PAGE = os.sysconf("SC_PAGE_SIZE")
-_MOST_PROCESSES = 100
+_MAX_PROCESSES = 100
 """The maximum number of measured processes per executable, as a fork bomb must not keep us busy."""
 
 
@@ -43,7 +43,7 @@ class Meter:
             member for member in table.snapshot().values() if member.session == self._session
         ]
         memory = 0
-        for process in members[:_MOST_PROCESSES]:
+        for process in members[:_MAX_PROCESSES]:
             # Ended since they were listed.
             with suppress(OSError, ValueError, IndexError):
                 self._cpu_of[process.pid, process.started] = _cpu_seconds(process.pid)

@@ -12,7 +12,7 @@ from scaffold.smoke.reports import text
 from scaffold.smoke.reports.details import count
 from scaffold.smoke.result import PackageResult, Smoke
 
-_MOST_ROWS = 100
+_MAX_ROWS = 100
 """The maximum number of executables in a summary, which may have 1 MiB."""
 
 
@@ -38,10 +38,10 @@ def job_summary(result: Smoke) -> str:
     lines += [
         "| package | executable | result | observed |",
         "|---|---|---|---|",
-        *rows[:_MOST_ROWS],
+        *rows[:_MAX_ROWS],
     ]
-    if len(rows) > _MOST_ROWS:
-        lines += ["", f"The first {_MOST_ROWS} of {len(rows)} lines."]
+    if len(rows) > _MAX_ROWS:
+        lines += ["", f"The first {_MAX_ROWS} of {len(rows)} lines."]
     return "\n".join(lines) + "\n"
 
 

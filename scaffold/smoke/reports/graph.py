@@ -13,7 +13,7 @@ _BOX_HEIGHT = 34
 _GAP = 16
 _BETWEEN_LAYERS = 70
 _LETTER = 7.4
-_MOST_LETTERS = 34
+_MAX_LETTERS = 34
 _MARGIN = 10
 
 Name = tuple[str, str]
@@ -151,7 +151,7 @@ def _height_of_neighbors(name: Name, arrows: Sequence[Arrow], boxes: dict[Name, 
 
 
 def _label(name: str) -> str:
-    return name if len(name) <= _MOST_LETTERS else name[: _MOST_LETTERS - 1] + "…"
+    return name if len(name) <= _MAX_LETTERS else name[: _MAX_LETTERS - 1] + "…"
 
 
 def _path(begin: Box, end: Box) -> str:

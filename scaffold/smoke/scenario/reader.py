@@ -28,7 +28,7 @@ Value = TypeVar("Value")
 _ANY = "any"
 _TYPE_PARTS = 3
 _TAG = "tag:yaml.org,2002:"
-_MOST_DIGITS = 40
+_MAX_DIGITS = 40
 _PERCENT = 100
 
 
@@ -270,7 +270,7 @@ class _Reader:
         loader = SafeLoader("")
         tag = loader.resolve(ScalarNode, node.text, (True, False))  # type: ignore[no-untyped-call]  # of PyYAML
         plain_tags = {f"{_TAG}{kind}" for kind in ("int", "float", "bool", "null")}
-        if tag not in plain_tags or len(node.text) > _MOST_DIGITS:
+        if tag not in plain_tags or len(node.text) > _MAX_DIGITS:
             return node.text
         return loader.construct_object(ScalarNode(tag, node.text))
 

@@ -21,7 +21,7 @@ from scaffold.types.stubs import makers
 
 _EITHER = "_ros2_either"
 """A condition of unknown value."""
-_MOST_CALLS = 12
+_MAX_CALLS = 12
 """The maximum number of calls of one function; one with more accepts ``Any``."""
 _FUNCTION = re.compile(
     r"^(?P<indent> *)(?:async )?def (?P<name>[^\W\d]\w*)"
@@ -160,7 +160,7 @@ def _add_lines_of(
     taken = {
         name: f"{name} = ({f' if {_EITHER} else '.join(dict.fromkeys(values))})[0]"
         for name, values in sources.items()
-        if len(values) <= _MOST_CALLS
+        if len(values) <= _MAX_CALLS
     }
     if taken:
         taking = "; ".join([*imports, *taken.values()])

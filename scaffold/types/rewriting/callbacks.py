@@ -76,7 +76,7 @@ _FUTURE_NAME = re.compile(r"(?:self\.)?\b\w+$")
 _SENT_HERE = re.compile(r"\.send_goal_async\([^()]*(?:\([^()]*\)[^()]*)*\)$")
 _SIGN = re.compile(r"[()\[\]{},'\"]|\\.", re.DOTALL)
 """Matches a character that may end an argument or a string; escaped ones as a whole."""
-_LONGEST = 2_000
+_MAX_LENGTH = 2_000
 """The maximum length of a call in characters; the rest is not inspected."""
 _CALLBACKS = {
     "create_subscription": (0, {"callback": 2}),
@@ -281,7 +281,7 @@ def _is_of_goal(segment: str, end: int) -> bool:
     """Tell whether the future before a place is that of ``send_goal_async``."""
     if "def send_goal_async" in segment:
         return False
-    before = segment[max(0, end - _LONGEST) : end].removesuffix(".").rstrip()
+    before = segment[max(0, end - _MAX_LENGTH) : end].removesuffix(".").rstrip()
     name = _FUTURE_NAME.search(before)
     if name is None:
         return _SENT_HERE.search(before) is not None
@@ -307,7 +307,7 @@ def arguments_of(text: str, start: int) -> tuple[dict[str, str], int]:
     parts: list[str] = []
     depth, quote = 0, ""
     begin = start
-    for match in _SIGN.finditer(text, start, min(len(text), start + _LONGEST)):
+    for match in _SIGN.finditer(text, start, min(len(text), start + _MAX_LENGTH)):
         character = match[0]
         if quote:
             quote = "" if character == quote else quote

@@ -51,7 +51,7 @@ _LINE_END = re.compile(r"[ ]{0,40}(?:#|\n|\Z)")
 """Matches the end of a line, with an optional comment."""
 # linear: names and defaults, without brackets
 _SIGNATURE = re.compile(r"^[ ]*(?:async[ ]+)?def[ ]+\w+\(([^()]*)\)", re.MULTILINE)
-_MOST_ADDED = 12
+_MAX_ADDED = 12
 _KEPT = "_ros2_kept"
 _OTHER_SCOPE = re.compile(r"\b(?:lambda|yield|for)\b|:=|#|\bself\s*(?:$|[,)\]])")
 
@@ -86,7 +86,7 @@ def kept_values(text: str) -> Iterator[Kept]:
         if len({_helper(match) for match in matches}) > 1:
             continue
         added = _added(text, name, start, end)
-        if added and len(added) <= _MOST_ADDED:
+        if added and len(added) <= _MAX_ADDED:
             yield _kept_container(text, number, matches, added)
 
 

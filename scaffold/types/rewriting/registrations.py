@@ -11,7 +11,7 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 
 from scaffold.record import NamedTuple
 
-_MOST_ROWS = 60
+_MAX_ROWS = 60
 _FUNCTIONS = (ast.FunctionDef, ast.AsyncFunctionDef)
 
 
@@ -128,7 +128,7 @@ def _rows(
     for loop in place.loops:
         bound = [_loop_values(loop.target, row) for row in _table(loop.iter, place, values)]
         rows = [{**row, **more} for row in rows for more in bound] or rows
-        if len(rows) > _MOST_ROWS:
+        if len(rows) > _MAX_ROWS:
             return
     yield from rows
 

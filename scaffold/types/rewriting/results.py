@@ -43,7 +43,7 @@ _KNOWN = (
 )
 """Methods whose name determines the return type, with that type and its import."""
 _CLOSING = {"(": ")", "[": "]", "{": "}"}
-_FEWEST = 2
+_MIN_ELEMENTS = 2
 
 
 def imports(text: str) -> str:
@@ -138,7 +138,7 @@ def _type(node: ast.expr | None) -> str:
     if isinstance(node, ast.Tuple):
         is_plain = not any(isinstance(item, ast.Starred) for item in node.elts)
         items = ", ".join([_ANY] * len(node.elts))
-        return f"tuple[{items}]" if is_plain and len(node.elts) >= _FEWEST else ""
+        return f"tuple[{items}]" if is_plain and len(node.elts) >= _MIN_ELEMENTS else ""
     class_ = ast.unparse(node.func) if isinstance(node, ast.Call) else ""
     for called, name, _ in _KNOWN:
         if called.fullmatch(class_):

@@ -55,7 +55,7 @@ _BOUND = re.compile(r"\bfor ([\w, ()]{1,200}?) in\b([^\n]*)|\bas (\w+)")
 _ATTRIBUTE = re.compile(r"(?<![\w.])self\.(\w+) *(?::[^=\n]*)?=(?!=)([^\n]*)")
 _OF_SELF = re.compile(r"self\.(\w+)")
 _WORD = re.compile(r"(?<![\w.])[^\W\d]\w*")
-_MOST = 8
+_MAX_VALUES = 8
 """The maximum number of returned values; a function with more has an unknown type."""
 
 
@@ -115,7 +115,7 @@ def results(
 def _type(kept: Sequence[_Kept], *, is_async: bool) -> str:
     """Return the return type of a function; empty if unknown."""
     words = {item.word for item in kept}
-    if len(words) != 1 or len(kept) > _MOST:
+    if len(words) != 1 or len(kept) > _MAX_VALUES:
         return ""
     type_ = " | ".join(f"{_TYPE_OF}[{item.name}[0]]" for item in kept)
     if "return" in words:

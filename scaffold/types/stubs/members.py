@@ -14,7 +14,7 @@ from scaffold.types.stubs import libraries as stubs
 from scaffold.types.stubs.marks import MARK
 
 _KINDS = frozenset({"msg", "srv", "action"})
-_DEEPEST = 12
+_MAX_DEPTH = 12
 """The maximum depth of base classes that is followed."""
 
 
@@ -65,7 +65,7 @@ def _all_names(package: Package, marked: str) -> set[str]:
 def _with_bases(package: Package, marked: str) -> Iterator[tuple[ast.ClassDef, str, ast.Module]]:
     """Yield a class and its bases, each with its module and the tree of the module."""
     pending = [marked]
-    for _ in range(_DEEPEST):
+    for _ in range(_MAX_DEPTH):
         class_ = _class(package, pending.pop()) if pending else None
         if class_ is not None:
             node, module, tree = class_

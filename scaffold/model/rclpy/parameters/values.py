@@ -26,7 +26,7 @@ _POSITIONS = {
     "create_timer": (0,),
 }
 """The arguments of node methods that are names and numbers."""
-_MOST_USES = 200
+_MAX_USES = 200
 """The maximum number of uses of a name, as they are scanned for each stored object."""
 
 
@@ -47,7 +47,7 @@ def _use_as_value(file: RclpyFile, call: ast.Call) -> ast.AST | None:
         return None
     uses = _uses(file, call, variable, attribute)
     stored = [use for use in uses if isinstance(use.ctx, ast.Store)]
-    if len(stored) > 1 or len(uses) > _MOST_USES:
+    if len(stored) > 1 or len(uses) > _MAX_USES:
         return None
     read = [use for use in uses if isinstance(use.ctx, ast.Load)]
     if any(isinstance(file.module.parent(use), ast.Attribute) for use in read):

@@ -24,8 +24,8 @@ from scaffold.source import ViewError
 if TYPE_CHECKING:
     from scaffold.model.package import Package
 
-_MOST_DEPTH = 40
-_MOST_PARTS = 30_000
+_MAX_DEPTH = 40
+_MAX_PARTS = 30_000
 """The maximum number of elements of a robot; the largest public one has 4 000."""
 _UNPREFIXED = frozenset({"include", "macro", "property", "insert_block"})
 
@@ -90,7 +90,7 @@ class Expansion:
 
     def _contents(self, element: Element, holder: Part, frame: Frame) -> None:
         self._parts += 1
-        if frame.depth > _MOST_DEPTH or self._parts > _MOST_PARTS:
+        if frame.depth > _MAX_DEPTH or self._parts > _MAX_PARTS:
             self.problems.is_open = self.problems.is_partial = True
             return
         for item in element.content:
