@@ -63,6 +63,14 @@ class ConfigurationUndeclared(LaunchRule):
             },
         ),
         Example(
+            "given on the command line of a container",
+            {
+                "docker/talk.dockerfile": "CMD ros2 launch talker a.launch.py \\\n"
+                "    node:=${NODE}\n",
+                "launch/a.launch.py": _LAUNCH.format("", _USED),
+            },
+        ),
+        Example(
             "set by a file that puts the name of this one together",
             {
                 "package.xml": "<package><name>talker</name></package>\n",

@@ -217,7 +217,8 @@ def test_main_guard_of_a_launch_file(package: Path, capsys: pytest.CaptureFixtur
     [
         ("warning", "", ""),
         ("error", "10, self.say)", "10, self.tell)"),
-        ("error", "self.say)", "getattr(self, 'te' + 'll'))"),
+        ("error", "self.say)", "getattr(self, prefix + 'll'))"),
+        ("warning", "self.say)", "getattr(self, 'say'))"),
         ("error", "def tell", "def on_configure"),
         ("error", "def tell", "def destroy_node"),
         ("error", "(Node)", "(Node, Speaker)"),

@@ -33,7 +33,9 @@ _KEPT = (".py", ".xacro", ".urdf", ".launch", ".xml", ".yaml", ".yml")
 _RUNS_PYTHON = re.compile(rb"pytest|launch_test|nose|python|PYTHON|ament_lint_auto|\.py\b")
 """Matches commands of CMakeLists.txt that run or check Python."""
 _ADDS_DIRECTORY = re.compile(rb"\badd_subdirectory\s*\([^)]{0,200}\)")
-_TAKES_ALL = rb"GLOB_RECURSE|\bDIRECTORY\s+\./?\s|os\.walk|rglob|\*\*/"
+_TAKES_ALL = (
+    rb"GLOB_RECURSE|\bDIRECTORY\s+\./?\s|\brglob|os\.walk\(\s*(?:[\"']\.?/?[\"']|os\.)|[\"']\*\*/"
+)
 """Matches code that uses all files of a directory."""
 _BUILDING = ("CMakeLists.txt", "setup.py", "setup.cfg", "pyproject.toml")
 _NAMING = (*_KEPT, ".txt", ".cfg", ".toml", ".cmake", ".sh")

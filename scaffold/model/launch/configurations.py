@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from scaffold.model.launch.calls import LaunchCall
 from scaffold.model.launch.evaluator import share_path
 from scaffold.model.launch.python_file import LaunchFile
+from scaffold.model.launch.written_commands import gives_argument
 from scaffold.source import ViewError
 
 if TYPE_CHECKING:
@@ -50,9 +51,11 @@ def set_names(
 def may_be_set_elsewhere(package: Package, launch: LaunchFile, name: str) -> bool:
     """Tell whether another launch file of the workspace includes this one and sets the name.
 
-    Or includes this one and a third file that sets it.
+    Or includes this one and a third file that sets it, or a command line gives it.
     """
     basename = launch.path.rpartition("/")[2]
+    if gives_argument(package, basename, name):
+        return True
     including = [
         text
         for _, text in _other_launch_files(package, launch)

@@ -19,13 +19,15 @@ if TYPE_CHECKING:
 
 _CALLBACK = re.compile(r"(?i)call_?back$|_cb$")
 """Matches the names of methods that are handed over, and are not known to a base."""
+_COMPUTED = re.compile(r"\bgetattr\([^,]*,\s*(?![\"'\s])")
+"""Matches where the name of an attribute is computed."""
 _WORD = re.compile(r"\w+")
 _DEFINITION = re.compile(r"\bdef\s+(\w+)")
 _ENTRIES = frozenset({"main", "generate_launch_description"})
 _NAMING = (".py", ".cfg", ".toml", ".cpp", ".hpp")
 """The endings of files that may call a function of Python, or tell who does."""
 _LAUNCH = frozenset({"launch", "launch_ros"})
-_LOOKUPS = ("getattr(", "globals(", "locals(", "vars(", "__dict__", "eval(", "exec(")
+_LOOKUPS = ("globals(", "locals(", "vars(", "__dict__", "eval(", "exec(")
 """Functions that look up names computed at run time."""
 
 
@@ -72,7 +74,7 @@ def is_in_uncalled_function(package: Package, module: PythonModule, line: int) -
         return False
     if is_helper and module.enclosing_class(function) is not None:
         return False
-    if module.mentions(*_LOOKUPS):
+    if module.mentions(*_LOOKUPS) or _COMPUTED.search(module.source.text):
         return False
     named = _named_in(without_comments(module.source.text), function.name)
     stem = module.path.rpartition("/")[2].removesuffix(".py")
