@@ -6,6 +6,7 @@ import ast
 import re
 
 from scaffold.api import Package, fact
+from scaffold.api.messages import MessageTypes
 from scaffold.api.types import (
     MARKED,
     TypeFinding,
@@ -38,7 +39,7 @@ _EXECUTOR = "rclpy.executors.Executor"
 _AROUND_FEEDBACK = frozenset({"feedback", "goal_id"})
 """The fields of the message passed to feedback callbacks."""
 _PLAIN = frozenset({"str", "int", "float", "bool", "bytes"})
-CONTAINER = re.compile(r"(dict|list|set)\[")
+CONTAINER = re.compile(r"(dict|list|set|array)\[")
 """Matches the type of a container with any elements."""
 COROUTINE = "a coroutine"
 FUNCTION = "a function"
@@ -56,6 +57,11 @@ def known_owner(
     container = CONTAINER.match(owner)
     if container is not None and owner.endswith("]"):
         is_replaced = _is_set_elsewhere(finding.package, node.value)
+        is_given = isinstance(finding.module.index.only_node(node.value), ast.arg)
+        is_replaced = is_replaced or is_given  # and annotated, which nothing enforces
+        if container[1] == "array":
+            types = MessageTypes.of(finding.package, finding.path)
+            is_replaced = is_replaced or types.field_type_of(node.value) is not None  # see MS023
         return None if is_replaced else (with_article(container[1]), frozenset())
     return _plain(node, owner) or _of_ros(finding, node, owner)
 

@@ -34,7 +34,7 @@ _DIFFERENT = frozenset(
 """Standard library modules with names that only some of the supported Pythons have."""
 _OF_MODULES = frozenset({"import-not-found", "missing-module-member"})
 _STR = r'`(?:str|Literal\["[^`]*"\])`'
-_CONTAINER = r"(?:dict|list|set|tuple)\[[^`]*\]"
+_CONTAINER = r"(?:dict|list|set|tuple|array)\[[^`]*\]"
 _PLAIN = rf"`(?:str|bytes|int\*?|float\*?|Literal\[[^`]*\]|{_CONTAINER})`"
 _NAMELESS = re.compile(
     rf"Object of type `(?:str|int|float|bool|bytes|CoroutineType\[.*\]|{_CONTAINER})`"

@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator, Sequence
 
+from scaffold.model.python.module import is_in_tests
 from scaffold.types.sources import Source
 from scaffold.types.stubs.marks import MARK
 from scaffold.types.ty import TyDiagnostic
@@ -21,6 +22,8 @@ _OWNER = re.compile(
 _CALL = re.compile(rf"[^`]*(?:`\w+`[^`]*)*? (?:[a-z]+ )*`({CALLEE})`(?:: expected .*)?")
 _FOUND = re.compile(r"found `((?:Literal\[)?([A-Z][^\W_]\w*)(?:\.[^`|]*)?)`$")
 """Matches an instance of an unmarked class, or a member of an enumeration."""
+_STANDING_IN = re.compile(r"Mock|Fake|Stub|Dummy", re.IGNORECASE)
+"""Matches classes whose objects are given for those of others."""
 _CALLS = frozenset(
     {
         "missing-argument",
@@ -56,7 +59,8 @@ def with_own_marked(item: TyDiagnostic, sources: Iterable[Source]) -> TyDiagnost
     definition = _definition(found[2].encode())
     defining = [it for it in sources if it.path and definition.search(it.data)]
     class_ = re.compile(rb"^class %b\b" % found[2].encode(), re.MULTILINE)
-    if len(defining) != 1 or not class_.search(defining[0].data):
+    is_one = len(defining) == 1 and class_.search(defining[0].data) is not None
+    if not is_one or is_in_tests(defining[0].path) or _STANDING_IN.match(found[2]):
         return item
     stem = defining[0].path.rpartition("/")[2].removesuffix(".py")
     marked = MARK.join([found[2], *(defining[0].dotted or stem).split(".")])

@@ -171,14 +171,16 @@ class ParameterValueUnfit(RclpyRule):
                 "        super().__init__('saver')\n"
                 "        self.declare_parameter('save', 'false')\n"
                 "        self.declare_parameter('folder', '')\n"
+                "        self.declare_parameter('names', ['a'])\n"
+                "        self.names = self.get_parameter('names').value\n"
                 "        self.save = self.get_parameter('save').value\n"
                 "        self.folder = self.get_parameter('folder').value\n"
                 "        if self.save and self.folder:\n"
                 "            self.get_logger().info('saves')\n"
-                "        if self.save == 'true':\n"
+                "        if self.save == 'true' or self.names:\n"
                 "            self.get_logger().info('saves')\n"
             },
-            "11:12: 'save' is the text 'false', which is true; declare False",
+            "13:12: 'save' is the text 'false', which is true; declare False",
         ),
     )
 
@@ -264,10 +266,10 @@ def _text_conditions(package: Package, file: RclpyFile) -> Iterator[tuple[ast.ex
         test = branch.test.operand if isinstance(branch.test, ast.UnaryOp) else branch.test
         for node in test.values if isinstance(test, ast.BoolOp) else [test]:
             name, kind = _declared(package, file, node) if _is_value(node) else ("", "")
-            defaults = {item.default for item in file.parameters if item.name == name}
-            words = [item for item in defaults if isinstance(item, str)]
-            if kind == "string" and len(words) == len(defaults) == 1 and words[0].lower() in _NO:
-                yield node, f"{name!r} is the text {words[0]!r}, which is true; declare False"
+            defaults = [item.default for item in file.parameters if item.name == name]
+            text = defaults[0] if kind == "string" and len(defaults) == 1 else None
+            if isinstance(text, str) and text.lower() in _NO:
+                yield node, f"{name!r} is the text {text!r}, which is true; declare False"
 
 
 def _is_value(node: ast.expr) -> bool:
