@@ -19,6 +19,7 @@ _TAKING_OTHERS: Mapping[str, str] = {
 """Functions that do not accept an ``array.array``, with the alternative."""
 _CLOUD = "sensor_msgs_py.point_cloud2.read_points"
 _COLUMNS = 2
+_CALCULATING = ("mean", "average", "median", "std", "sum", "linalg.norm", "dot")
 _IN_COLOR = frozenset({"bgr8", "rgb8", "bgra8", "rgba8", "bgr16", "rgb16", "8UC3"})
 _IN_GRAY = frozenset({"mono8", "mono16", "32FC1", "16UC1", "8UC1"})
 
@@ -31,6 +32,8 @@ def problems(types: MessageTypes) -> Iterator[tuple[ast.expr, str]]:
     yield from _columns_of_clouds(types)
     yield from _elements_indexed(types)
     yield from _shapes_unpacked(types)
+    yield from _clouds_calculated(types)
+    yield from _shapes_swapped(types)
 
 
 def _arrays_as_numbers(types: MessageTypes) -> Iterator[tuple[ast.expr, str]]:
@@ -131,6 +134,16 @@ def _elements_indexed(types: MessageTypes) -> Iterator[tuple[ast.expr, str]]:
                 yield index, f"{message}; write {text}[row * width + column]"
 
 
+def _clouds_calculated(types: MessageTypes) -> Iterator[tuple[ast.expr, str]]:
+    """Yield clouds of structured points that functions of NumPy cannot calculate with."""
+    for name in _CALCULATING:
+        for call in types.module.calls_of(f"numpy.{name}"):
+            made = types.file.evaluator.single_value(call.args[0]) if call.args else None
+            if isinstance(made, ast.Call) and _is_flat_cloud(types, made):
+                message = f"{name}() cannot use structured points: TypeError"
+                yield call.args[0], f"{message}; use read_points_numpy()"
+
+
 def _is_flat_cloud(types: MessageTypes, made: ast.Call) -> bool:
     is_cloud = types.module.qualified_name(made.func) == _CLOUD
     words = {word.arg for word in made.keywords}
@@ -178,3 +191,24 @@ def _encoding(types: MessageTypes, image: ast.expr) -> object:
             given = [*args[1:], *(word.value for word in words if word.arg == "desired_encoding")]
             return types.file.evaluator.evaluate(given[0]) if len(given) == 1 else None
     return None
+
+
+def _shapes_swapped(types: MessageTypes) -> Iterator[tuple[ast.expr, str]]:
+    """Yield shapes for the data of an image or a map with the width in front."""
+    for call in types.module.walk(ast.Call):
+        match call:
+            case ast.Call(func=ast.Attribute(attr="reshape", value=data), args=args, keywords=[]):
+                shape = args[0].elts if len(args) == 1 and isinstance(args[0], ast.Tuple) else args
+            case _:
+                continue
+        match shape:
+            case [
+                ast.Attribute(attr="width", value=first),
+                ast.Attribute(attr="height", value=second),
+                *_,
+            ] if types.module.text(first) == types.module.text(second):
+                made = types.file.evaluator.single_value(data)
+                message = types.module.text(first).removesuffix(".info")
+                if f"{message}.data" in types.module.text(made):
+                    text = types.module.text(first)
+                    yield call, f"rows come first: write {text}.height, {text}.width"

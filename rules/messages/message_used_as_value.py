@@ -242,25 +242,32 @@ class MessageUsedAsValue(MessageRule):
             "IndexError; write ['x'], or use read_points_numpy()",
         ),
         Example(
-            "the shape of a color image",
+            "shapes of images and maps, and the mean of structured points",
             {
-                "middle.py": "from cv_bridge import CvBridge\nfrom rclpy.node import Node\n"
-                "from sensor_msgs.msg import Image\n\n\n"
-                "class Middle(Node):\n"
-                "    def __init__(self):\n"
-                "        super().__init__('middle')\n"
-                "        self.bridge = CvBridge()\n"
-                "        self.create_subscription(Image, 'image', self.on_image, 10)\n\n"
-                "    def decode(self, msg):\n"
-                "        return self.bridge.imgmsg_to_cv2(msg, 'bgr8')\n\n"
-                "    def on_image(self, msg):\n"
-                "        image = self.decode(msg)\n"
-                "        rows, columns = image.shape\n"
-                "        rows, columns = image.shape[:2]\n"
-                "        rows, columns, _ = image.shape\n"
+                "look.py": "import numpy as np\nfrom cv_bridge import CvBridge\n"
+                "from nav_msgs.msg import OccupancyGrid\n"
+                "from sensor_msgs.msg import Image, PointCloud2\n"
+                "from sensor_msgs_py.point_cloud2 import read_points\n\n\n"
+                "class Look:\n"
+                "    def decode(self, image: Image):\n"
+                "        return CvBridge().imgmsg_to_cv2(image, 'bgr8')\n\n"
+                "    def size(self, image: Image):\n"
+                "        made = self.decode(image)\n"
+                "        rows, columns = made.shape\n"
+                "        rows, columns = made.shape[:2]\n"
+                "        rows, columns, _ = made.shape\n\n"
+                "    def pixels(self, image: Image, grid: OccupancyGrid):\n"
+                "        flat = np.frombuffer(image.data, dtype=np.uint8)\n"
+                "        cells = np.array(grid.data).reshape(grid.info.height, grid.info.width)\n"
+                "        return cells, flat.reshape((image.width, image.height, 3))\n\n"
+                "    def middle(self, cloud: PointCloud2):\n"
+                "        points = read_points(cloud, field_names=('x', 'y', 'z'))\n"
+                "        return np.mean(points, axis=0), np.mean(points['x'])\n"
             },
-            "17:25: image.shape has three values for bgr8: ValueError; write image.shape[:2] for "
+            "14:25: made.shape has three values for bgr8: ValueError; write made.shape[:2] for "
             "rows and columns",
+            "21:23: rows come first: write image.height, image.width",
+            "25:24: mean() cannot use structured points: TypeError; use read_points_numpy()",
         ),
     )
 
