@@ -7,7 +7,15 @@ from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, RclpyRule, Severity
 from scaffold.api.python import FunctionNode
-from scaffold.api.rclpy import Callback, RclpyFile, Service, Subscription, Synchronizer, Timer
+from scaffold.api.rclpy import (
+    Callback,
+    RclpyFile,
+    Service,
+    Subscription,
+    Synchronizer,
+    Timer,
+    worker,
+)
 
 _ALL = frozenset({"Exception", "BaseException"})
 _NODE = (
@@ -51,13 +59,33 @@ class ErrorsDropped(RclpyRule):
             "13:9: callback 'hear' drops all errors: a mistake in it is never seen; log the "
             "exception",
         ),
+        Example(
+            "the method that a lambda calls",
+            {
+                "orders.py": "import json\n\nfrom rclpy.node import Node\n"
+                "from std_msgs.msg import String\n\n\n"
+                "class Orders(Node):\n"
+                "    def __init__(self):\n"
+                "        super().__init__('orders')\n"
+                "        self.create_subscription(\n"
+                "            String, 'orders', lambda msg: self.take(msg.data), 10)\n\n"
+                "    def take(self, text):\n"
+                "        try:\n"
+                "            self.order = json.loads(text)['order']\n"
+                "        except Exception:\n"
+                "            pass\n"
+            },
+            "16:9: callback 'take' drops all errors: a mistake in it is never seen; log the "
+            "exception",
+        ),
     )
 
     def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
         seen: set[ast.AST] = set()
-        for entity, callback in file.callbacks:
+        for entity, given in file.callbacks:
             if not isinstance(entity, Subscription | Synchronizer | Service | Timer):
                 continue
+            callback = worker(file, given)
             function = callback.function
             if function in seen or not isinstance(function, FunctionNode):
                 continue
