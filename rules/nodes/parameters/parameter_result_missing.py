@@ -99,6 +99,23 @@ class ParameterResultMissing(RclpyRule):
             "waiting.py:10:15: on_set() is a coroutine: it does not return a SetParametersResult",
             "yielding.py:10:9: on_set() is a generator: it does not return a SetParametersResult",
         ),
+        Example(
+            "the result of a method that makes it",
+            {
+                "live.py": "from rcl_interfaces.msg import SetParametersResult\n"
+                "from rclpy.node import Node\n\n\n"
+                "class Live(Node):\n"
+                "    def __init__(self):\n"
+                "        super().__init__('live')\n"
+                "        self.add_on_set_parameters_callback(self.take)\n\n"
+                "    def answer(self):\n"
+                "        return SetParametersResult()\n\n"
+                "    def take(self, changed):\n"
+                "        self.changed = changed\n"
+                "        return self.answer()\n"
+            },
+            "15:9: returns a SetParametersResult without successful=True: every change is rejected",
+        ),
     )
 
     def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ast
 import re
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeGuard
 
 from scaffold.model.python.returns import is_generator, may_end, returned
 from scaffold.model.rclpy.parameters.descriptors import message_made
@@ -28,7 +28,7 @@ def _wrong_result(file: RclpyFile, value: ast.expr | None) -> str:
     """Return the problem with a value instead of a SetParametersResult; empty if none."""
     if value is None:
         return f"nothing, not a SetParametersResult: {_REFUSED}"
-    fields = message_made(file, value, RESULT)
+    fields = message_made(file, _returned_by(file, value) or value, RESULT)
     if fields is not None:
         is_refusal = "successful" not in fields
         return f"a SetParametersResult without successful=True: {_REFUSED}" if is_refusal else ""
@@ -46,6 +46,17 @@ def _wrong_result(file: RclpyFile, value: ast.expr | None) -> str:
     elif isinstance(value, ast.Call) and (constants := _plain_results(file, value)):
         problem = f"the result of {file.module.text(value.func)}(), which is {constants}"
     return f"{problem}, not a SetParametersResult: {_REFUSED}" if problem else ""
+
+
+def _returned_by(file: RclpyFile, value: ast.expr) -> ast.Call | None:
+    """Return the call that a function of the file returns, and nothing else."""
+    function = file.callback(value.func).function if isinstance(value, ast.Call) else None
+    values = [item.value for item in returned(function)] if _is_plain(function) else []
+    return values[0] if len(values) == 1 and isinstance(values[0], ast.Call) else None
+
+
+def _is_plain(function: object) -> TypeGuard[ast.FunctionDef]:
+    return isinstance(function, ast.FunctionDef) and not function.decorator_list
 
 
 def _one_of_constants(file: RclpyFile, value: ast.expr) -> ast.Constant | None:
