@@ -241,6 +241,16 @@ class ObjectMisused(TypeRule):
                 "serve(TCPServer(('', 1), None))\n"
             },
         ),
+        Example(
+            "a loop over a length",
+            {
+                "names.py": "from sensor_msgs.msg import JointState\n\n\n"
+                "def names(state: JointState):\n"
+                "    first = [state.name[i] for i in range(len(state.name))]\n"
+                "    return first + [state.name[i] for i in len(state.name)]\n"
+            },
+            "6:44: an int cannot be looped over: TypeError; use range(len(...))",
+        ),
     )
 
     def judge(self, finding: TypeFinding) -> Diagnostic | None:
@@ -284,6 +294,9 @@ class ObjectMisused(TypeRule):
             ):
                 message = f"{in_words(type_)} {_DOES[finding.kind]}: TypeError"
                 return self.report(finding, message)
+            case ast.Call(func=ast.Name(id="len")) if finding.kind == "not-iterable":
+                message = f"{in_words(type_)} {_DOES[finding.kind]}: TypeError"
+                return self.report(finding, f"{message}; use range(len(...))")
         return None
 
 

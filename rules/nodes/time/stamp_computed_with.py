@@ -84,6 +84,16 @@ class StampComputedWith(RclpyRule):
                 "        return msg.header.stamp - 0.1\n"
             },
         ),
+        Example(
+            "the key to sort messages by",
+            {
+                "kept.py": "from rclpy.time import Time\n\n\n"
+                "def oldest(kept):\n"
+                "    kept.sort(key=lambda item: item.header.stamp)\n"
+                "    return min(kept, key=lambda item: Time.from_msg(item.header.stamp))\n"
+            },
+            "5:32: message stamps have no order: TypeError; use Time.from_msg(...)",
+        ),
     )
 
     def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
@@ -93,6 +103,19 @@ class StampComputedWith(RclpyRule):
             if _is_flawed(file, node):
                 message = "message stamp is not an rclpy Time: TypeError; use Time.from_msg(...)"
                 yield self.report(file.module.location(node), message)
+        for call in file.module.walk(ast.Call):
+            for word in call.keywords:
+                match word:
+                    case ast.keyword(
+                        arg="key",
+                        value=ast.Lambda(
+                            body=ast.Attribute(
+                                attr="stamp", value=ast.Attribute(attr="header")
+                            ) as stamp
+                        ),
+                    ):
+                        message = "message stamps have no order: TypeError; use Time.from_msg(...)"
+                        yield self.report(file.module.location(stamp), message)
 
 
 def _is_flawed(file: RclpyFile, node: ast.AST) -> bool:
