@@ -80,6 +80,15 @@ class MarkMisused(TestRule):
             "4:2: parametrize needs names and values",
             "9:2: parametrize needs the values as well as the names",
         ),
+        Example(
+            "values that a constant holds",
+            {
+                "test_sum.py": "import pytest\n\nSUMS = [(1, 2, 3)]\n\n\n"
+                "@pytest.mark.parametrize('first, second', SUMS)\n"
+                "def test_sum(first, second):\n    assert first + second == 3\n"
+            },
+            "6:2: there are 2 names, and (1, 2, 3) has 3 values",
+        ),
     )
 
     def check_file(self, module: PythonModule) -> Iterator[Diagnostic]:
@@ -114,6 +123,7 @@ def _parametrize_problem(module: PythonModule, call: ast.Call) -> str:
     if values is None:
         is_open = len(words) < len(call.keywords)
         return "" if is_open else "parametrize needs the values as well as the names"
+    values = module.index.only_value(values) or values
     if not isinstance(values, ast.List | ast.Tuple):
         return ""
     if not values.elts:

@@ -7,7 +7,13 @@ from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Rule
 from scaffold.api.python import PythonModule
-from scaffold.api.tests import constructed_class, node_tests, runs_around_tests, test_functions
+from scaffold.api.tests import (
+    constructed_class,
+    node_tests,
+    own_fixtures,
+    runs_around_tests,
+    test_functions,
+)
 
 _WAYS_OUT = (
     *("Thread(", "threading", "Timer", "timer", "multiprocessing", "concurrent", "signal"),
@@ -69,14 +75,26 @@ class TestNeverEnds(Rule):
             {"test/test_node.py": _TEST.format("rclpy.spin(node)")},
             "8:5: nothing ends this: the test waits forever; use spin_once with timeout_sec",
         ),
+        Example(
+            "a fixture that spins",
+            {
+                "test/test_cam.py": "import pytest\nimport rclpy\n\n\n@pytest.fixture\n"
+                "def cam():\n    rclpy.init()\n    node = rclpy.create_node('cam')\n"
+                "    rclpy.spin(node)\n    yield node\n    node.destroy_node()\n\n\n"
+                "def test_name(cam):\n    assert cam.get_name() == 'cam'\n"
+            },
+            "9:5: nothing ends this: the test waits forever; use spin_once with timeout_sec",
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         for module, texts in node_tests(package):
             if any(word in texts for word in _WAYS_OUT):
                 continue
-            for test in test_functions(module):
-                for node in ast.walk(test.node):
+            functions = [test.node for test in test_functions(module)]
+            functions += [fixture.node for fixture in own_fixtures(module)]
+            for function in functions:
+                for node in ast.walk(function):
                     if not isinstance(node, ast.Call):
                         continue
                     if _waits(module, node):
@@ -87,7 +105,7 @@ class TestNeverEnds(Rule):
                         )
                     if not _spins(module, node):
                         continue
-                    is_own = module.enclosing_function(node) is test.node
+                    is_own = module.enclosing_function(node) is function
                     if is_own and not _is_shut_down(module):
                         message = "nothing ends this: the test waits forever"
                         at = module.location(node)
