@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, RclpyRule, Report, Severity
-from scaffold.api.programs import in_callbacks, in_constructors
+from scaffold.api.programs import in_callbacks, in_constructors, in_helpers
 from scaffold.api.python import conditions_on
 from scaffold.api.rclpy import RclpyFile, Timer, class_of
 
@@ -125,13 +125,26 @@ class SentBeforeKnown(RclpyRule):
             "9:23: the request is sent before the server is known: it is lost, and the future is "
             "never done; call wait_for_service() first",
         ),
+        Example(
+            "a goal of a class that gets the node",
+            {
+                "goals.py": "from example_interfaces.action import Fibonacci\n"
+                "from rclpy.action import ActionClient\n\n\n"
+                "class Goals:\n"
+                "    def __init__(self, node):\n"
+                "        self.client = ActionClient(node, Fibonacci, 'count')\n"
+                "        self.future = self.client.send_goal_async(Fibonacci.Goal(order=5))\n"
+            },
+            "8:23: the goal is sent before the server is known: it is lost, and the future is "
+            "never done; call wait_for_server() first",
+        ),
     )
 
     def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
         yield from self._check_publishers(file)
         if not file.module.mentions(*_SENDING) or file.module.mentions(*_ASKING):
             return
-        for executed in in_constructors(file):
+        for executed in (*in_constructors(file), *in_helpers(file)):
             for call in file.calls_in(executed.function):
                 func = call.func
                 if not isinstance(func, ast.Attribute) or func.attr not in _SENDING:

@@ -151,21 +151,23 @@ def _find_in_constructors(file: RclpyFile) -> Iterator[Executed]:
         for reached in file.reached(node.constructor, seen) if node.constructor else ():
             seen.add(reached)
             yield Executed(reached, f"the constructor of {node.name}", None)
-    for name, constructor in _of_helpers(file):
-        for reached in file.reached(constructor, seen):
-            seen.add(reached)
-            yield Executed(reached, f"the constructor of {name}", None)
 
 
-def _of_helpers(file: RclpyFile) -> Iterator[tuple[str, ast.FunctionDef]]:
-    """Yield the constructors of classes that get a node: nodes make their objects."""
+def in_helpers(file: RclpyFile) -> Iterator[Executed]:
+    """Yield the functions that constructors of classes run that get a node: nodes make them.
+
+    Whether the node is spun meanwhile is not known.
+    """
+    seen: set[ast.AST] = set()
     for name, class_ in file.module.classes.items():
         bindings = file.module.index.bindings(class_.node).get("__init__", ())
         constructor = bindings[0].node if len(bindings) == 1 else None
         if class_.node.bases or not isinstance(constructor, ast.FunctionDef):
             continue
         if any(argument.arg.rpartition("_")[2] == "node" for argument in constructor.args.args):
-            yield name, constructor
+            for reached in file.reached(constructor, seen):
+                seen.add(reached)
+                yield Executed(reached, f"the constructor of {name}", None)
 
 
 class Phases(NamedTuple):
@@ -181,7 +183,7 @@ def phases_of(file: RclpyFile) -> Phases:
     """Return the functions run by constructors of nodes, and those run by callbacks."""
     callbacks = (*in_callbacks(file), *in_tasks(file))
     return Phases(
-        frozenset(executed.function for executed in in_constructors(file)),
+        frozenset(executed.function for executed in (*in_constructors(file), *in_helpers(file))),
         frozenset(executed.function for executed in callbacks),
     )
 
