@@ -81,6 +81,10 @@ class Assigned(NamedTuple):
     """The message of the field: an expression, or the call of its constructor."""
 
 
+_CONVERTING = frozenset({"cv_bridge", "sensor_msgs_py", "tf2_geometry_msgs"})
+"""Libraries that make messages and read them."""
+
+
 def message_paths(package: Package) -> Sequence[str]:
     """Return the Python files that import interfaces, except those of ROS 1."""
 
@@ -99,6 +103,8 @@ def _uses_interfaces(package: Package, path: str) -> bool:
     module = package.module(path)
     if "rospy" in module.imports_by_root:
         return False
+    if not _CONVERTING.isdisjoint(module.imports_by_root):
+        return True
     return module.mentions("get_parameter_value(") or any(
         not import_.level and _names_kind(import_.module, [n.name for n in import_.names])
         for import_ in module.imports

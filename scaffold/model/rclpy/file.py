@@ -86,7 +86,7 @@ def rclpy_paths(package: Package) -> Sequence[str]:
 
 _OF_NODES = re.compile(
     rb"\.(?:create_(?:publisher|subscription|service|client|timer|rate)|call_async"
-    rb"|(?:declare|get)_parameter|send_goal_async|get_logger\(\)\.\w+)\("
+    rb"|(?:declare|get)_parameter|send_goal_async|get_logger\(\)\.\w+|get_clock)\("
 )
 """Matches the use of a node or a client of rclpy."""
 
