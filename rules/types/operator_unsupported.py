@@ -105,6 +105,19 @@ class OperatorUnsupported(TypeRule):
             "numpy.array(...)",
         ),
         Example(
+            "numbers of a scan that a lambda hands to a function",
+            {
+                "near.py": "from rclpy.node import Node\n"
+                "from sensor_msgs.msg import LaserScan\n\n\n"
+                "def near(ranges, limit):\n    return ranges < limit\n\n\n"
+                "class Near(Node):\n"
+                "    def __init__(self):\n"
+                "        super().__init__('near')\n"
+                "        self.create_subscription(LaserScan, 'a', lambda x: near(x.ranges, 1), 1)\n"
+            },
+            "6:12: '<' does not work on an array.array and an int: TypeError; use numpy.array(...)",
+        ),
+        Example(
             "a text and a number",
             {
                 "speed.py": _SPEED.format("'speed ' + str(speed)", "str(2) + ' m'"),

@@ -59,6 +59,7 @@ RIGHT = ("get_name", "get_clock", "data")
         ("from .util import name_of as n", "self.n = n(self)", 0, 2),
         ("from talker.util import (\n    Arm,\n    name_of,\n)", "print(name_of(self))", 0, 2),
         ("from . import util", "util.name_of(self)", 0, 2),
+        ("from .util import name_of", "later = lambda: name_of(self)", 0, 2),
         ("from talker import util as u", "u.name_of(node=self)", 0, 2),
         ("import talker.util", "talker.util.name_of(self)", 0, 2),
         ("from .util import Arm", "self.arm = Arm(self)", 1, 9),
@@ -84,7 +85,6 @@ def test_argument_types_are_known_in_the_other_module(
     [
         ("from .util import name_of", "name_of(*[self])"),
         ("from .util import name_of", "name_of(self)\n        name_of(3)"),
-        ("from .util import name_of", "later = lambda: name_of(self)"),
         ("from util import name_of", "name_of(self)"),
         ("from .util import Arm", "self.name_of(self)"),
     ],

@@ -15,8 +15,9 @@ from scaffold.record import NamedTuple
 from scaffold.types.rewriting import containers, returns
 from scaffold.types.rewriting.added_lines import Extended, with_lines
 from scaffold.types.rewriting.callbacks import arguments_of, function_body
+from scaffold.types.rewriting.lambdas import place_of
 from scaffold.types.rewriting.passed import GIVEN, Passed, own_names, places
-from scaffold.types.rewriting.statements import class_starts, definitions, statement_around
+from scaffold.types.rewriting.statements import class_starts, definitions
 from scaffold.types.stubs import makers
 
 _EITHER = "_ros2_either"
@@ -104,9 +105,11 @@ def _add(lines: dict[int, list[str]], more: Mapping[int, Sequence[str]]) -> None
 def _passed(text: str, data: bytes, module: str, lines: dict[int, list[str]]) -> Iterator[Passed]:
     """Add the lines before calls of functions of other modules; yield the stored values."""
     for call in places(text, own_names(data, module)):
-        words, end = _arguments(text, call.arguments)
-        place = statement_around(text, call.start, end) if words else -1
-        if place < 0 or any(value.startswith("*") for value in words.values()):
+        given, end = _arguments(text, call.arguments)
+        place, words = place_of(text, call.start, end, given) if given else (-1, given)
+        if place < 0 or len(words) < len(given):
+            continue
+        if any(value.startswith("*") for value in words.values()):
             continue
         prefix = f"{GIVEN}_{module.replace('.', '_')}_{call.start}"
         kept = {
@@ -235,8 +238,8 @@ def _calls_as(
             continue
         if text.endswith(("def ", "class "), 0, start):
             continue
-        words, end = _arguments(text, text.find(called, start) + len(called))
-        place = statement_around(text, start, end) if words else -1
+        given, end = _arguments(text, text.find(called, start) + len(called))
+        place, words = place_of(text, start, end, given) if given else (-1, given)
         if place < 0:
             continue
         if body is None:
@@ -245,7 +248,7 @@ def _calls_as(
             head = function.start - 1
             body = head, head + len(function_body(text, head, head))
         if not body[0] <= start < body[1]:
-            yield place, words, is_partial
+            yield place, words, is_partial or len(words) < len(given)
 
 
 def _arguments(text: str, start: int) -> tuple[Mapping[str, str], int]:
