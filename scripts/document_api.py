@@ -21,22 +21,22 @@ ROOT = Path(__file__).parent.parent
 INTRODUCTION = f"""\
 # The interface of rules
 
-A rule imports `scaffold.api` and its rooms, and nothing else of the engine; ruff checks that for
-the rules of this repository. This page is version {api.VERSION} of the interface. The number grows
-when a name is removed or changes its meaning; new names do not change it. `make docs` writes this
-page from the code; each example is a line of a rule of ours.
+A rule imports `scaffold.api` and its submodules, and nothing else of the engine; ruff checks this
+for the rules of this repository. This page is version {api.VERSION} of the interface. The number
+grows when a name is removed or changes its meaning; new names do not change it. `make docs` writes
+this page from the code; each example is a line of one of our rules.
 """
 
 
 def main(target: Path) -> int:
     """Write the page."""
-    rooms = sorted(path.stem for path in Path(str(api.__file__)).parent.glob("[a-z]*.py"))
-    modules = [api, *(import_module(f"scaffold.api.{room}") for room in rooms)]
-    target.write_text("\n".join([INTRODUCTION, *(_room(module) for module in modules)]))
+    names = sorted(path.stem for path in Path(str(api.__file__)).parent.glob("[a-z]*.py"))
+    modules = [api, *(import_module(f"scaffold.api.{name}") for name in names)]
+    target.write_text("\n".join([INTRODUCTION, *(_section(module) for module in modules)]))
     return 0
 
 
-def _room(module: ModuleType) -> str:
+def _section(module: ModuleType) -> str:
     lines = [f"## `{module.__name__}`", "", (module.__doc__ or "").strip(), ""]
     for name in sorted({*module.__all__} - {"VERSION"}, key=lambda name: (name.lower(), name)):
         lines += _entry(module, name)
