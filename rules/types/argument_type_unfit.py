@@ -115,9 +115,13 @@ class ArgumentTypeUnfit(TypeRule):
         Example(
             "a text for a serial port, and a message for numbers",
             {"driver.py": _DRIVER.format("'go'", "q")},
-            "8:41: an argument of write() must be bytes, not a str: write() fails",
-            "9:34: an argument of euler_from_quaternion() must be a sequence of numbers, not a "
+            "8:41: 'b' of write() must be bytes, not a str: write() fails",
+            "9:34: 'quaternion' of euler_from_quaternion() must be a sequence of numbers, not a "
             "geometry_msgs.msg.Quaternion: euler_from_quaternion() fails",
+        ),
+        Example(
+            "numbers for a quaternion, which are too many arguments",
+            {"driver.py": _DRIVER.format("b'go'", "0.0, 0.0, q.z")},
         ),
         Example(
             "a number that may be whole, for a range of whole numbers",

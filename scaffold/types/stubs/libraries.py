@@ -63,13 +63,16 @@ def partial_libraries() -> frozenset[str]:
     return frozenset(os.listdir(os.path.join(distributions.DATA, _PARTIAL)))
 
 
-def partial_stubs() -> dict[str, str]:
+def partial_stubs(library: str = "") -> dict[str, str]:
     """Return the stubs of Python libraries that programs use besides ROS, by relative path.
 
     They declare the few names of a library that all of its versions share, and accept all
     others. They are for our own type checker: an editor has those of the library itself.
+
+    Args:
+        library: The importable package to return the stubs of.
     """
-    return _stubs_below(os.path.join(distributions.DATA, _PARTIAL), "")
+    return _stubs_below(os.path.join(distributions.DATA, _PARTIAL), library)
 
 
 def _stubs_below(top: str, library: str) -> dict[str, str]:

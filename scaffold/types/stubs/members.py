@@ -260,6 +260,8 @@ def _stubs_of(package: Package, module: str) -> Mapping[str, str]:
 
 @lru_cache(maxsize=16)
 def _bundled_of(distribution: Distribution, root: str) -> Mapping[str, str]:
+    if root in stubs.partial_libraries():
+        return stubs.partial_stubs(root)
     return stubs.stubs_of(distribution, root)
 
 
