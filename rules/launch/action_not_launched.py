@@ -187,12 +187,12 @@ def _nodes(launch: LaunchFile) -> Iterator[tuple[str, ast.Call, list[ast.Name]]]
         target = holder.targets[0]
         if not isinstance(target, ast.Name):
             continue
-        lookup = launch.module.index.lookup(target.id, target)
-        uses = [use for use in launch.module.index.names(target.id) if use is not target]
-        if lookup is None or len(lookup[1]) != 1 or _repeats(launch, call.call):
+        index = launch.module.index
+        uses = index.uses_of(target)
+        if len(index.bindings_of(target)) != 1 or _repeats(launch, call.call):
             continue
-        if all(launch.module.index.lookup(use.id, use) == lookup for use in uses):
-            yield target.id, call.call, uses
+        if len(uses) == len(index.names(target.id)):
+            yield target.id, call.call, [use for use in uses if use is not target]
 
 
 def _repeats(launch: LaunchFile, node: ast.expr) -> bool:

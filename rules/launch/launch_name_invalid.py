@@ -9,7 +9,6 @@ from scaffold.api import Diagnostic, Example, LaunchRule
 from scaffold.api.launch import NODES, LaunchFile
 
 _TRUTHS = frozenset({"true", "false", "1", "0"})
-_NAMESPACE = r"(/?[A-Za-z_]\w*(/[A-Za-z_]\w*)*/?|/|)"
 _CONDITIONS = ("IfCondition", "UnlessCondition")
 _LAUNCH = (
     "from launch import LaunchDescription\nfrom launch_ros.actions import Node\n\n\n"

@@ -224,13 +224,12 @@ _COLORS = frozenset({"color", "color.a", "colors", "mesh_use_embedded_materials"
 def _uses(types: MessageTypes, name: ast.Name) -> Sequence[ast.Attribute] | None:
     """Return the used fields of a marker; ``None`` if it is used in any other way."""
     module = types.module
-    scope = module.index.lookup(name.id, name)
-    if scope is None or len(scope[1]) != 1:
+    if len(module.index.bindings_of(name)) != 1:
         return None
     result: list[ast.Attribute] = []
     is_sent = False
-    for use in module.index.names(name.id):
-        if not isinstance(use.ctx, ast.Load) or module.index.lookup(use.id, use) != scope:
+    for use in module.index.uses_of(name):
+        if not isinstance(use.ctx, ast.Load):
             continue
         above = module.parent(use)
         match above:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, ParseError, Rule, Severity
-from scaffold.api.formats import Mapping, Scalar, Sequence, YamlNode, yaml_tree
+from scaffold.api.formats import Mapping, Scalar, yaml_tree
 from scaffold.api.parameters import parameter_paths
 
 _FILE = "talker:\n  ros__parameters:\n    rate: 2.0\n    {}: 3.0\n"
@@ -37,21 +37,14 @@ class KeyRepeated(Rule):
     def check(self, package: Package) -> Iterator[Diagnostic]:
         for path in parameter_paths(package):
             try:
-                pending: list[YamlNode] = list(yaml_tree.parse(package.source(path)))
+                roots = yaml_tree.parse(package.source(path))
             except ParseError:
                 continue
-            for node in pending:  # extended during the loop
-                if isinstance(node, Sequence):
-                    pending += node.items
-                elif isinstance(node, Mapping):
-                    pending += [value for _, value in node.pairs]
-                    for key, first in _repeated(node):
-                        line = first.location.line
-                        message = (
-                            f"{key.text!r} is already set in line {line}: the first value is "
-                            "ignored; remove one of them"
-                        )
-                        yield self.report(key, message)
+            for _, mapping in yaml_tree.mappings(roots):
+                for key, first in _repeated(mapping):
+                    message = f"{key.text!r} is already set in line {first.location.line}: "
+                    message += "the first value is ignored; remove one of them"
+                    yield self.report(key, message)
 
 
 def _repeated(mapping: Mapping) -> Iterator[tuple[Scalar, Scalar]]:

@@ -6,6 +6,7 @@ constructed from tags.
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING, Protocol
 
 from scaffold.record import NamedTuple
@@ -91,6 +92,17 @@ def parse(source: Source) -> list[YamlNode]:
     except (ValueError, RecursionError):
         raise ParseError(Location.start_of(source.path), "cannot be read as YAML") from None
     return reader.roots
+
+
+def mappings(roots: Iterable[YamlNode]) -> Iterator[tuple[str, Mapping]]:
+    """Yield the mappings in documents, each with the key of its value; empty for a root."""
+    pending: list[tuple[str, YamlNode]] = [("", root) for root in roots]
+    for key, node in pending:  # grows on the way
+        if isinstance(node, Sequence):
+            pending += [(key, item) for item in node.items]
+        elif isinstance(node, Mapping):
+            yield key, node
+            pending += [(inner.text, value) for inner, value in node.pairs]
 
 
 def _explained(source: Source, error: yaml.MarkedYAMLError) -> ParseError:

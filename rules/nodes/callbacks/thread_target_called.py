@@ -198,8 +198,7 @@ def _is_left(package: Package, file: RclpyFile, call: ast.Call, idle: frozenset[
     index = file.module.index
     match file.module.parent(call):
         case ast.Assign(targets=[ast.Name() as name]):
-            scope = index.lookup(name.id, name)
-            uses = [use for use in index.names(name.id) if index.lookup(use.id, use) == scope]
+            scope, uses = index.lookup(name.id, name), index.uses_of(name)
             is_own = scope is not None and not isinstance(scope[0], ast.Module | ast.ClassDef)
             return is_own and _are_idle(file, uses, idle)
         case ast.Assign(targets=[ast.Attribute(value=ast.Name(id="self"), attr=attribute)]):

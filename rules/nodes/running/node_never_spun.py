@@ -129,11 +129,7 @@ def _left_out(
         match file.module.parent(call):
             case ast.Assign(targets=[ast.Name() as name]):
                 scope = file.module.index.lookup(name.id, name)
-                uses = [
-                    use
-                    for use in file.module.index.names(name.id)
-                    if file.module.index.lookup(use.id, use) == scope
-                ]
+                uses = file.module.index.uses_of(name)
                 is_own = scope is not None and len(scope[1]) == 1
                 is_own = is_own and not isinstance(scope and scope[0], ast.Module)
             case ast.Assign(targets=[ast.Attribute(value=ast.Name(id="self"), attr=attribute)]):

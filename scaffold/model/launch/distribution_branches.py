@@ -86,7 +86,7 @@ def _in_xml(document: Document) -> Iterator[Stretch]:
 
 
 def _in_yaml(source: Source) -> Iterator[Stretch]:
-    mappings = [*_mappings(yaml_tree.parse(source))]
+    mappings = [*yaml_tree.mappings(yaml_tree.parse(source))]
     given = [
         {key.text: value.text for key, value in mapping.pairs if isinstance(value, Scalar)}
         for _, mapping in mappings
@@ -96,17 +96,6 @@ def _in_yaml(source: Source) -> Iterator[Stretch]:
     for (_, mapping), words in zip(mappings, given, strict=True):
         if _is_left_out(variables, words.get):
             yield mapping.location.line, mapping.location.column, *_end(mapping)
-
-
-def _mappings(roots: Iterable[YamlNode]) -> Iterator[tuple[str, Mapping]]:
-    """Yield the mappings of a file, each with its key."""
-    pending: list[tuple[str, YamlNode]] = [("", root) for root in roots]
-    for tag, node in pending:  # grows on the way
-        if isinstance(node, Sequence):
-            pending += [(tag, item) for item in node.items]
-        elif isinstance(node, Mapping):
-            yield tag, node
-            pending += [(key.text, value) for key, value in node.pairs]
 
 
 def _end(node: YamlNode) -> tuple[int, int]:

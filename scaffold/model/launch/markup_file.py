@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from scaffold.formats import xml_reader
 from scaffold.formats import yaml as yaml_tree
 from scaffold.formats.xml import Attribute
-from scaffold.formats.yaml import Mapping, Scalar, Sequence, YamlNode
+from scaffold.formats.yaml import Mapping, Scalar, Sequence
 from scaffold.record import NamedTuple
 from scaffold.source import Location, Source, ViewError
 
@@ -153,16 +153,8 @@ def _elements(package: Package, path: str) -> list[_Element]:
     if path.endswith(".xml"):
         root = _document(package, path).root
         return [_of_xml(descendant) for descendant in root.descendants()]
-    result: list[_Element] = []
     roots = yaml_tree.parse(Source.decode(path, package.data(path)))
-    pending: list[tuple[str, YamlNode]] = [("", root) for root in roots]
-    for tag, node in pending:  # grows on the way
-        if isinstance(node, Sequence):
-            pending += [(tag, item) for item in node.items]
-        elif isinstance(node, Mapping):
-            result.append(_of_yaml(tag, node))
-            pending += [(key.text, value) for key, value in node.pairs]
-    return result
+    return [_of_yaml(tag, node) for tag, node in yaml_tree.mappings(roots)]
 
 
 def _of_xml(element: Element) -> _Element:

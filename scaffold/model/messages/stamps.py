@@ -269,15 +269,9 @@ def _uses(types: MessageTypes, made: ast.Call, sent: ast.expr) -> Sequence[ast.e
     if isinstance(sent, ast.Attribute):
         # An attribute of this name may be of the same object anywhere.
         return [node for node in module.index.attributes(sent.attr) if _is_read(node)]
-    scope = module.index.lookup(sent.id, sent)
-    result = [
-        node
-        for node in module.index.names(sent.id)
-        if _is_read(node) and module.index.lookup(node.id, node) == scope
-    ]
-    if scope is None or all(binding.value is not made for binding in scope[1]):
+    if all(binding.value is not made for binding in module.index.bindings_of(sent)):
         raise _Doubt
-    return result
+    return [node for node in module.index.uses_of(sent) if _is_read(node)]
 
 
 def _is_read(node: ast.Name | ast.Attribute) -> bool:

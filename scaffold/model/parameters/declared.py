@@ -38,7 +38,6 @@ class DeclaredParameter(NamedTuple):
     location: Location
     default: object
     """The default; ``UNKNOWN`` also if none is given, or it is no parameter value."""
-    has_descriptor: bool
     descriptor: Descriptor | None
     """``None`` if its value is unknown."""
     divides: bool
@@ -106,7 +105,6 @@ def _place(parameter: Parameter, package: Package, *, divides: bool) -> Declared
         package.name,
         parameter.location,
         default if is_plain else UNKNOWN,
-        parameter.descriptor_node is not None,
         parameter.descriptor,
         divides,
     )

@@ -59,16 +59,10 @@ def used_of_executor(file: RclpyFile, call: ast.Call) -> dict[str, ast.AST] | No
     if not isinstance(parent.targets[0], ast.Name):
         return None
     variable = parent.targets[0]
-    scope = file.module.index.lookup(variable.id, variable)
-    result: dict[str, ast.AST] = {}
-    for other in file.module.index.names(variable.id):
-        if other is variable:
-            continue
-        around = file.module.parent(other)
-        if not scope or not isinstance(around, ast.Attribute):
-            return None
-        looked_up = file.module.index.lookup(other.id, other)
-        if looked_up is None or looked_up[0] is not scope[0]:
-            return None
-        result[around.attr] = around
-    return result
+    uses = file.module.index.uses_of(variable)
+    around = [file.module.parent(use) for use in uses if use is not variable]
+    attributes = [node for node in around if isinstance(node, ast.Attribute)]
+    is_alone = len(uses) == len(file.module.index.names(variable.id))
+    if not is_alone or len(attributes) < len(around):
+        return None
+    return {node.attr: node for node in attributes}

@@ -30,15 +30,9 @@ def list_literal(module: SyntaxTree, node: ast.Name) -> ast.expr | None:
 
 def changes_of(module: SyntaxTree, node: ast.Name) -> Sequence[ast.Name]:
     """Return the changes of the list in a name."""
-    changes = [name for name in module.index.names(node.id) if _is_change(module, name)]
-    if not changes:
+    if not any(_is_change(module, name) for name in module.index.names(node.id)):
         return ()
-    scope = module.index.lookup(node.id, node)
-    return [
-        name
-        for name in changes
-        if (lookup := module.index.lookup(name.id, name)) and scope and lookup[0] is scope[0]
-    ]
+    return [name for name in module.index.uses_of(node) if _is_change(module, name)]
 
 
 def _is_change(module: SyntaxTree, name: ast.Name) -> bool:

@@ -248,6 +248,12 @@ class ScopeIndex:
         bindings = self.bindings_of(node)
         return bindings[0].value if len(bindings) == 1 else None
 
+    def uses_of(self, variable: ast.Name) -> Sequence[ast.Name]:
+        """Return where the same variable is set or read, here among them; none if unknown."""
+        found = self.lookup(variable.id, variable)
+        uses = self.names(variable.id) if found is not None else ()
+        return [use for use in uses if self.lookup(use.id, use) == found]
+
     def _look_up(self, name: str, scope: ast.AST) -> tuple[ast.AST, Sequence[Binding]] | None:
         first = True
         while True:
