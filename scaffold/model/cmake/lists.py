@@ -6,6 +6,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cached_property
 
 from scaffold.model.cmake import parser as cmake_parser
+from scaffold.model.cmake.installs import Install, InstallItem, InstallReader, plain_path, shown
 from scaffold.model.cmake.lexer import Token
 from scaffold.model.cmake.parser import Argument, Command
 from scaffold.model.cmake.variables import ROOT, Variables
@@ -28,23 +29,8 @@ FINDS_DEPENDENCIES = frozenset({"ament_auto_find_build_dependencies", "autoware_
 LAST_CALLS = ("ament_package", "ament_auto_package", "autoware_ament_auto_package")
 """Commands that register the package: ``ament_package`` and those that call it."""
 
-_INSTALL_KINDS = ("PROGRAMS", "FILES", "DIRECTORY", "TARGETS", "SCRIPT", "CODE", "EXPORT")
-_INSTALL_KEYWORDS = frozenset(
-    """
-    DESTINATION PERMISSIONS CONFIGURATIONS COMPONENT NAMELINK_COMPONENT RENAME OPTIONAL
-    EXCLUDE_FROM_ALL NAMELINK_ONLY NAMELINK_SKIP TYPE ARCHIVE LIBRARY RUNTIME OBJECTS FRAMEWORK
-    BUNDLE PRIVATE_HEADER PUBLIC_HEADER RESOURCE FILE_SET CXX_MODULES_BMI INCLUDES EXPORT
-    RUNTIME_DEPENDENCIES RUNTIME_DEPENDENCY_SET FILE_PERMISSIONS DIRECTORY_PERMISSIONS
-    USE_SOURCE_PERMISSIONS MESSAGE_NEVER FILES_MATCHING PATTERN REGEX EXCLUDE NAMESPACE
-    EXPORT_LINK_INTERFACE_LIBRARIES FILE ALL_COMPONENTS
-    """.split()  # noqa: SIM905  forty quoted names would hide them
-)
-_FOR_BUILDING = ("ARCHIVE", "LIBRARY", "RUNTIME", "OBJECTS", "FRAMEWORK", "BUNDLE")
-_FOR_USERS = ("INCLUDES", "PUBLIC_HEADER", "PRIVATE_HEADER", "RESOURCE", "FILE_SET")
-_ARTIFACTS = frozenset({*_FOR_BUILDING, *_FOR_USERS})
 _MAX_ITEMS = 20_000  # installed items; lists and loops multiply
 _MAX_DEPTH = 200  # blocks around a command; deeper ones count as not guarded
-_PREFIX = "${CMAKE_INSTALL_PREFIX}/"
 _NO_BINDINGS: Mapping[str, str] = {}
 
 
@@ -58,44 +44,6 @@ class FoundPackage(NamedTuple):
     required: bool
     in_testing: bool
     """Whether it is only found when tests are built."""
-
-
-class InstallItem(NamedTuple):
-    """An installed item."""
-
-    argument: Argument
-    value: str | None
-    """The argument with variables replaced; ``None`` if one of them is unknown."""
-    path: str | None
-    """The path relative to the root of the package; ``None`` for a target or if unknown."""
-
-    @property
-    def location(self) -> Location:
-        """The place of the argument."""
-        return self.argument.location
-
-
-class Install(NamedTuple):
-    """A call of ``install``, or of a macro that installs directories; one for each loop turn."""
-
-    kind: str
-    """``PROGRAMS``, ``FILES``, ``DIRECTORY``, ``TARGETS`` …"""
-    items: list[InstallItem]
-    destination: str | None
-    """The destination with variables replaced; ``None`` if missing or unknown."""
-    destination_argument: Argument | None
-    destinations: dict[str, str | None]
-    """The destinations of TARGETS by artifact, such as ``RUNTIME``; ``""`` is for all."""
-    rename: str | None
-    patterns: list[str]
-    """The patterns that select files of a DIRECTORY."""
-    excludes: list[str]
-    command: Command
-
-    @property
-    def location(self) -> Location:
-        """The place of the call."""
-        return self.command.location
 
 
 class CMakeLists:
@@ -196,7 +144,7 @@ class CMakeLists:
             expanded = value.text
         else:
             expanded = self._variables.evaluate(value.text, at, bindings)
-        return None if expanded is None else _shown(expanded)
+        return None if expanded is None else shown(expanded)
 
     def expand_list(
         self,
@@ -210,12 +158,17 @@ class CMakeLists:
             values = self._variables.argument(argument, at, bindings)
             if values is None:
                 return None
-            result.extend(map(_shown, values))
+            result.extend(map(shown, values))
         return result
 
     def path_of(self, value: str) -> str:
         """Return the path, relative to the root of the package, of what ``expand`` returned."""
-        return self._path(value if value.startswith("/") else f"{self._directory}/{value}")
+        return plain_path(value if value.startswith("/") else f"{self._directory}/{value}")
+
+    @cached_property
+    def _directory(self) -> str:
+        directory = self.source.path.rpartition("/")[0]
+        return f"{ROOT}/{directory}" if directory else ROOT
 
     # -- testing
 
@@ -327,6 +280,7 @@ class CMakeLists:
         """The installed items of ``install``, ``ament_auto_package`` and similar commands."""
         result: list[Install] = []
         items = 0
+        reader = InstallReader(self._variables, self._directory, self.project_name)
         for command in self.find("install", *LAST_CALLS[1:]):
             if self.is_for_ros1(command):
                 continue
@@ -334,118 +288,9 @@ class CMakeLists:
             for bindings in self._variables.combinations(command) or ({},):
                 if items > _MAX_ITEMS:
                     return result
-                result.extend(self._installs_of(command, bindings))
+                result.extend(reader.read(command, bindings))
                 items += len(result[-1].items) if result else 0
         return result
-
-    def _installs_of(self, command: Command, bindings: Mapping[str, str]) -> Iterator[Install]:
-        if command.name != "install":
-            keyword = "INSTALL_TO_SHARE"
-            arguments = command.keyword(
-                keyword, {"INSTALL_TO_PATH", "USE_SCOPED_HEADER_INSTALL_DIR"}
-            )
-            if arguments:
-                name = self.project_name
-                share = None if name is None else f"share/{name}"
-                items = self._items(arguments, command, bindings, are_files=True)
-                yield Install("DIRECTORY", items, share, None, {}, None, [], [], command)
-            return
-        kind = next(iter(command.values), "")
-        if kind not in _INSTALL_KINDS:
-            return
-        sections = command.sections({kind, *_INSTALL_KEYWORDS})
-        destination = next(iter(sections.get("DESTINATION", ())), None)
-        rename = next(iter(sections.get("RENAME", ())), None)
-        patterns, excludes = self._patterns(command)
-        yield Install(
-            kind,
-            self._items(sections[kind], command, bindings, are_files=kind in _INSTALL_KINDS[:3]),
-            self._destination(destination, command, bindings),
-            destination,
-            self._destinations(command, bindings),
-            None if rename is None else self.expand(rename, command, bindings),
-            patterns,
-            excludes,
-            command,
-        )
-
-    def _items(
-        self,
-        arguments: Sequence[Argument],
-        command: Command,
-        bindings: Mapping[str, str],
-        *,
-        are_files: bool,
-    ) -> list[InstallItem]:
-        install_items: list[InstallItem] = []
-        for argument in arguments:
-            values = self._variables.argument(argument, command, bindings)
-            if values is None:
-                install_items.append(InstallItem(argument, None, None))
-                continue
-            for value in values:
-                full = value if value.startswith((ROOT, "/")) else f"{self._directory}/{value}"
-                path = self._path(full) if are_files else None
-                install_items.append(InstallItem(argument, _shown(value), path))
-        return install_items
-
-    def _destinations(self, command: Command, bindings: Mapping[str, str]) -> dict[str, str | None]:
-        """Return the destination of each kind of artifact of a target."""
-        result: dict[str, str | None] = {}
-        artifact = ""
-        arguments = iter(command.arguments)
-        for argument in arguments:
-            value = argument.value
-            if value in _ARTIFACTS:
-                artifact = value
-            elif value == "DESTINATION":
-                where = next(arguments, None)
-                if where is not None:
-                    result[artifact] = self._destination(where, command, bindings)
-        return result
-
-    def _destination(
-        self, argument: Argument | None, command: Command, bindings: Mapping[str, str]
-    ) -> str | None:
-        """Return a destination relative to the prefix, which may be written explicitly."""
-        if argument is None:
-            return None
-        return self.expand(argument.text.removeprefix(_PREFIX), command, bindings)
-
-    def _patterns(self, command: Command) -> tuple[list[str], list[str]]:
-        """Return the including and excluding patterns of install(DIRECTORY)."""
-        selected: list[str] = []
-        excluded: list[str] = []
-        values = command.values
-        for number, value in enumerate(values[:-1]):
-            if value not in {"PATTERN", "REGEX"}:
-                continue
-            behind = values[number + 2 : number + 3]
-            (excluded if behind == ["EXCLUDE"] else selected).append(values[number + 1])
-        return selected, excluded
-
-    @property
-    def _directory(self) -> str:
-        directory = self.source.path.rpartition("/")[0]
-        return f"{ROOT}/{directory}" if directory else ROOT
-
-    def _path(self, full: str) -> str:
-        """Return a path that begins with ``ROOT`` relative to it, without ``.`` and ``..``."""
-        parts: list[str] = []
-        for part in full.removeprefix(ROOT).split("/"):
-            if part == ".." and parts and parts[-1] != "..":
-                parts.pop()
-            elif part not in {"", "."}:
-                parts.append(part)
-        absolute = "/" if full.startswith("/") else ""
-        return absolute + "/".join(parts) or "."
-
-
-def _shown(value: str) -> str:
-    """Return paths below the root of the package in their usual form."""
-    if ROOT not in value:
-        return value
-    return value.replace(f"{ROOT}/", "").replace(ROOT, ".") or "."
 
 
 def _asks_for_testing(condition: Command) -> bool | None:
