@@ -5,7 +5,8 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, RclpyRule, Report, Severity
+from scaffold.api import Diagnostic, Example, Package, RclpyRule, Report, Severity, fact
+from scaffold.api.install import file_of
 from scaffold.api.rclpy import NODE, NodeClass, RclpyFile, defined_by, has, names_of_bases
 
 _NODE = (
@@ -164,6 +165,25 @@ class NodeNotConstructed(RclpyRule):
             {"talker.py": _NODE_BASE.format("(object)")},
             "4:7: class 'Talker' uses methods of Node; inherit from Node",
         ),
+        Example(
+            "a class in front of Node that ends the chain of constructors, and one that does not",
+            {
+                "package.xml": "<package><name>rover</name></package>\n",
+                "rover/__init__.py": "",
+                "rover/parts.py": "class Remembering:\n    def __init__(self):\n"
+                "        self.said = []\n\n\n"
+                "class Counting:\n    def __init__(self, *args):\n"
+                "        super().__init__(*args)\n        self.count = 0\n",
+                "rover/nodes.py": "from rclpy.node import Node\n"
+                "from rover.parts import Counting, Remembering\n\n\n"
+                "class Speaker(Remembering, Node):\n    def __init__(self):\n"
+                "        super().__init__()\n        self.create_timer(1.0, print)\n\n\n"
+                "class Counter(Counting, Node):\n    def __init__(self):\n"
+                "        super().__init__('counter')\n        self.create_timer(1.0, print)\n",
+            },
+            "rover/nodes.py:7:9: Remembering.__init__() comes first, and calls no "
+            "super().__init__(): Node is not initialized",
+        ),
     )
 
     def check_in(self, package: Package, file: RclpyFile) -> Iterator[Diagnostic]:
@@ -177,6 +197,11 @@ class NodeNotConstructed(RclpyRule):
             if skipped is not None:
                 yield self.report(file.module.location(skipped[0]), skipped[1])
                 continue
+            ending = _ending(package, file, node)
+            if ending is not None:
+                message = f"{ending[1]}.__init__() comes first, and calls no super().__init__(): "
+                message += "Node is not initialized"
+                yield self.report(file.module.location(ending[0]), message)
             if node.calls_super_init or node.constructor is None or node.is_made_later:
                 continue
             at = file.module.name_location(node.constructor)
@@ -235,6 +260,49 @@ def _skipping(file: RclpyFile, node: NodeClass) -> tuple[ast.Call, str] | None:
             ):
                 return call, "super() already passes self; the first argument is the node name"
     return None
+
+
+def _ending(package: Package, file: RclpyFile, node: NodeClass) -> tuple[ast.Call, str] | None:
+    """Return the call of ``super().__init__`` that another base class answers, and its name."""
+    call = node.super_init
+    if call is None or not isinstance(call.func, ast.Attribute) or not _is_super(call.func.value):
+        return None
+    calls = (
+        [item for item in file.calls_in(node.constructor) if _is_init(item)]
+        if node.constructor
+        else []
+    )
+    for base in node.node.bases[: node.base_index] if calls == [call] else ():
+        module, _, name = (file.module.qualified_name(base) or "").rpartition(".")
+        is_own = bool(module) and file.is_own_module(module)
+        path = file_of(package, module) if is_own else "" if module else file.module.path
+        ends = _ends_chain(package, path, name) if path else None
+        if ends is None:
+            return None
+        if ends:
+            return call, name
+    return None
+
+
+def _is_init(call: ast.Call) -> bool:
+    return isinstance(call.func, ast.Attribute) and call.func.attr == "__init__"
+
+
+@fact
+def _ends_chain(package: Package, path: str, name: str) -> bool | None:
+    """Tell whether the constructor of a class calls no other; ``None`` if that is not known."""
+    classes = [item for item in package.module(path).walk(ast.ClassDef) if item.name == name]
+    if len(classes) != 1 or classes[0].bases or classes[0].decorator_list:
+        return None
+    methods = [item for item in classes[0].body if isinstance(item, ast.FunctionDef)]
+    constructors = [item for item in methods if item.name == "__init__"]
+    if not constructors:
+        return False
+    return not any(
+        (isinstance(node, ast.Name) and node.id == "super")
+        or (isinstance(node, ast.Attribute) and node.attr == "__init__")
+        for node in ast.walk(constructors[0])
+    )
 
 
 def _is_outline(package: Package, file: RclpyFile, node: NodeClass) -> bool:
