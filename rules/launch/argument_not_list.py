@@ -121,6 +121,30 @@ class ArgumentNotList(LaunchRule):
             ),
             fixed=_include("{'rate': '2'}.items()"),
         ),
+        Example(
+            "keyword arguments of a function",
+            {
+                "a.launch.py": "from launch import LaunchDescription\n"
+                "from launch.actions import IncludeLaunchDescription\n\n\n"
+                "def part(path, **arguments):\n"
+                "    return IncludeLaunchDescription(path, launch_arguments=arguments)\n\n\n"
+                "def generate_launch_description():\n"
+                "    return LaunchDescription([part('talk.launch.py', rate='2')])\n"
+            },
+            Report(
+                "6:60",
+                "launch_arguments is a dictionary; launch takes pairs: add .items()",
+                fix="add .items()",
+            ),
+            fixed={
+                "a.launch.py": "from launch import LaunchDescription\n"
+                "from launch.actions import IncludeLaunchDescription\n\n\n"
+                "def part(path, **arguments):\n"
+                "    return IncludeLaunchDescription(path, launch_arguments=arguments.items())\n"
+                "\n\ndef generate_launch_description():\n"
+                "    return LaunchDescription([part('talk.launch.py', rate='2')])\n"
+            },
+        ),
     )
 
     def check_file(self, launch: LaunchFile) -> Iterator[Diagnostic]:
@@ -200,13 +224,21 @@ def _of_include(launch: LaunchFile, call: LaunchCall, argument: str) -> _Judgeme
     node = call.given[argument]
     values: list[ast.expr | None] = [node]
     if isinstance(node, ast.Name):
-        lookup = launch.module.index.lookup(node.id, node)
-        values = [binding.value for binding in lookup[1]] if lookup else [None]
+        bindings = launch.module.index.bindings_of(node)
+        values = [binding.value for binding in bindings] or [None]
+        if len(bindings) == 1 and _takes_keywords(launch, bindings[0].node):
+            values = [ast.Dict(keys=[], values=[])]
     if not all(map(_makes_dictionary, values)):
         return _FITS
     _, end = launch.module.span(node)
     fix = Fix("add .items()", (Edit(launch.path, end, end, ".items()"),))
     return "launch_arguments is a dictionary; launch takes pairs: add .items()", fix
+
+
+def _takes_keywords(launch: LaunchFile, parameter: ast.AST) -> bool:
+    """Tell whether a parameter is a dictionary of keyword arguments: ``**arguments``."""
+    arguments = launch.module.parent(parameter)
+    return isinstance(arguments, ast.arguments) and arguments.kwarg is parameter
 
 
 def _makes_dictionary(node: ast.expr | None) -> bool:
