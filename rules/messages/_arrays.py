@@ -135,7 +135,7 @@ def _elements_indexed(types: MessageTypes) -> Iterator[tuple[ast.expr, str]]:
 
 
 def _clouds_calculated(types: MessageTypes) -> Iterator[tuple[ast.expr, str]]:
-    """Yield clouds of structured points that functions of NumPy cannot calculate with."""
+    """Yield arrays of structured points passed to NumPy functions that need plain numbers."""
     for name in _CALCULATING:
         for call in types.module.calls_of(f"numpy.{name}"):
             made = types.file.evaluator.single_value(call.args[0]) if call.args else None
@@ -194,7 +194,7 @@ def _encoding(types: MessageTypes, image: ast.expr) -> object:
 
 
 def _shapes_swapped(types: MessageTypes) -> Iterator[tuple[ast.expr, str]]:
-    """Yield shapes for the data of an image or a map with the width in front."""
+    """Yield shapes for the data of an image or a map with the width first."""
     for call in types.module.walk(ast.Call):
         match call:
             case ast.Call(func=ast.Attribute(attr="reshape", value=data), args=args, keywords=[]):

@@ -196,7 +196,7 @@ def _is_hardly_reached(package: Package, undefined: Diagnostic) -> bool:
 
 
 def _is_raised(module: PythonModule, name: ast.expr) -> bool:
-    """Tell whether a name is that of an exception: instead of it, another one is raised."""
+    """Tell whether a name is that of an exception, so that a NameError is raised instead."""
     above = module.parent(name)
     if isinstance(above, ast.Call) and above.func is name:
         above = module.parent(above)

@@ -67,7 +67,7 @@ class TypeFindings:
             id(package): number for number, batch in enumerate(self._batches) for package in batch
         }
         self._checks: dict[int, TypeCheck] = {}
-        """Those that have been started, by the number of the batch: two at most."""
+        """The started runs, by the number of the batch: at most two."""
         self.failure = ""
         """Why types are not checked; empty if they are."""
         self._start(0)

@@ -183,7 +183,7 @@ def agreed_types(part: Open, others: Iterable[Open], uses: Iterable[Use]) -> dic
 
 
 def agreed_qos(part: Open, others: Iterable[Open], uses: Iterable[Use]) -> dict[str, Given]:
-    """Return the qualities of service that a part takes from others, to connect with them."""
+    """Return the QoS answers that a part takes from others, to connect with them."""
     theirs = [use for other in others for use in other.uses] + list(uses)
     result: dict[str, Given] = {}
     for (question, _), use in zip(pairs(part.template.questions), part.uses, strict=False):

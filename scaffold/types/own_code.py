@@ -23,7 +23,7 @@ _CALL = re.compile(rf"[^`]*(?:`\w+`[^`]*)*? (?:[a-z]+ )*`({CALLEE})`(?:: expecte
 _FOUND = re.compile(r"found `((?:Literal\[)?([A-Z][^\W_]\w*)(?:\.[^`|]*)?)`$")
 """Matches an instance of an unmarked class, or a member of an enumeration."""
 _STANDING_IN = re.compile(r"Mock|Fake|Stub|Dummy", re.IGNORECASE)
-"""Matches classes whose objects are given for those of others."""
+"""Matches classes whose objects are passed instead of those of others."""
 _CALLS = frozenset(
     {
         "missing-argument",

@@ -81,7 +81,7 @@ class PythonText:
         self.text = text
         *ended, rest = text.split("\n")
         self.lines = [line + "\n" for line in ended]
-        r"""With their ``\n``; the last one may be without."""
+        r"""The lines with their ``\n``, which the last one may lack."""
         if rest:
             self.lines.append(rest)
         self._given_index = index

@@ -27,7 +27,7 @@ class LaunchEvaluator(Evaluator):
         self._package_name = package_name
 
     def argument(self, node: ast.arg) -> object:
-        """Return what the only call of a function of the file gives a parameter."""
+        """Return the argument for a parameter in the only call of a function of the file."""
         given = given_once(self.module, node)
         return UNKNOWN if given is None else self.evaluate(given)
 

@@ -19,12 +19,12 @@ DIRECTORIES = ("launch/", "launches/")
 _USERS = (".py", ".xml", ".yaml", ".yml", ".cpp", ".hpp")
 _LONGEST_PATH = 200
 _WORD = re.compile(r"(?<![^\"'\s=/])(?!self\.)[\w-]*\.[\w.-]*")
-"""Matches what may be the name of a file in a text, but no attribute of ``self``."""
+"""Matches possible file names in a text, but not attributes of ``self``."""
 _OF_DATA = (
     *(".yaml", ".yml", ".json", ".xml", ".rviz", ".urdf", ".xacro", ".sdf", ".world", ".pgm"),
     *(".png", ".dae", ".stl", ".csv", ".cfg", ".ini", ".toml", ".lua"),
 )
-"""How the names of most data files end."""
+"""The suffixes of most data files."""
 DATA_DIRECTORIES = ("config", "params", "param", "rviz", "urdf", "maps", "worlds", "meshes")
 """Directories whose files are read at run time from ``share/<package>``."""
 
@@ -64,7 +64,7 @@ def is_named(package: Package, directory: str) -> bool:
 def _named_in(
     package: Package, user: Package, path: str, wanted: AbstractSet[str]
 ) -> AbstractSet[str]:
-    """Return which of some data files of a package a file of a package names."""
+    """Return the data files of a package that a file of a package mentions."""
     if not path.endswith(_USERS):
         return set()
     try:

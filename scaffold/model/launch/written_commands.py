@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 _DIRECTORIES = ("", "docker", "scripts", ".devcontainer")
 """Directories of a repository whose files are read."""
 _STARTING = re.compile(r"(?i)docker|compose|\.(?:sh|bash|md|rst|ya?ml)$")
-"""Matches the names of files that start programs, or tell people how to."""
+"""Matches the names of files that start programs or document how to."""
 _MAX_BYTES = 200_000
 
 

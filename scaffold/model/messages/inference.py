@@ -82,7 +82,7 @@ class Assigned(NamedTuple):
 
 
 _CONVERTING = frozenset({"cv_bridge", "sensor_msgs_py", "tf2_geometry_msgs"})
-"""Libraries that make messages and read them."""
+"""Libraries that create and read messages."""
 
 
 def message_paths(package: Package) -> Sequence[str]:

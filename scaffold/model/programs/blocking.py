@@ -154,7 +154,7 @@ def _find_in_constructors(file: RclpyFile) -> Iterator[Executed]:
 
 
 def in_helpers(file: RclpyFile) -> Iterator[Executed]:
-    """Yield the functions that constructors of classes run that get a node: nodes make them.
+    """Yield the functions run by constructors of classes that get a node.
 
     Whether the node is spun meanwhile is not known.
     """

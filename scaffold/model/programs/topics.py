@@ -42,7 +42,7 @@ class NamedEndpoint(NamedTuple):
     name_location: Location
     qos: Qos | None
     profile: Mapping[str, str] | None
-    """What is given to its QoSProfile; ``None`` where that is not known."""
+    """The arguments of its QoSProfile; ``None`` if unknown."""
     is_plain: bool
     """Whether it is certainly created, once, by a node without a namespace."""
     from_parameter: str | None

@@ -1,4 +1,4 @@
-"""What calls give the parameters of functions."""
+"""The arguments that calls pass for the parameters of functions."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 
 
 def given_once(module: SyntaxTree, parameter: ast.AST) -> ast.expr | None:
-    """Return what a function gets for a parameter if the file calls it once, and only calls it."""
+    """Return the argument for a parameter of a function if the file only calls it once."""
     function = module.parent(module.parent(parameter) or parameter)
     if not isinstance(parameter, ast.arg) or not isinstance(function, ast.FunctionDef):
         return None

@@ -21,7 +21,7 @@ def returned(function: FunctionNode) -> Sequence[ast.Return]:
 
 
 def only_result(module: SyntaxTree, func: ast.expr) -> tuple[ast.FunctionDef, ast.expr] | None:
-    """Return the function of a file that an expression names, and the only value it returns.
+    """Return the function of the file that an expression refers to, and its only return value.
 
     ``None`` for others: what branches, loops, is decorated or gives a parameter another value.
     """

@@ -176,7 +176,7 @@ class Offered(Protocol):
 
     @property
     def profile(self) -> Mapping[str, str] | None:
-        """What is given to its QoSProfile; ``None`` where that is not known."""
+        """The arguments of its QoSProfile; ``None`` if unknown."""
 
 
 def conflict_of(publisher: Offered, subscription: Offered) -> Conflict | None:

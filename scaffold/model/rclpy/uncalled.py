@@ -18,9 +18,9 @@ if TYPE_CHECKING:
     from scaffold.model.python.scopes import FunctionNode
 
 _CALLBACK = re.compile(r"(?i)call_?back$|_cb$")
-"""Matches the names of methods that are handed over, and are not known to a base."""
+"""Matches the names of methods that are passed on and unknown to a base class."""
 _COMPUTED = re.compile(r"\bgetattr\([^,]*,\s*(?![\"'\s])")
-"""Matches where the name of an attribute is computed."""
+"""Matches the computation of the name of an attribute."""
 _WORD = re.compile(r"\w+")
 _DEFINITION = re.compile(r"\bdef\s+(\w+)")
 _ENTRIES = frozenset({"main", "generate_launch_description"})
@@ -113,7 +113,7 @@ def _outermost_function(module: PythonModule, line: int) -> FunctionNode | None:
 
 
 def _is_decorated(function: FunctionNode) -> bool:
-    """Tell whether something else than a name may lead to a function; it is all of a property."""
+    """Tell whether a function may be reached other than by its name; always so for a property."""
     names = [getattr(item, "id", "") for item in function.decorator_list]
     return any(name != "property" for name in names)
 

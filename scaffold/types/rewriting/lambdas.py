@@ -1,4 +1,4 @@
-"""Finds what calls inside lambdas give, where the lambda is written.
+"""Finds the arguments of calls inside of lambdas, at the place of the lambda.
 
 In ``create_subscription(Imu, 'imu', lambda imu: self.send(smooth(imu, 0.1)), 10)``, ``smooth`` gets
 ``Imu()``.
@@ -18,7 +18,7 @@ _SUBSCRIBED = re.compile(r"\bcreate_subscription\(\s*([\w.]+)\s*,")
 def place_of(
     text: str, start: int, end: int, words: Mapping[str, str]
 ) -> tuple[int, Mapping[str, str]]:
-    """Return where the line of a call begins, and the arguments that are known there.
+    """Return the start of the line of a call, and the arguments that are known there.
 
     Args:
         text: The file.
