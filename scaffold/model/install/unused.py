@@ -60,7 +60,7 @@ def is_never_run(package: Package, path: str) -> bool:
 
     Scripts started from the sources need no dependency of the package.
     """
-    return is_copy_of_old_code(package, path) or _is_out_of_reach(package, path, ())
+    return is_copy_of_old_code(package, path) or _is_never_reached(package, path, ())
 
 
 def is_out_of_reach(package: Package, path: str) -> bool:
@@ -68,7 +68,12 @@ def is_out_of_reach(package: Package, path: str) -> bool:
 
     People start a script from the sources when a text of the package says so.
     """
-    return _is_out_of_reach(package, path, _TEXTS)
+    return _is_never_reached(package, path, _TEXTS)
+
+
+def _is_never_reached(package: Package, path: str, texts: tuple[str, ...]) -> bool:
+    key = ("out of reach", path, texts)
+    return package.remember(key, lambda: _is_out_of_reach(package, path, texts))
 
 
 def _is_out_of_reach(package: Package, path: str, texts: tuple[str, ...]) -> bool:

@@ -27,6 +27,10 @@ def is_left_alone(package: Package, path: str) -> bool:
 
     A launch file that puts the name together may name any with that ending.
     """
+    return package.remember(("left alone", path), lambda: _is_left_alone(package, path))
+
+
+def _is_left_alone(package: Package, path: str) -> bool:
     name = path.rpartition("/")[2]
     ending = re.escape(f".{name.rpartition('.')[2]}".encode())
     whole = re.escape(name.encode("utf-8", "surrogateescape"))
