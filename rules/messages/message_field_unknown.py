@@ -83,6 +83,13 @@ class MessageFieldUnknown(MessageRule):
             "std_msgs 5.3.6 of ROS 2 Jazzy)",
         ),
         Example(
+            "of what an event of another library passes to the same callback",
+            {
+                "listener.py": _NODE.format("text")
+                + "\n    def listen(self, port):\n        port.found += self.on_chatter\n"
+            },
+        ),
+        Example(
             "set, nested, of a response, a constant; reassigned names are not checked",
             {
                 "talker.py": "from geometry_msgs.msg import Twist\n"

@@ -153,6 +153,19 @@ class AttributeMissing(TypeRule):
             "7:12: a tuple has no 'width': AttributeError; unpack it first",
         ),
         Example(
+            "an event of another library, which passes other objects to the same callback",
+            {
+                "base.py": "from rclpy.node import Node\n"
+                "from std_msgs.msg import String\n\n\n"
+                "class Base(Node):\n"
+                "    def __init__(self, port):\n"
+                "        super().__init__('base')\n"
+                "        port.found += self.send\n"
+                "        self.create_subscription(String, 'corrections', self.send, 10)\n\n"
+                "    def send(self, found):\n        print(found.serialize())\n"
+            },
+        ),
+        Example(
             "a method that is kept instead of what it returns",
             {
                 "idle.py": "from rclpy.node import Node\n\n\n"

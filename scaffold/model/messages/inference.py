@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import re
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from functools import cached_property
@@ -37,6 +38,8 @@ _NOT_FIELDS = frozenset({"get_fields_and_field_types", "SLOT_TYPES", "check_fiel
 _PARAMETER_VALUE = "rcl_interfaces.msg.ParameterValue"
 _DEPTH = 12
 _MAX_BINDINGS = 200  # assignments of one name or attribute; with more its type is unknown
+_OF_EVENTS = re.compile(r"connect$|register(?!Callback)|add_(?:listener|handler|observer)")
+"""Matches methods that take a function for the events of another library."""
 _EXPECTED = frozenset({"AttributeError", "TypeError", "AssertionError", "ValueError"})
 _RAISES = frozenset({"raises", "assertRaises", "assertRaisesRegex"})
 _ASKS_TYPE = frozenset({"isinstance", "type", "hasattr", "getattr", "setattr", "issubclass"})
@@ -348,11 +351,24 @@ class MessageTypes:
         if callback is None or callback.function is None or callback.is_partial:
             return None
         function = callback.function
-        if not isinstance(function, ast.Lambda) and function.decorator_list:
+        if not isinstance(function, ast.Lambda) and (
+            function.decorator_list or self._is_for_others(function.name)
+        ):
             return None
         parameters = [*function.args.posonlyargs, *function.args.args]
         index += int(callback.is_bound)
         return parameters[index] if index < len(parameters) else None
+
+    def _is_for_others(self, name: str) -> bool:
+        """Tell whether a callback is also handed to something that may pass other objects."""
+        for use in self.module.index.attributes(name):
+            match self.module.parent(use):
+                case ast.AugAssign(value=value) if value is use:
+                    return True
+                case ast.Call(func=ast.Attribute(attr=method) as called) if called is not use:
+                    if _OF_EVENTS.match(method):
+                        return True
+        return False
 
     # -- where nothing is reported
 

@@ -34,6 +34,12 @@ _FILTER = re.compile(
     r"(Subscriber|TimeSynchronizer|ApproximateTimeSynchronizer)\("
 )
 _OTHER_FUTURES = re.compile(r"\b(?:asyncio|concurrent|submit)\b")
+# linear: a line is searched from each call of these
+_OF_EVENT = re.compile(
+    r"(?:\+=[ \t]{0,9}|\.(?:connect|register(?!Callback)\w{0,40}|add_(?:listener|handler|observer))"
+    r"\([^()\n]{0,200})\bself\.(\w+)\b(?!\()"
+)
+"""Matches a callback that an event of another library gets, which may pass other objects."""
 _TYPE = re.compile(r"(?:\w+\.)*[A-Z]\w*")
 _CALLBACK = re.compile(r"(?:self\.)?([^\W\d]\w*)")
 _SEGMENT = re.compile(r"^(?=class )", re.MULTILINE)
@@ -164,6 +170,8 @@ def _annotated(
         if any(item.startswith(_FUTURE) for item in given) and not has_ros_futures:
             continue
         types[name] = () if types.get(name, given) != given else given
+    if types:
+        types.update((match[1], ()) for match in _OF_EVENT.finditer(segment))
     for definition in reversed(_defined_once(segment)) if any(types.values()) else ():
         if given := types.get(definition[2], ()):
             start, end = definition.span()
