@@ -169,7 +169,7 @@ class TypeCheck:
             self._reached.setdefault(id(package), {})[path] = reads
         if not (is_relevant or calling) or _is_shadowed(source, stubbed | partial_libraries()):
             return
-        if sources.are_others(package, own):
+        if sources.are_others(package, roots):
             return
         key = self._cache.key(source, reached)
         own_key = self._cache.key(source, own, "silent") if calling else ""

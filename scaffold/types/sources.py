@@ -8,7 +8,7 @@ determine which files the type checker reads.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from functools import cached_property
 
 from scaffold.files.disk import digest
@@ -142,12 +142,15 @@ class Sources:
                     pending.append(other)
         return result
 
-    def are_others(self, user: Package, reached: Mapping[str, Source]) -> bool:
+    def are_others(self, user: Package, roots: Iterable[str]) -> bool:
         """Tell whether code of a package refers to a package that is not importable here.
 
         Such a package has the name of another one in another workspace of the repository.
+
+        Args:
+            user: The package.
+            roots: The top-level modules that the code imports.
         """
-        roots = frozenset[str]().union(*(item.roots for item in reached.values()))
         packages = [self._package(user, root) for root in roots]
         return any(item is not None and user.workspace.is_hidden(item) for item in packages)
 
