@@ -165,6 +165,20 @@ class OperatorUnsupported(TypeRule):
             "10:37: '+' does not work on a tuple and a list: TypeError",
         ),
         Example(
+            "paths that objects have in place of the texts of their class",
+            {
+                "builder.py": "from pathlib import Path\n\n"
+                "from ament_index_python import get_package_share_directory\n"
+                "from launch_param_builder import ParameterBuilder\n\n\n"
+                "class Builder(ParameterBuilder):\n"
+                "    share = ''\n    file = ''\n\n"
+                "    def __init__(self):\n"
+                "        self.share = Path(get_package_share_directory('rover'))\n"
+                "        self.file = Path('robot.urdf')\n\n"
+                "    def path(self):\n        return self.share / self.file\n"
+            },
+        ),
+        Example(
             "a text that is compared with a number",
             {"level.py": _LEVEL.format("msg.data > 3")},
             "6:12: '>' does not work on a str and an int: TypeError; use float(...)",
