@@ -35,9 +35,8 @@ def _is_sure(file: RclpyFile, node: ast.expr, depth: int) -> bool:
     match node:
         case ast.Constant() | ast.JoinedStr() | ast.List() | ast.Tuple() | ast.Dict():
             return True
-        case ast.Attribute(value=owner, attr=name):
-            is_element = any(isinstance(part, ast.Subscript) for part in ast.walk(owner))
-            return not is_element and not _is_set_twice(file, name)
+        case ast.Attribute(value=owner):
+            return not any(isinstance(part, ast.Subscript) for part in ast.walk(owner))
         case ast.Name():
             value = file.evaluator.single_value(node)
             return depth > 0 and value is not node and _is_sure(file, value, depth - 1)
@@ -47,15 +46,3 @@ def _is_sure(file: RclpyFile, node: ast.expr, depth: int) -> bool:
             root = (file.module.qualified_name(func) or "").partition(".")[0]
             return root in _LIBRARIES or root in sys.stdlib_module_names or hasattr(builtins, root)
     return False
-
-
-def _is_set_twice(file: RclpyFile, name: str) -> bool:
-    """Tell whether a class has a value for an attribute, and its objects another one.
-
-    The type checker knows only that of the class if it does not know its base class.
-    """
-    module = file.module
-    is_stored = any(isinstance(use.ctx, ast.Store) for use in module.index.attributes(name))
-    return is_stored and any(
-        name in module.index.bindings(class_) for class_ in module.walk(ast.ClassDef)
-    )

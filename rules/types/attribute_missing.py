@@ -575,6 +575,18 @@ class AttributeMissing(TypeRule):
             },
         ),
         Example(
+            "a publisher that objects have in place of the text of their class",
+            {
+                "talker.py": "from launch_param_builder import ParameterBuilder\n"
+                "from std_msgs.msg import String\n\n\n"
+                "class Talker(ParameterBuilder):\n"
+                "    output = ''\n\n"
+                "    def __init__(self, node):\n"
+                "        self.output = node.create_publisher(String, 'talk', 10)\n\n"
+                "    def talk(self):\n        self.output.publish(String())\n"
+            },
+        ),
+        Example(
             "fields of a dataclass in a dictionary",
             {"keep.py": _STATES.format("pose.position")},
         ),

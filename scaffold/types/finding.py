@@ -270,6 +270,9 @@ class TypeFinding:
 
     def _is_of_several(self, node: ast.AST) -> bool:
         """Tell whether the called or used object may be another one than the reported one."""
+        parts = [node.left, node.right] if isinstance(node, ast.BinOp) else [node]
+        if any(origins.has_default(self.module, part) for part in parts):
+            return True
         if self.kind == "missing-attribute":
             return False  # only reported if no object of them has it
         assigned = self.module.enclosing(node, ast.Assign)

@@ -37,6 +37,23 @@ def is_of_several(module: PythonModule, node: ast.AST) -> bool:
     return False
 
 
+def has_default(module: PythonModule, node: ast.AST) -> bool:
+    """Tell whether a value is of an attribute that a class has, and its objects replace.
+
+    The type checker only knows the value of the class if it does not know a base class.
+    """
+    names = {origin.attr for origin in _origins(module, node) if isinstance(origin, ast.Attribute)}
+    stored = {
+        name
+        for name in names
+        if any(isinstance(use.ctx, ast.Store) for use in module.index.attributes(name))
+    }
+    return any(
+        not stored.isdisjoint(module.index.bindings(class_))
+        for class_ in (module.walk(ast.ClassDef) if stored else ())
+    )
+
+
 def is_attribute(module: PythonModule, node: ast.AST) -> bool:
     """Tell whether a value is read from an object: libraries declare all of its types."""
     values = [node, *(arguments_for(module, node) if isinstance(node, ast.Name) else ())]
