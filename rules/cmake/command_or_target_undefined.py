@@ -51,7 +51,18 @@ PROVIDERS = {
     "ament_flake8": ("ament_cmake_flake8",),
     "ament_lint_auto_find_test_dependencies": ("ament_lint_auto",),
     "ament_lint_cmake": ("ament_cmake_lint_cmake",),
-    "ament_package": ("ament_cmake", "ament_cmake_ros", "ament_cmake_auto", "ament_cmake_core"),
+    "ament_package": (
+        "ament_cmake",
+        "ament_cmake_auto",
+        "ament_cmake_core",
+        "ament_cmake_pytest",
+        "ament_cmake_ros",
+        "ament_lint_auto",
+        "rclcpp",
+        "std_srvs",
+        "tf2",
+        "tf2_ros",
+    ),
     "ament_pep257": ("ament_cmake_pep257",),
     "ament_python_install_package": ("ament_cmake_python", "ament_cmake", "ament_cmake_auto"),
     "ament_xmllint": ("ament_cmake_xmllint",),
@@ -76,7 +87,9 @@ _BRING_NOTHING = (
     "tf2",
     "tf2_ros",
 )
-"""Packages that only provide their own commands, like message packages."""
+"""Packages that only provide their own commands, and those of ament_cmake_core in part."""
+_MESSAGES = "_msgs"
+"""The ending of message packages, which find ament_cmake_core."""
 
 _CALL = "project(talker)\nfind_package(ament_cmake REQUIRED)\n{}()\n"
 _LISTS = "project(talker)\n{}ament_add_pytest_test(talk test/test_talk.py)\n"
@@ -212,10 +225,12 @@ class CommandOrTargetUndefined(Rule):
             return
         if any("$" in call.values[0] for call in cmake.find("find_package") if call.values):
             return
-        if not all(name in _BRING_NOTHING or name.endswith("_msgs") for name in packages):
+        if not all(name in _BRING_NOTHING or name.endswith(_MESSAGES) for name in packages):
             return
         for name, providers in PROVIDERS.items():
             if name in own or not (packages | tests).isdisjoint(providers):
+                continue
+            if name == "ament_package" and any(item.endswith(_MESSAGES) for item in packages):
                 continue
             for command in cmake.find(name):
                 message = f"{name}() is undefined without find_package({providers[0]} REQUIRED)"

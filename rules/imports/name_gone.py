@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import re
 from collections.abc import Iterator, Mapping
 
 from scaffold.api import Diagnostic, Example, Package, PythonRule, Report, Severity
@@ -55,6 +56,8 @@ _LATER: Mapping[str, str] = {
 """Names added in NumPy 2.0; Ubuntu 24.04 (Jazzy) has 1.26."""
 
 
+_CATCHES = re.compile(r"\b(?:AttributeError|Exception|BaseException)\b")
+"""Matches what a handler catches that is for versions without a name."""
 _SECOND = (2,)
 
 
@@ -86,7 +89,7 @@ class NameGone(PythonRule):
                 "b.py": "import numpy as np\n\ntry:\n    real = np.float\n"
                 "except AttributeError:\n    real = float\n",
                 "c.py": "import cv2\n\ntry:\n    width = cv2.CAP_PROP_FRAME_WIDTH\n"
-                "except AttributeError:\n    width = cv2.cv.CV_CAP_PROP_FRAME_WIDTH\n",
+                "except Exception:\n    width = cv2.cv.CV_CAP_PROP_FRAME_WIDTH\n",
             },
         ),
         Example(
@@ -186,9 +189,9 @@ def _is_gone(name: str) -> bool:
 
 def _is_for_older(module: PythonModule, parent: ast.AST) -> bool:
     """Tell whether a block only runs where the new name does not exist either."""
-    if not isinstance(parent, ast.ExceptHandler) or parent.type is None:
+    if not isinstance(parent, ast.ExceptHandler):
         return False
-    return "AttributeError" in module.text(parent.type)
+    return parent.type is None or bool(_CATCHES.search(module.text(parent.type)))
 
 
 def _is_replaced(module: PythonModule, node: ast.Attribute) -> bool:

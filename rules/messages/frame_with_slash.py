@@ -14,6 +14,8 @@ _FIELDS = ("frame_id", "child_frame_id")
 _LOOKUPS = frozenset({"lookup_transform", "can_transform", "lookup_transform_async"})
 _FRAMES = ("target_frame", "source_frame")
 _TRANSFORM = "geometry_msgs/msg/TransformStamped"
+_SHOWN = "visualization_msgs/"
+"""What RViz shows; it removes the slash."""
 _CODE = (
     "from geometry_msgs.msg import TransformStamped\n\n\n"
     "def make(buffer, time):\n"
@@ -33,6 +35,10 @@ _OTHERS = (
     "    goal = Goal()\n    goal.header.frame_id = {}\n"
     "    return scan, goal\n"
 )
+_MARKER = (
+    "from visualization_msgs.msg import Marker\n\n\n"
+    "def make():\n    marker = Marker()\n    marker.header.frame_id = '{}'\n    return marker\n"
+)
 _UNKNOWN = "a message of a type that is not known"
 _OF_UNKNOWN = (
     "from motor_driver_msgs.msg import State\n\n\n"
@@ -44,8 +50,8 @@ _OF_UNKNOWN = (
 class FrameWithSlash(MessageRule):
     """A frame name starts with a slash.
 
-    A warning in a transform, where tf2 removes the slash, and in messages of packages outside ROS,
-    whose frames may never be looked up.
+    A warning in a transform, where tf2 removes the slash, in a marker, where RViz does, and in
+    messages of packages outside ROS, whose frames may never be looked up.
 
     **Why.** tf2 rejects it in every program that uses the message: ``Invalid argument
     "/base_link" passed to lookupTransform ... frame_ids cannot start with a '/'``.
@@ -58,7 +64,7 @@ class FrameWithSlash(MessageRule):
     code = "MS007"
     name = "frame-with-slash"
     other_severities = {
-        Severity.WARNING: "it is in a TransformStamped, or in a message not of ROS or not known"
+        Severity.WARNING: "it is in a transform, a marker, or a message not of ROS or not known"
     }
     examples = (
         Example("no slash", {"node.py": _CODE.format("'map'", "'base'", "'map'")}),
@@ -119,6 +125,18 @@ class FrameWithSlash(MessageRule):
             fixed={"node.py": _OTHERS.format("'laser'", "'world'")},
         ),
         Example(
+            "in a marker",
+            {"node.py": _MARKER.format("/world")},
+            Report(
+                "6:30",
+                "frame '/world' starts with '/': tf2 rejects it where the frame is "
+                "looked up; remove the slash",
+                fix="remove the slash",
+                severity=Severity.WARNING,
+            ),
+            fixed={"node.py": _MARKER.format("world")},
+        ),
+        Example(
             "in a message of a type that is not known",
             {"node.py": "import rclpy\n" + _OF_UNKNOWN.format("/world")},
             Report(
@@ -152,7 +170,9 @@ class FrameWithSlash(MessageRule):
             effect = "tf2 rejects it"
             if owner == _TRANSFORM:
                 severity, effect = Severity.WARNING, "tf2 knows the frame without it"
-            elif owner and owner.partition("/")[0] not in ROS_PACKAGES:
+            elif owner and (
+                owner.partition("/")[0] not in ROS_PACKAGES or owner.startswith(_SHOWN)
+            ):
                 severity, effect = Severity.WARNING, "tf2 rejects it where the frame is looked up"
             message = f"frame {value!r} starts with '/': {effect}; remove the slash"
             yield self.report(types.module.location(node), message, fix, severity=severity)

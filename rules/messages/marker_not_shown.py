@@ -211,6 +211,8 @@ def _problems(types: MessageTypes, made: ast.Assign, name: ast.Name) -> Iterator
     loop = _loop_around(types, made)
     if loop is None or not actions <= _ADDING or _ends_early(loop):
         return
+    if types.module.mentions("InteractiveMarker"):
+        return  # RViz numbers the markers of a control itself
     ids, spaces = (list(_field_values(types, uses, words, key)) for key in ("id", "ns"))
     values = [types.file.evaluator.evaluate(value) for value in (*ids, *spaces)]
     if len(ids) <= 1 and len(spaces) <= 1 and all(map(is_known, values)):

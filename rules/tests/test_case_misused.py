@@ -38,6 +38,14 @@ class TestCaseMisused(TestRule):
     examples = (
         Example("right", {"test/test_text.py": _TEST.format(_CASE, "setUp", "")}),
         Example(
+            "setUpClass as a function without arguments",
+            {
+                "test/test_text.py": _TEST.format(_CASE, "setUpClass", "")
+                .replace("setUpClass(self", "setUpClass(")
+                .replace("self.text = 'a'", "TestText.text = 'a'")
+            },
+        ),
+        Example(
             "made by the file itself",
             {
                 "test/test_text.py": _TEST.format(_CASE, "__init__", "")
@@ -117,7 +125,7 @@ def _case_problem(module: PythonModule, method: FunctionNode) -> str:
     for right in _SET_UP:
         if name != right and name.replace("_", "").lower() == right.lower():
             return f"unittest never calls {name}; use {right}"
-    if name in {"setUpClass", "tearDownClass"} and not decorated:
+    if name in {"setUpClass", "tearDownClass"} and given and not decorated:
         problem = f"unittest calls {name} on the class: @classmethod is missing"
     elif name in {"setUp", "tearDown"} and not decorated and len(given) != 1 and not launched:
         problem = f"unittest calls {name} with self only, but it takes {len(given)} arguments"

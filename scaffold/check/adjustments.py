@@ -23,7 +23,11 @@ from scaffold.model.python.facts import paths_importing
 from scaffold.model.python.guards import all_conditions, is_unevaluated
 from scaffold.model.python.module import PythonModule
 from scaffold.model.rclpy.stopping import only_while_stopping
-from scaffold.model.rclpy.uncalled import is_in_uncalled_function, may_be_in_uncalled_function
+from scaffold.model.rclpy.uncalled import (
+    is_in_uncalled_function,
+    is_unused_module,
+    may_be_in_uncalled_function,
+)
 from scaffold.record import NamedTuple
 from scaffold.source import ViewError
 
@@ -139,13 +143,26 @@ def _is_unreached(package: Package, diagnostic: Diagnostic) -> bool:
     """Tell whether an error is in Python code that is never run."""
     path, code = diagnostic.location.path, diagnostic.code
     is_of_example = code not in _OF_TESTS and path.startswith(("doc/", "docs/"))
-    if is_of_example or code == _RAISED_ANYWAY:
+    if is_of_example or code == _RAISED_ANYWAY or _is_of_ros1(package, diagnostic):
         return True
     if code.startswith(_OF_LINTERS):
         return is_out_of_reach(package, path) or _is_hardly_reached(package, diagnostic)
     return code.startswith(_OF_PROGRAMS) and (
         is_out_of_reach(package, path) or _is_uncalled(package, diagnostic)
     )
+
+
+def _is_of_ros1(package: Package, diagnostic: Diagnostic) -> bool:
+    """Tell whether an error is in a file for ROS 1, which ROS 2 stops at ``import rospy``."""
+    path, code = diagnostic.location.path, diagnostic.code
+    if not code.startswith((*_OF_LINTERS, *_OF_PROGRAMS)) or b"rospy" not in package.data(path):
+        return False
+    try:
+        imports = package.module(path).imports
+    except ViewError:
+        return False
+    needed = {item.root for item in imports if item.top_level and not item.guarded}
+    return "rospy" in needed and "rclpy" not in needed
 
 
 def _is_tested(package: Package, diagnostic: Diagnostic) -> bool:
@@ -166,12 +183,22 @@ def _is_needed_by_unused_code(package: Package, undeclared: Diagnostic) -> bool:
     needed = _QUOTED.search(undeclared.message)
     paths = {undeclared.location.path}
     paths.update(paths_importing(package, needed[1]) if needed else ())
-    return all(is_never_run(package, path) for path in paths)
+    return all(is_never_run(package, path) or _is_unused(package, path) for path in paths)
+
+
+def _is_unused(package: Package, path: str) -> bool:
+    """Tell whether a file is a module that nothing imports or starts."""
+    try:
+        return path.endswith(".py") and is_unused_module(package, package.module(path))
+    except ViewError:
+        return False
 
 
 def _is_uncalled(package: Package, diagnostic: Diagnostic) -> bool:
-    """Tell whether code is in an uncalled function."""
+    """Tell whether code is in an unused module, or in an uncalled function."""
     at = diagnostic.location
+    if _is_unused(package, at.path):
+        return True
     try:
         if not may_be_in_uncalled_function(package, at.path, at.line):
             return False

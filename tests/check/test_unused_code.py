@@ -404,6 +404,53 @@ def test_script_not_installed_by_setup_py(
     assert severities(capsys, "MS002")["scripts/relay.py"] == "error"
 
 
+CONSOLE_SCRIPT = SETUP.replace(
+    ", packages", ", entry_points={'console_scripts': ['talk = talker.node:main']}, packages"
+)
+
+
+@pytest.mark.parametrize(
+    ("text", "severity"),
+    [
+        (MISTAKE, "warning"),
+        ("from . import node\n" + MISTAKE + "if __name__ == '__main__':\n    node\n", "warning"),
+        (MISTAKE + "if __name__ == '__main__':\n    print()\n", "error"),
+    ],
+)
+def test_module_that_nothing_imports_or_starts(
+    package: Path, capsys: pytest.CaptureFixture[str], text: str, severity: str
+) -> None:
+    write(package / "setup.py", CONSOLE_SCRIPT)
+    write(package / "talker" / "node.py", NODE)
+    write(package / "talker" / "plan.py", text)
+    main(["check", "--format", "json", "--select", "TY003"])
+    found = json.loads(capsys.readouterr().out)["diagnostics"]
+    assert {(item["path"], item["severity"]) for item in found} == {
+        ("talker/node.py", "warning"),  # in an uncalled method
+        ("talker/plan.py", severity),
+    }
+
+
+def test_module_imported_by_another_package(
+    package: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    write(package / "setup.py", CONSOLE_SCRIPT)
+    write(package / "talker" / "node.py", "")
+    write(package / "talker" / "plan.py", UNDEFINED)
+    assert severities(capsys, "F821") == {"talker/plan.py": "warning"}
+    user = package.parent / "user"
+    write(user / "package.xml", MANIFEST.format("").replace("talker", "user"))
+    write(user / "go.py", "from talker.plan import x\n")
+    assert severities(capsys, "F821") == {"talker/plan.py": "error"}
+
+
+def test_file_for_ros_1(package: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    write(package / "talker" / "node.py", "import rospy\n\nrospy.spin()\n" + UNDEFINED)
+    assert severities(capsys, "F821") == {"talker/node.py": "warning"}
+    write(package / "talker" / "node.py", "import rclpy\nimport rospy\n" + UNDEFINED)
+    assert severities(capsys, "F821") == {"talker/node.py": "error"}
+
+
 @pytest.mark.parametrize(
     ("severity", "path", "text"),
     [

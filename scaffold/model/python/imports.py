@@ -15,9 +15,10 @@ from scaffold.source import Location
 if TYPE_CHECKING:
     from scaffold.model.python.syntax_tree import SyntaxTree
 
+FIND_SPEC = "importlib.util.find_spec"
 _PLATFORM_NAMES = (
     *("sys.", "os.name", "os.environ", "os.getenv", "os.uname", "platform."),
-    *("importlib.util.find_spec", "pkgutil.find_loader"),
+    *(FIND_SPEC, "pkgutil.find_loader"),
 )
 IMPORT_OR_SKIP = "pytest.importorskip"
 """The function of pytest that skips the tests of a file without a module."""
@@ -100,7 +101,7 @@ class _Guards:
     def context(self, node: ast.AST) -> tuple[bool, bool, bool, bool, bool]:
         """Return top_level, in_function, guarded, type_checking, conditional."""
         in_function = type_checking = conditional = False
-        guarded = self._is_skipped_without(node)
+        guarded = self._is_asked_for(node)
         child: ast.AST = node
         for parent in self._module.parents(node):
             match parent:
@@ -123,23 +124,23 @@ class _Guards:
         top_level = self._module.parent(node) is self._module.tree
         return top_level, in_function, guarded, type_checking, conditional
 
-    def _is_skipped_without(self, node: ast.AST) -> bool:
-        """Tell whether the tests of the file are skipped where an imported module is missing."""
+    def _is_asked_for(self, node: ast.AST) -> bool:
+        """Tell whether the file looks for an imported module before, or skips its tests."""
         match node:
             case ast.Import(names=[ast.alias(name=module)]) | ast.ImportFrom(module=str(module)):
-                return module.partition(".")[0] in self._needed_by_tests
+                return module.partition(".")[0] in self._asked_for
         return False
 
     @cached_property
-    def _needed_by_tests(self) -> frozenset[str]:
-        """The packages of ``pytest.importorskip`` calls."""
-        if not self._module.mentions("importorskip"):
+    def _asked_for(self) -> frozenset[str]:
+        """The packages of ``pytest.importorskip`` and ``find_spec`` calls."""
+        if not self._module.mentions("importorskip", "find_spec"):
             return frozenset()
         return frozenset(
             str(call.args[0].value).partition(".")[0]
             for call in self._module.walk(ast.Call)
             if call.args and isinstance(call.args[0], ast.Constant)
-            if self._module.qualified_name(call.func) == IMPORT_OR_SKIP
+            if self._module.qualified_name(call.func) in {IMPORT_OR_SKIP, FIND_SPEC}
         )
 
     def _is_never_run(self, node: ast.If, child: ast.AST) -> bool:

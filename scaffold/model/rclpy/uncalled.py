@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from scaffold.formats.hash_comments import without_comments
 from scaffold.model.cmake.ament import programs
+from scaffold.model.install.unused import is_named
 from scaffold.model.rclpy.api import NODE, has
 from scaffold.source import ViewError
 
@@ -81,6 +82,21 @@ def is_in_uncalled_function(package: Package, module: PythonModule, line: int) -
     names = (function.name,) if is_helper else (stem, function.name)
     users = package.workspace if is_helper else [package]
     return named == 1 and not any(_is_named_in(user, module, names) for user in users)
+
+
+def is_unused_module(package: Package, module: PythonModule) -> bool:
+    """Tell whether no file mentions a module next to programs, and it does not start itself.
+
+    A module with relative imports cannot be run as a file.
+    """
+    name = module.path.rpartition("/")[2]
+    stem = name.removesuffix(".py")
+    if module.in_tests or name.startswith("__") or stem.endswith("launch"):
+        return False
+    is_startable = module.has_main_guard and not any(item.level for item in module.imports)
+    if is_startable or not _helps_programs(package, module) or is_named(package, module.path, stem):
+        return False
+    return not any(_is_named_in(user, module, (stem,)) for user in package.workspace)
 
 
 def _helps_programs(package: Package, module: PythonModule) -> bool:
