@@ -99,6 +99,18 @@ class OwnImportMissing(Rule):
             },
         ),
         Example(
+            "a module that is installed next to the scripts",
+            {
+                **_FILES,
+                "package.xml": "<package><name>talker</name>"
+                "<export><build_type>ament_python</build_type></export></package>\n",
+                "setup.py": _SETUP.replace(
+                    "    entry", "    data_files=[('lib/talker', ['talker/text.py'])],\n    entry"
+                ),
+                "talker/node.py": "from text import make\n",
+            },
+        ),
+        Example(
             "no such module",
             {**_FILES, "talker/node.py": "from talker.texts import make\n"},
             "talker/node.py:1:1: the package has no module 'talker.texts'; closest: 'talker.text'",

@@ -53,6 +53,17 @@ class ColorOrderSwapped(MessageRule):
             "an order that is not known", {"a.py": _NODE.format("ORDER", *["COLOR_BGR2HSV"] * 2)}
         ),
         Example(
+            "an order that is not known, swapped twice",
+            {
+                "a.py": _FILE.format("rgb8").replace(
+                    "cv2.imread(path)",
+                    "bridge.imgmsg_to_cv2(path)\n"
+                    "    frame = cv2.cvtColor(frame, cv2.COLOR_BGR2RGB)\n"
+                    "    frame = cv2.cvtColor(frame, cv2.COLOR_RGB2BGR)",
+                )
+            },
+        ),
+        Example(
             "red for blue",
             {
                 "a.py": _NODE.format("desired_encoding='rgb8'", "COLOR_BGR2HSV", "COLOR_RGB2GRAY"),
@@ -165,11 +176,7 @@ def _sent_problem(types: MessageTypes, call: ast.Call, image: ast.Name) -> str:
 def _is_gray(types: MessageTypes, image: ast.Name) -> bool:
     """Tell whether an image was converted to grayscale or a mask, and only filtered since."""
     for _ in range(_MAX_DEPTH):
-        made = (
-            _thresholded(types, image)
-            or _value_before(types, image)
-            or types.file.evaluator.single_value(image)
-        )
+        made = _thresholded(types, image) or _made(types, image)
         if not isinstance(made, ast.Call) or not made.args:
             return False
         names = [types.module.qualified_name(node) or "" for node in (made.func, *made.args[1:2])]
@@ -213,7 +220,7 @@ def _color_order(types: MessageTypes, image: ast.Name, depth: int = _MAX_DEPTH) 
     passed = _passed(types, image)
     if passed is not None:
         return _color_order(types, passed, depth - 1) if depth else ""
-    made = _value_before(types, image) or types.file.evaluator.single_value(image)
+    made = _made(types, image)
     if not isinstance(made, ast.Call):
         return ""
     if types.module.qualified_name(made.func) == "cv2.imread":
@@ -249,10 +256,17 @@ def _converted_order(types: MessageTypes, call: ast.Call, depth: int) -> str:
     converted = _CONVERTED.fullmatch(code)
     if converted is None:
         return ""
-    before = ""
-    if code.startswith(("COLOR_BGR", "COLOR_RGB")) and isinstance(call.args[0], ast.Name):
-        before = _color_order(types, call.args[0], depth - 1) if depth else ""
-    return _OTHER[before] if before else converted[1]
+    image = call.args[0]
+    if not code.startswith(("COLOR_BGR", "COLOR_RGB")) or not isinstance(image, ast.Name):
+        return converted[1]
+    before = _color_order(types, image, depth - 1) if depth else ""
+    is_made_here = isinstance(_made(types, image), ast.Call)  # in an unknown order
+    return _OTHER[before] if before else "" if is_made_here else converted[1]
+
+
+def _made(types: MessageTypes, image: ast.Name) -> object:
+    """Return the expression that an image is the value of, if any."""
+    return _value_before(types, image) or types.file.evaluator.single_value(image)
 
 
 def _value_before(types: MessageTypes, image: ast.Name) -> ast.expr | None:

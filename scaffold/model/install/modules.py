@@ -16,6 +16,7 @@ from scaffold.model.install.share import installed_files
 from scaffold.model.package import mentions
 from scaffold.model.python.facts import imports_by_path, imports_of
 from scaffold.model.python.module import is_in_tests
+from scaffold.model.setup_py.package_data import installed_data
 from scaffold.model.workspace.gitignore import directories_above, is_untracked
 from scaffold.source import ViewError
 
@@ -252,7 +253,13 @@ def _lacks_package(package: Package, path: str, own: str, name: str) -> bool:
         return False
     changes_path = mentions(package, path, "sys.path")
     changes_path |= "-packages" in setup.module.source.text
-    return not changes_path and bool(file_of(package, f"{own}.{name}"))
+    intended = file_of(package, f"{own}.{name}")
+    return not changes_path and bool(intended) and not _is_beside_scripts(package, intended)
+
+
+def _is_beside_scripts(package: Package, path: str | None) -> bool:
+    """Tell whether data_files install a module next to the scripts, which find it there."""
+    return path in (installed_data(package) or ())
 
 
 @fact
