@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 _CALLBACK = re.compile(r"(?i)call_?back$|_cb$")
 """Matches the names of methods that are passed on and unknown to a base class."""
-_COMPUTED = re.compile(r"\bgetattr\([^,]*,\s*(?![\"'\s])")
+_COMPUTED = re.compile(r"\bgetattr\([^,\n]{0,200},\s{0,9}(?![\"'\s])")
 """Matches the computation of the name of an attribute."""
 _WORD = re.compile(r"\w+")
 _DEFINITION = re.compile(r"\bdef\s+(\w+)")
