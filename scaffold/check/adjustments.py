@@ -180,14 +180,17 @@ def _is_needed_by_unused_code(package: Package, undeclared: Diagnostic) -> bool:
 
     It is reported at the first of the files that import it.
     """
+    if not _is_unused(package, undeclared.location.path):
+        return False  # before the imports of all files are looked at
     needed = _QUOTED.search(undeclared.message)
-    paths = {undeclared.location.path}
-    paths.update(paths_importing(package, needed[1]) if needed else ())
-    return all(is_never_run(package, path) or _is_unused(package, path) for path in paths)
+    paths = paths_importing(package, needed[1]) if needed else ()
+    return all(_is_unused(package, path) for path in paths)
 
 
 def _is_unused(package: Package, path: str) -> bool:
-    """Tell whether a file is a module that nothing imports or starts."""
+    """Tell whether a file is never run, or a module that nothing imports or starts."""
+    if is_never_run(package, path):
+        return True
     try:
         return path.endswith(".py") and is_unused_module(package, package.module(path))
     except ViewError:

@@ -96,5 +96,4 @@ def _tells_all(type_: str, reached: Mapping[str, Source]) -> bool:
     plain = {name for name in names if MARK not in name}
     if not plain <= _PLAIN or any(name.split(MARK)[1] in own for name in names - plain):
         return False
-    defined = re.compile(rf"\bclass (?:{'|'.join(sorted(plain))})\b".encode())
-    return not plain or not any(defined.search(item.data) for item in reached.values())
+    return all(plain.isdisjoint(item.classes) for item in reached.values())

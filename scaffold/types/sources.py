@@ -33,6 +33,7 @@ _OF_PYTHON = "_py"
 _LATER = re.compile(rb"[;:][ \t]*(?=(?:from|import)[ \t])")
 """Matches what is before a second statement on a line."""
 _WORD = re.compile(rb"[\w.]+")
+_CLASS = re.compile(rb"\bclass (\w+)")
 
 
 class Source:
@@ -61,6 +62,11 @@ class Source:
         """The dotted module name; empty if it cannot be imported."""
         parts = self.place.removesuffix(".py").split("/")
         return ".".join(parts[1:]) if parts[0] == LIBRARY else ""
+
+    @cached_property
+    def classes(self) -> frozenset[str]:
+        """The names of the classes that it may define."""
+        return frozenset(map(bytes.decode, _CLASS.findall(self.data)))
 
     @cached_property
     def with_callback_types(self) -> bytes:
