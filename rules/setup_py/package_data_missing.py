@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Rule
 from scaffold.api.install import own_files
-from scaffold.api.setup_py import matches, package_data
+from scaffold.api.setup_py import installed_data, matches, package_data
 
 _SETUP = (
     "from setuptools import setup\n\nsetup(\n    name='talker',\n    packages=['talker'],\n{})\n"
@@ -60,6 +60,15 @@ class PackageDataMissing(Rule):
             },
         ),
         Example(
+            "installed once more, with its data",
+            {
+                **_FILES,
+                "setup.py": _SETUP.format(
+                    "    data_files=[('share/talker', ['talker/text.py', 'talker/words.txt'])],\n"
+                ),
+            },
+        ),
+        Example(
             "excluded",
             {**_FILES, "setup.py": _SETUP.format("")},
             "setup.py:5:14: talker/text.py:3 reads talker/words.txt, which is not installed; add "
@@ -85,6 +94,7 @@ class PackageDataMissing(Rule):
         patterns = package_data(package)
         if patterns is None:
             return
+        as_data = installed_data(package) or set()
         at = setup.keyword("package_data") or setup.keyword("packages") or setup
         for file in own_files(package):
             holder = self._owning_package(package, file.path)
@@ -92,6 +102,8 @@ class PackageDataMissing(Rule):
                 continue
             if any(matches(pattern, [file.path]) for pattern in patterns):
                 continue
+            if {file.path, file.location.path} <= as_data:
+                continue  # both are installed there, and the module is read from there
             where, inside = file.location, file.path.removeprefix(f"{holder}/")
             message = (
                 f"{where.path}:{where.line} reads {file.path}, which is not installed; "
