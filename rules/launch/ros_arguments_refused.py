@@ -4,12 +4,10 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterator
-from contextlib import suppress
 
-from scaffold.api import Diagnostic, Example, Package, Rule, ViewError
+from scaffold.api import Diagnostic, Example, Location, Package, Rule, ViewError, fact
 from scaffold.api.launch import started_nodes
 from scaffold.api.python import PythonModule
-from scaffold.api.rclpy import rclpy_file
 
 _PLAYER = (
     "import argparse\nimport sys\n\nimport rclpy\nfrom rclpy.node import Node\n"
@@ -22,6 +20,8 @@ _PLAYER = (
     "    options = parser.{}\n"
     "    rclpy.init()\n    rclpy.spin(Player(options.speed))\n"
 )
+_HANDLED = ("remove_ros_args(", "parse_known", "sys.argv =", "argv.remove", "ros-args")
+"""Words of programs that know of the arguments of ROS."""
 _REMOVED = "parse_args(remove_ros_args(sys.argv)[1:])"
 _FILES = {
     "package.xml": "<package><name>demo</name>"
@@ -76,21 +76,27 @@ class RosArgumentsRefused(Rule):
             if owner is None or owner.path in seen:
                 continue
             seen.add(owner.path)
-            with suppress(ViewError):
-                file = rclpy_file(package, owner.path)
-                for call in _parsing(file.module):
-                    line = node.location.line
-                    message = (
-                        f"{node.launch}:{line} starts this program with --ros-args, which argparse "
-                        "refuses; use remove_ros_args()"
-                    )
-                    yield self.report(file.module.location(call), message)
+            for at in _parsing(package, owner.path):
+                message = (
+                    f"{node.launch}:{node.location.line} starts this program with --ros-args, "
+                    "which argparse refuses; use remove_ros_args()"
+                )
+                yield self.report(at, message)
 
 
-def _parsing(module: PythonModule) -> Iterator[ast.Call]:
-    """Yield the places where a program parses its whole command line."""
-    if module.mentions("remove_ros_args(", "parse_known", "sys.argv =", "argv.remove", "ros-args"):
-        return
+@fact
+def _parsing(package: Package, path: str) -> list[Location]:
+    """Return the places where a program parses its whole command line."""
+    try:
+        module = package.module(path) if b"argparse" in package.data(path) else None
+    except ViewError:
+        return []
+    if module is None or module.mentions(*_HANDLED):
+        return []
+    return [module.location(call) for call in _parse_calls(module)]
+
+
+def _parse_calls(module: PythonModule) -> Iterator[ast.Call]:
     made = {
         assigned.targets[0].id
         for assigned in module.walk(ast.Assign)

@@ -189,10 +189,12 @@ def _is_needed_by_unused_code(package: Package, undeclared: Diagnostic) -> bool:
 
 def _is_unused(package: Package, path: str) -> bool:
     """Tell whether a file is never run, or a module that nothing imports or starts."""
-    if is_never_run(package, path):
-        return True
+    return is_never_run(package, path) or _is_unused_module(package, path)
+
+
+def _is_unused_module(package: Package, path: str) -> bool:
     try:
-        return path.endswith(".py") and is_unused_module(package, package.module(path))
+        return path.endswith(".py") and is_unused_module(package, path)
     except ViewError:
         return False
 
@@ -200,7 +202,7 @@ def _is_unused(package: Package, path: str) -> bool:
 def _is_uncalled(package: Package, diagnostic: Diagnostic) -> bool:
     """Tell whether code is in an unused module, or in an uncalled function."""
     at = diagnostic.location
-    if _is_unused(package, at.path):
+    if _is_unused_module(package, at.path):
         return True
     try:
         if not may_be_in_uncalled_function(package, at.path, at.line):

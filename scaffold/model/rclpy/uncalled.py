@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from scaffold.formats.hash_comments import without_comments
 from scaffold.model.cmake.ament import programs
 from scaffold.model.install.unused import is_named
+from scaffold.model.python.module import is_in_tests
 from scaffold.model.rclpy.api import NODE, has
 from scaffold.source import ViewError
 
@@ -22,6 +23,7 @@ _CALLBACK = re.compile(r"(?i)call_?back$|_cb$")
 """Matches the names of methods that are passed on and unknown to a base class."""
 _COMPUTED = re.compile(r"\bgetattr\([^,\n]{0,200},\s{0,9}(?![\"'\s])")
 """Matches the computation of the name of an attribute."""
+_IMPORTS_RELATIVELY = re.compile(rb"(?m)^[ \t]*from[ \t]+\.")
 _WORD = re.compile(r"\w+")
 _DEFINITION = re.compile(r"\bdef\s+(\w+)")
 _ENTRIES = frozenset({"main", "generate_launch_description"})
@@ -81,28 +83,39 @@ def is_in_uncalled_function(package: Package, module: PythonModule, line: int) -
     stem = module.path.rpartition("/")[2].removesuffix(".py")
     names = (function.name,) if is_helper else (stem, function.name)
     users = package.workspace if is_helper else [package]
-    return named == 1 and not any(_is_named_in(user, module, names) for user in users)
+    return named == 1 and not any(_is_named_in(user, module.path, names) for user in users)
 
 
-def is_unused_module(package: Package, module: PythonModule) -> bool:
+def is_unused_module(package: Package, path: str) -> bool:
     """Tell whether no file mentions a module next to programs, and it does not start itself.
 
-    A module with relative imports cannot be run as a file.
+    It is told from the texts of files: none is parsed for this. A module with relative imports
+    cannot be run as a file.
+
+    Raises:
+        ViewError: the file cannot be read.
     """
-    name = module.path.rpartition("/")[2]
+    name = path.rpartition("/")[2]
     stem = name.removesuffix(".py")
-    if module.in_tests or name.startswith("__") or stem.endswith("launch"):
+    if is_in_tests(path) or name.startswith("__") or stem.endswith("launch"):
         return False
-    is_startable = module.has_main_guard and not any(item.level for item in module.imports)
-    if is_startable or not _helps_programs(package, module) or is_named(package, module.path, stem):
-        return False
-    return not any(_is_named_in(user, module, (stem,)) for user in package.workspace)
+
+    def find() -> bool:
+        text = package.data(path)
+        is_startable = b"__main__" in text and not _IMPORTS_RELATIVELY.search(text)
+        if is_startable or not _has_programs(package) or is_named(package, path, stem):
+            return False
+        return not any(_is_named_in(user, path, (stem,)) for user in package.workspace)
+
+    return package.remember(("unused module", path), find)
 
 
 def _helps_programs(package: Package, module: PythonModule) -> bool:
     """Tell whether a module is there for launch files, or for programs of its own package."""
-    if not _LAUNCH.isdisjoint(module.imports_by_root):
-        return True
+    return not _LAUNCH.isdisjoint(module.imports_by_root) or _has_programs(package)
+
+
+def _has_programs(package: Package) -> bool:
     try:
         is_cmake = package.build_type == "ament_cmake"
         return bool(programs(package) if is_cmake else package.setup_py.console_scripts)
@@ -147,10 +160,10 @@ def _is_called_by_name(module: PythonModule, function: FunctionNode) -> bool:
     return bases <= {NODE, "rclpy.Node", "object"} or bool(_CALLBACK.search(function.name))
 
 
-def _is_named_in(package: Package, module: PythonModule, names: tuple[str, ...]) -> bool:
+def _is_named_in(package: Package, module_path: str, names: tuple[str, ...]) -> bool:
     """Tell whether another module of a package mentions all of some names."""
     for path in package.files:
-        if not path.endswith(_NAMING) or path == module.path:
+        if not path.endswith(_NAMING) or path == module_path:
             continue
         try:
             text = package.data(path).decode(errors="replace")
