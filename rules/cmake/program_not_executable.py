@@ -14,7 +14,6 @@ from scaffold.api import (
     Report,
     Rule,
     Safety,
-    Severity,
 )
 from scaffold.api.cmake import Install, is_only_imported, programs, runs_with_python
 from scaffold.api.install import paths_imported_by
@@ -53,9 +52,6 @@ class ProgramNotExecutable(Rule):
 
     code = "CM014"
     name = "program-not-executable"
-    other_severities = {
-        Severity.WARNING: "the bit is missing, which `colcon build` without --symlink-install sets"
-    }
     examples = (
         Example(
             "executable",
@@ -90,7 +86,6 @@ class ProgramNotExecutable(Rule):
                 "bit: `colcon build --symlink-install` makes an executable that does "
                 "not start",
                 fix="make talker/node.py executable",
-                severity=Severity.WARNING,
             ),
             fixed={"talker/node.py": _NODE},
         ),
@@ -248,7 +243,7 @@ class ProgramNotExecutable(Rule):
             )
             fix = Fix(f"make {path} executable", (MakeExecutable(path),))
             at = package.start_of(path)
-            yield self.report(at, message, fix, severity=Severity.WARNING, cause=_CAUSE)
+            yield self.report(at, message, fix, cause=_CAUSE)
 
     def _check_kind(self, package: Package) -> Iterator[Diagnostic]:
         programs = {
