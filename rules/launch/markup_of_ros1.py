@@ -5,8 +5,9 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping
 
-from scaffold.api import Diagnostic, Example, Package, Rule, ViewError
+from scaffold.api import Diagnostic, Example, Location, Package, Report, Rule, Severity, ViewError
 from scaffold.api.formats import Element, xml_reader
+from scaffold.api.install import share_of
 
 _TAGS: Mapping[str, str] = {"rosparam": "<param from='...'/>", "machine": "no equivalent"}
 _ATTRIBUTES: Mapping[tuple[str, str], str] = {
@@ -40,6 +41,7 @@ class MarkupOfRos1(Rule):
 
     code = "LF046"
     name = "markup-of-ros1"
+    other_severities = {Severity.WARNING: "the launch file is not installed"}
     examples = (
         Example("of ROS 2", {"launch/a.launch.xml": _LAUNCH.format("exec", "a")}),
         Example(
@@ -53,6 +55,23 @@ class MarkupOfRos1(Rule):
             {"launch/a.launch.xml": "<launch>\n  <rosparam file='a.yaml'/>\n</launch>\n"},
             "2:4: <rosparam> belongs to ROS 1; ROS 2 has <param from='...'/>",
         ),
+        Example(
+            "of ROS 1, and not installed",
+            {
+                "package.xml": "<package><name>talker</name>"
+                "<export><build_type>ament_cmake</build_type></export></package>\n",
+                "CMakeLists.txt": "project(talker)\nfind_package(ament_cmake REQUIRED)\n"
+                "install(DIRECTORY launch DESTINATION share/${PROJECT_NAME})\nament_package()\n",
+                "old/a.launch.xml": _LAUNCH.format("type", "a"),
+                "launch/b.launch.xml": _LAUNCH.format("type", "b"),
+            },
+            "launch/b.launch.xml:2:28: 'type' of <node> belongs to ROS 1; ROS 2 has exec",
+            Report(
+                "old/a.launch.xml:2:28",
+                "'type' of <node> belongs to ROS 1; ROS 2 has exec",
+                severity=Severity.WARNING,
+            ),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
@@ -65,19 +84,26 @@ class MarkupOfRos1(Rule):
                 document = xml_reader.parse(xml_reader.decode(path, package.data(path)))
             except ViewError:
                 continue
+            share = share_of(package)
+            is_installed = not share.complete or path in share.files.values()
+            severity = Severity.ERROR if is_installed else Severity.WARNING
             for element in document.root.descendants():
-                yield from self._check(element)
+                for at, problem in _problems(element):
+                    yield self.report(at, problem, severity=severity, cause=_CAUSE)
 
-    def _check(self, element: Element) -> Iterator[Diagnostic]:
-        if element.tag in _TAGS:
-            message = f"<{element.tag}> belongs to ROS 1; ROS 2 has {_TAGS[element.tag]}"
-            yield self.report(element.name_location, message, cause=_CAUSE)
-        for name, attribute in element.attributes.items():
-            new = _ATTRIBUTES.get((element.tag, name))
-            if new is not None:
-                message = f"{name!r} of <{element.tag}> belongs to ROS 1; ROS 2 has {new}"
-                yield self.report(attribute.location, message, cause=_CAUSE)
-            for kind in re.findall(r"\$\((\w+) ", attribute.value):
-                if kind in _SUBSTITUTIONS:
-                    message = f"$({kind} ...) belongs to ROS 1; ROS 2 has {_SUBSTITUTIONS[kind]}"
-                    yield self.report(attribute.location, message, cause=_CAUSE)
+
+def _problems(element: Element) -> Iterator[tuple[Location, str]]:
+    if element.tag in _TAGS:
+        yield (
+            element.name_location,
+            f"<{element.tag}> belongs to ROS 1; ROS 2 has {_TAGS[element.tag]}",
+        )
+    for name, attribute in element.attributes.items():
+        new = _ATTRIBUTES.get((element.tag, name))
+        if new is not None:
+            problem = f"{name!r} of <{element.tag}> belongs to ROS 1; ROS 2 has {new}"
+            yield attribute.location, problem
+        for kind in re.findall(r"\$\((\w+) ", attribute.value):
+            if kind in _SUBSTITUTIONS:
+                problem = f"$({kind} ...) belongs to ROS 1; ROS 2 has {_SUBSTITUTIONS[kind]}"
+                yield attribute.location, problem
