@@ -70,6 +70,16 @@ class ObjectCalledWrongly(RclpyRule):
             },
         ),
         Example(
+            "a class of a module named action in another package",
+            {"talker/node.py": "import rclpy\nfrom tasks.action import Step\n\nSTEP = Step()\n"},
+            neighbours={
+                "tasks": {
+                    "package.xml": "<package><name>tasks</name></package>\n",
+                    "tasks/action.py": "class Step:\n    pass\n",
+                }
+            },
+        ),
+        Example(
             "a property",
             {"talker.py": _NODE.format(*_RIGHT).replace("now()", "now().nanoseconds()")},
             "11:22: 'nanoseconds' is a property, not a method: TypeError; remove the ()",

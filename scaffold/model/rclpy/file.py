@@ -370,8 +370,9 @@ class RclpyFile:
         kinds = [part for part in parts[1:-1] if part in {"msg", "srv", "action"}]
         if not kinds or not parts[0] or not parts[-1][:1].isupper():
             return None
-        if self._file_of(".".join(parts[:2])) is not None:
-            return None  # a module of the package named action
+        module = ".".join(parts[:2])
+        if self._file_of(module) is not None or self._own.is_of_neighbor(module):
+            return None  # a Python module named action
         return f"{parts[0]}/{kinds[0]}/{parts[-1]}"
 
     def is_conditional(self, node: ast.AST) -> bool:

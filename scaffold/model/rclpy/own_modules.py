@@ -49,6 +49,15 @@ class OwnModules:
             if path != self._path and modules is not None and modules.has(path):
                 yield path
 
+    def is_of_neighbor(self, module: str) -> bool:
+        """Tell whether a dotted name is a module of another package of the workspace."""
+        root = module.partition(".")[0]
+        if not isinstance(self._modules, Package) or root == self._modules.name:
+            return False
+        with reads.recorded(self._reads):
+            neighbor = self._modules.workspace.get(root)
+            return neighbor is not None and neighbor.has(f"{module.replace('.', '/')}.py")
+
     def constant(self, name: str) -> object:
         """Return the value of a dotted name if it is a constant of another module."""
         module, _, names = name.rpartition(".")
