@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
+from scaffold.api.catalog import OTHER_NAMES, ROS1_PACKAGES, is_released
 from scaffold.api.distributions import target
 from scaffold.api.launch import Reference, exists, meant_package, package_uses
 from scaffold.api.manifest import declared, declaring
@@ -16,6 +17,8 @@ _LAUNCH = (
     "        Node(package='talker', executable='talk'),\n"
     "        Node(package='rviz2', executable='rviz2'),\n    ])\n"
 )
+_LAST_WITH_CLASSIC = "Humble"
+"""The last distribution with Gazebo classic, and with the old names of the new Gazebo."""
 _MANIFEST = '<package format="3">\n  <name>talker</name>\n{}</package>\n'
 
 
@@ -23,7 +26,7 @@ class PackageUndeclared(Rule):
     """A launch file starts or finds something of a package that the manifest does not declare.
 
     **Why.** On a clean machine rosdep does not install the package: ``package 'rviz2' not
-    found``.
+    found``. Packages of Gazebo classic and of ROS 1 cannot be installed at all.
 
     **Fix.** Add an ``<exec_depend>``; if there is one whose condition excludes the distribution,
     change the condition.
@@ -165,6 +168,54 @@ class PackageUndeclared(Rule):
                 )
             },
         ),
+        Example(
+            "of a driver",
+            {
+                "package.xml": _MANIFEST.format("  <exec_depend>launch_ros</exec_depend>\n"),
+                "launch/a.launch.py": _LAUNCH.replace("rviz2", "velodyne_driver"),
+            },
+            Report(
+                "launch/a.launch.py:8:22",
+                "starts a node of 'velodyne_driver', which no dependency in "
+                "package.xml provides; add <exec_depend>velodyne_driver</exec_depend>",
+                fix="declare velodyne_driver",
+            ),
+            fixed={
+                "package.xml": _MANIFEST.format(
+                    "  <exec_depend>launch_ros</exec_depend>\n"
+                    "  <exec_depend>velodyne_driver</exec_depend>\n"
+                )
+            },
+        ),
+        Example(
+            "of Gazebo classic, which Jazzy does not have",
+            {
+                "package.xml": _MANIFEST.format("  <exec_depend>launch_ros</exec_depend>\n"),
+                "launch/b.launch.py": _LAUNCH.replace("rviz2", "gazebo_ros"),
+            },
+            "launch/b.launch.py:8:22: starts a node of 'gazebo_ros', which Jazzy does not have; "
+            "use ros_gz",
+        ),
+        Example(
+            "of Gazebo classic, which Humble has",
+            {
+                "package.xml": _MANIFEST.format("  <exec_depend>launch_ros</exec_depend>\n"),
+                "launch/b.launch.py": _LAUNCH.replace("rviz2", "gazebo_ros"),
+            },
+            Report(
+                "launch/b.launch.py:8:22",
+                "starts a node of 'gazebo_ros', which no dependency in package.xml "
+                "provides; add <exec_depend>gazebo_ros</exec_depend>",
+                fix="declare gazebo_ros",
+            ),
+            fixed={
+                "package.xml": _MANIFEST.format(
+                    "  <exec_depend>gazebo_ros</exec_depend>\n"
+                    "  <exec_depend>launch_ros</exec_depend>\n"
+                )
+            },
+            distro="humble",
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
@@ -176,9 +227,17 @@ class PackageUndeclared(Rule):
         for use in package_uses(package):
             if use.name in seen or use.is_optional or meant_package(package, use):
                 continue
-            if not exists(package, use.name) or not use.location.path.startswith("launch"):
+            if not use.location.path.startswith("launch"):
+                continue
+            is_known = exists(package, use.name)
+            replacement = "" if is_known else _replacement(use.name)
+            if not (is_known or replacement or is_released(use.name)):
                 continue
             seen.add(use.name)
+            if replacement:
+                message = f"{_usage(use)} {use.name!r}, which {target().title} does not have"
+                yield self.report(use.location, f"{message}; use {replacement}")
+                continue
             is_near = package.workspace.get(use.name) is not None or use.name.startswith("ros2")
             severity = Severity.WARNING if is_near else Severity.ERROR
             other = next((item for item in manifest.dependencies if item.name == use.name), None)
@@ -199,6 +258,13 @@ class PackageUndeclared(Rule):
                 severity=severity,
                 cause=f"dependency {use.name}",
             )
+
+
+def _replacement(name: str) -> str:
+    """Return what replaces a package of ROS 1, or of Gazebo as Humble has it; empty for others."""
+    if target().title == _LAST_WITH_CLASSIC and is_released(name):
+        return ""
+    return ROS1_PACKAGES.get(name) or OTHER_NAMES.get(name) or ""
 
 
 def _usage(use: Reference) -> str:
