@@ -120,6 +120,16 @@ class ProgramOrOptionRemoved(Rule):
             },
         ),
         Example(
+            "the old name of a program",
+            {
+                "launch/a.launch.py": _CREATE.replace("ros_gz_sim", "controller_manager")
+                .replace("create", "spawner.py")
+                .format("-c")
+            },
+            "7:55: spawner.py was removed in Humble: the launch stops; use spawner (ros2_control "
+            "453)",
+        ),
+        Example(
             "still usual",
             {"launch/a.launch.py": _LAUNCH_DEPRECATED.format("component_container_mt")},
         ),
@@ -153,8 +163,8 @@ class ProgramOrOptionRemoved(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        yield from self._check_deprecated(package)
-        yield from self._check_removed(package)
+        yield from self._check_programs(package)
+        yield from self._check_options(package)
         for line in command_lines(package, "create"):
             for word in line.words:
                 replacement = _OF_SPAWN_ENTITY.get(word.text)
@@ -162,7 +172,7 @@ class ProgramOrOptionRemoved(Rule):
                     message = f"{word.text} is an option of spawn_entity.py: ros_gz_sim create "
                     yield self.report(word.location, f"{message}ignores it; {replacement}")
 
-    def _check_removed(self, package: Package) -> Iterator[Diagnostic]:
+    def _check_options(self, package: Package) -> Iterator[Diagnostic]:
         removed = {
             name: change
             for change in of_kind("option")
@@ -182,20 +192,19 @@ class ProgramOrOptionRemoved(Rule):
                     fix = Fix(f"write {change.use}", (edit,)) if edit and is_fixed else None
                     yield self.report(word.location, message, fix)
 
-    def _check_deprecated(self, package: Package) -> Iterator[Diagnostic]:
-        changes = {
-            name: change
-            for change in of_kind("executable")
-            for name in change.names
-            if change.is_deprecated
-        }
-        for name, location in _started(package) if changes else ():
+    def _check_programs(self, package: Package) -> Iterator[Diagnostic]:
+        changes = {name: change for change in of_kind("executable") for name in change.names}
+        for name, location in _started(package):
             change = changes.get(name)
-            if change is not None:
-                program = name.rpartition("/")[2]
-                message = f"{program} {change.state}: it warns at each start; "
-                message += f"{change.instead(change.use)} ({change.source})"
-                yield self.report(location, message, severity=Severity.INFO)
+            if change is None or not (change.is_removed or change.is_deprecated):
+                continue
+            severity = Severity.ERROR if change.is_removed else Severity.INFO
+            effect = "the launch stops" if change.is_removed else "it warns at each start"
+            message = (
+                f"{name.rpartition('/')[2]} {change.state}: {effect}; "
+                f"{change.instead(change.use)} ({change.source})"
+            )
+            yield self.report(location, message, severity=severity)
 
 
 def _edit(package: Package, line: CommandLine, word: Word, old: str, new: str) -> Edit | None:
