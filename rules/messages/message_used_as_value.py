@@ -255,7 +255,9 @@ class MessageUsedAsValue(MessageRule):
                 "        made = self.decode(image)\n"
                 "        rows, columns = made.shape\n"
                 "        rows, columns = made.shape[:2]\n"
-                "        rows, columns, _ = made.shape\n\n"
+                "        rows, columns, _ = made.shape\n"
+                "        gray = CvBridge().imgmsg_to_cv2(image, 'mono8')\n"
+                "        rows, columns, _ = gray.shape\n\n"
                 "    def pixels(self, image: Image, grid: OccupancyGrid):\n"
                 "        flat = np.frombuffer(image.data, dtype=np.uint8)\n"
                 "        cells = np.array(grid.data).reshape(grid.info.height, grid.info.width)\n"
@@ -266,8 +268,9 @@ class MessageUsedAsValue(MessageRule):
             },
             "14:25: made.shape has three values for bgr8: ValueError; write made.shape[:2] for "
             "rows and columns",
-            "21:23: rows come first: write image.height, image.width",
-            "25:24: mean() cannot use structured points: TypeError; use read_points_numpy()",
+            "18:28: gray.shape has two values for mono8: ValueError",
+            "23:23: rows come first: write image.height, image.width",
+            "27:24: mean() cannot use structured points: TypeError; use read_points_numpy()",
         ),
     )
 

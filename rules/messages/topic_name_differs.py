@@ -126,6 +126,14 @@ class TopicNameDiffers(Rule):
             "(server.py:6)?",
         ),
         Example(
+            "a node that passes requests on",
+            {
+                "nodes.py": _NODE_SERVICES.format("/report").replace(
+                    "Trigger, 'report'", "Trigger, '~/report'"
+                )
+            },
+        ),
+        Example(
             "a service that is private on one side",
             {"nodes.py": _NODE_SERVICES.format("~/report")},
             "17:51: no service '~/report'; did you mean 'report' (nodes.py:8)? ~ expands to the "
@@ -230,7 +238,10 @@ def _is_slip_services(client: NamedEndpoint, service: NamedEndpoint) -> bool:
     if client.interface is None or client.interface != service.interface:
         return False
     if name.startswith("~") is not other.startswith("~"):
-        return name.removeprefix("~").strip("/") == other.removeprefix("~").strip("/")
+        is_same = name.removeprefix("~").strip("/") == other.removeprefix("~").strip("/")
+        # A node may pass on what it is asked.
+        is_relay = other.startswith("~") and client.location.path == service.location.path
+        return is_same and not is_relay
     short, long = sorted((name, other), key=len)
     is_short = len(short) < _ALIKE or short.strip("/") == long.strip("/")
     if is_short or any(map(str.isdigit, name + other)):

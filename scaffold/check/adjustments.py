@@ -8,6 +8,7 @@ from collections.abc import Collection, Iterable, Iterator, Mapping
 
 from scaffold.ament.codes import STYLE
 from scaffold.ament.settings import settings_of
+from scaffold.check import conflicts
 from scaffold.check.rules.engine_rules import RuleCrashed, UnparsableFile
 from scaffold.configuration.exclusion import Exclusion
 from scaffold.diagnostic import Diagnostic, Severity
@@ -130,6 +131,8 @@ def _is_of_unused_code(package: Package, diagnostic: Diagnostic) -> bool:
     if code == _UNDECLARED:
         return _is_needed_by_unused_code(package, diagnostic)
     if code.startswith(_OF_DATA) and path.endswith(_ENDINGS_OF_DATA):
+        if diagnostic.message.startswith(conflicts.MARKS):
+            return False
         return is_copy_of_old_code(package, path) or is_left_alone(package, path)
     is_copy = code not in _OF_TESTS and is_copy_of_old_code(package, path)
     if not path.endswith(".py") or is_copy:
@@ -155,10 +158,10 @@ def _is_unreached(package: Package, diagnostic: Diagnostic) -> bool:
 def _is_of_ros1(package: Package, diagnostic: Diagnostic) -> bool:
     """Tell whether an error is in a file for ROS 1, which ROS 2 stops at ``import rospy``."""
     path, code = diagnostic.location.path, diagnostic.code
-    if not code.startswith((*_OF_LINTERS, *_OF_PROGRAMS)) or b"rospy" not in package.data(path):
+    if not code.startswith((*_OF_LINTERS, *_OF_PROGRAMS)):
         return False
     try:
-        imports = package.module(path).imports
+        imports = package.module(path).imports if b"rospy" in package.data(path) else ()
     except ViewError:
         return False
     needed = {item.root for item in imports if item.top_level and not item.guarded}

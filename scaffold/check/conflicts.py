@@ -11,6 +11,8 @@ from scaffold.source import ViewError
 
 UNREADABLE = frozenset({"SC001", "E999", "PX050", "PF001"})
 """The codes of files that cannot be parsed: Python, CMake, XML and YAML."""
+MARKS = "merge conflict marks"
+"""The start of the message."""
 
 
 def named(package: Package, diagnostics: Iterable[Diagnostic]) -> Iterator[Diagnostic]:
@@ -23,7 +25,7 @@ def named(package: Package, diagnostics: Iterable[Diagnostic]) -> Iterator[Diagn
             yield item
         elif path not in seen:
             seen.add(path)
-            message = f"merge conflict marks at line {line}: resolve the conflict"
+            message = f"{MARKS} at line {line}: resolve the conflict"
             yield item._replace(message=message, fix=None)
 
 

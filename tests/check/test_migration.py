@@ -546,7 +546,8 @@ def test_kept_distribution_is_checked_for_packages_of_it(
 ) -> None:
     monkeypatch.chdir(tmp_path)
     _new("talker")
-    Path("talker/talker/infos.py").write_text("from rclpy.endpoint_info import TopicEndpointInfo\n")
+    text = "from rclpy.endpoint_info import TopicEndpointInfo\n\n\ndef main():\n    pass\n"
+    Path("talker/talker/infos.py").write_text(text)
     for kept, code in (("", 0), ("jazzy", 1), ("kilted", 1)):
         capsys.readouterr()
         flags = ("--keep", kept) if kept else ()

@@ -415,6 +415,7 @@ CONSOLE_SCRIPT = SETUP.replace(
         (MISTAKE, "warning"),
         ("from . import node\n" + MISTAKE + "if __name__ == '__main__':\n    node\n", "warning"),
         (MISTAKE + "if __name__ == '__main__':\n    print()\n", "error"),
+        (MISTAKE + "\n\ndef main():\n    print()\n", "error"),
     ],
 )
 def test_module_that_nothing_imports_or_starts(

@@ -159,7 +159,9 @@ def test_exclude_is_rejected_in_user_configuration(
 def test_configured_severity_decides_the_exit_code(
     workspace: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    (workspace / "talker" / "talker" / "extra.py").write_text("import scipy\n\nscipy.pi\n")
+    (workspace / "talker" / "talker" / "extra.py").write_text(
+        "import scipy\n\n\ndef main():\n    scipy.pi\n"
+    )
     words = ("--select", "PX020", "--format", "json")
     configuration = workspace / "ros2-scaffold.toml"
     for text, severity, code in (

@@ -153,11 +153,18 @@ def _find_in_constructors(file: RclpyFile) -> Iterator[Executed]:
             yield Executed(reached, f"the constructor of {node.name}", None)
 
 
-def in_helpers(file: RclpyFile) -> Iterator[Executed]:
-    """Yield the functions run by constructors of classes that get a node.
+def in_helpers(file: RclpyFile) -> Sequence[Executed]:
+    """Return the functions run by constructors of classes that get a node, each once.
 
     Whether the node is spun meanwhile is not known.
     """
+    if "helpers" not in file.executed:
+        file.executed["helpers"] = tuple(_find_in_helpers(file))
+    functions: Sequence[Executed] = file.executed["helpers"]
+    return functions
+
+
+def _find_in_helpers(file: RclpyFile) -> Iterator[Executed]:
     seen: set[ast.AST] = set()
     for name, class_ in file.module.classes.items():
         bindings = file.module.index.bindings(class_.node).get("__init__", ())

@@ -87,10 +87,10 @@ def is_in_uncalled_function(package: Package, module: PythonModule, line: int) -
 
 
 def is_unused_module(package: Package, path: str) -> bool:
-    """Tell whether no file mentions a module next to programs, and it does not start itself.
+    """Tell whether no file mentions a module next to programs, and it is no program itself.
 
     It is told from the texts of files: none is parsed for this. A module with relative imports
-    cannot be run as a file.
+    cannot be run as a file; one with ``main()`` is meant to be started, and will be.
 
     Raises:
         ViewError: the file cannot be read.
@@ -103,7 +103,12 @@ def is_unused_module(package: Package, path: str) -> bool:
     def find() -> bool:
         text = package.data(path)
         is_startable = b"__main__" in text and not _IMPORTS_RELATIVELY.search(text)
-        if is_startable or not _has_programs(package) or is_named(package, path, stem):
+        if (
+            is_startable
+            or b"def main(" in text
+            or not _has_programs(package)
+            or is_named(package, path, stem)
+        ):
             return False
         return not any(_is_named_in(user, path, (stem,)) for user in package.workspace)
 
