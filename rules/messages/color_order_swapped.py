@@ -260,8 +260,9 @@ def _converted_order(types: MessageTypes, call: ast.Call, depth: int) -> str:
     if not code.startswith(("COLOR_BGR", "COLOR_RGB")) or not isinstance(image, ast.Name):
         return converted[1]
     before = _color_order(types, image, depth - 1) if depth else ""
-    is_made_here = isinstance(_made(types, image), ast.Call)  # in an unknown order
-    return _OTHER[before] if before else "" if is_made_here else converted[1]
+    # What unknown code passes has the order that the name of the conversion says.
+    is_given = types.file.parameter_of(image) is not None and _passed(types, image) is None
+    return _OTHER.get(before) or (converted[1] if is_given else "")
 
 
 def _made(types: MessageTypes, image: ast.Name) -> object:
