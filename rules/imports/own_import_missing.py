@@ -130,6 +130,16 @@ class OwnImportMissing(Rule):
             "'talker.junk.old'",
         ),
         Example(
+            "the module of a program, with the name of its package twice",
+            {
+                **_FILES,
+                "talker/node.py": "",
+                "test/test_node.py": "def test_node():\n    from talker.talker.node import main\n",
+            },
+            "test/test_node.py:2:5: the package has no module 'talker.talker.node'; closest: "
+            "'talker.node'",
+        ),
+        Example(
             "no such function",
             {**_FILES, "talker/node.py": "from .text import makes\n"},
             "talker/node.py:1:19: talker/text.py has no 'makes': ImportError; closest: 'make'",

@@ -28,6 +28,9 @@ if TYPE_CHECKING:
 _ELSEWHERE = ("ament_environment_hooks", "ament_python_install_module", "configure_file")
 """Commands that put modules on the Python path in another way."""
 
+_ENTRY_POINT = re.compile(r"(?<![\w.-])[\w.-]{1,99} ?= ?[\w.]{1,200}:\w+")
+"""Matches a console script in a setup.py, which makes no module."""
+
 _PROJECT = re.compile(r"(?i)\bproject\s*\(\s*([\w-]+)")
 """Matches the name of a project in a CMakeLists.txt."""
 
@@ -110,7 +113,7 @@ def may_be_made(package: Package, name: str) -> bool:
     if last in cmake or proto in cmake or "pybind11" in cmake:
         return True
     return any(
-        last in package.source(path).text
+        last in _ENTRY_POINT.sub("", package.source(path).text)
         for path in ("setup.py", ".gitignore")
         if package.has(path)
     )
