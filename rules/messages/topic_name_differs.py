@@ -239,7 +239,7 @@ def _is_slip_services(client: NamedEndpoint, service: NamedEndpoint) -> bool:
         return False
     if name.startswith("~") is not other.startswith("~"):
         is_same = name.removeprefix("~").strip("/") == other.removeprefix("~").strip("/")
-        # A node may pass on what it is asked.
+        # A relay calls a service with the name of its own one.
         is_relay = other.startswith("~") and client.location.path == service.location.path
         return is_same and not is_relay
     short, long = sorted((name, other), key=len)

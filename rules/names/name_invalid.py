@@ -175,7 +175,7 @@ class NameInvalid(RclpyRule):
                 if problem:
                     yield self.report(argument, f"ROS 2 rejects this name: {problem}")
                 continue
-            # An empty default is meant to be replaced.
+            # An empty default is a placeholder.
             if entity.from_parameter and _has_gap(entity.name):
                 continue
             if not entity.name and is_guarded_by(file.module, entity.call, argument.node):

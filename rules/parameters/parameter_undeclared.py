@@ -62,8 +62,8 @@ class ParameterUndeclared(Rule):
     name = "parameter-undeclared"
     effect = Effect.IGNORED
     other_severities = {
-        Severity.WARNING: "the node has the same value without it, as the default of the parameter "
-        "that is meant, under that name or as a text, or it is an empty text"
+        Severity.WARNING: "the node has this value anyway: as the default of the closest "
+        "parameter, or in its code; or the value is empty"
     }
     examples = (
         Example(

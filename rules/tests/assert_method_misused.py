@@ -115,7 +115,7 @@ class AssertMethodMisused(TestRule):
                 "    pytest.raises(ValueError, int('a'))\n"
                 "    pytest.raises(ValueError, int, 'a')\n"
             },
-            "5:31: int() is called before raises() can watch: the test fails; pass int itself",
+            "5:31: int() is called before raises() is: the test fails; pass int itself",
         ),
     )
 
@@ -127,7 +127,7 @@ class AssertMethodMisused(TestRule):
                     args=[_, ast.Call(func=ast.Name() | ast.Attribute() as func) as made, *_],
                 ) if not _makes_function(module, func):
                     called = module.text(func)
-                    message = f"{called}() is called before {name}() can watch: the test fails"
+                    message = f"{called}() is called before {name}() is: the test fails"
                     yield self.report(module.location(made), f"{message}; pass {called} itself")
         for class_ in module.classes.values():
             if is_test_case(module, class_.node):

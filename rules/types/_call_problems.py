@@ -185,7 +185,7 @@ def _as_keyword(finding: TypeFinding, names: Sequence[str], bound: int) -> Fix |
 
 
 def _intended_parameter(finding: TypeFinding, node: ast.expr, names: Sequence[str]) -> str:
-    """Return the name of the parameter that a value is meant for; empty if uncertain."""
+    """Return the name of the parameter that a value belongs to; empty if uncertain."""
     match node:
         case ast.Name(id=name) if name in names:
             return name

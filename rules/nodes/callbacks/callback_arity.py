@@ -185,8 +185,8 @@ class CallbackArity(RclpyRule):
                 "    def hear(self, msg, side):\n        return msg, side\n\n"
                 "    def see(self, side, msg):\n        return msg, side\n"
             },
-            "12:47: callback 'see' has others after a parameter given by name, but a subscription "
-            "passes the message: RuntimeError",
+            "12:47: callback 'see' has parameters after one that is given by name, but a "
+            "subscription passes the message: RuntimeError",
             "13:27: this callback takes 0 arguments, but a subscription passes the message: "
             "RuntimeError",
         ),
@@ -224,7 +224,7 @@ class CallbackArity(RclpyRule):
             if takes is None or any(n in takes for n in given[0]):
                 continue
             if not takes:
-                message = f"{_shown(callback)} has others after a parameter given by name"
+                message = f"{_shown(callback)} has parameters after one that is given by name"
                 yield self.report(callback, f"{message}, but {given[1]}")
                 continue
             least, most = takes.start, takes.stop - 1

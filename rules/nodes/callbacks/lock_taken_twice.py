@@ -69,7 +69,7 @@ class LockTakenTwice(PythonRule):
                 "    finally:\n        LOCK.release()\n"
             },
             "9:9: the lock of line 7 is not released on this path: the next one to take it waits "
-            "forever; write 'with' and the lock",
+            "forever; use 'with' for the lock",
         ),
         Example(
             "called outside",
@@ -98,7 +98,7 @@ class LockTakenTwice(PythonRule):
             for left in _left_inside(file, held):
                 message = (
                     f"the lock of line {held.line} is not released on this path: the next one to "
-                    "take it waits forever; write 'with' and the lock"
+                    "take it waits forever; use 'with' for the lock"
                 )
                 yield self.report(module.location(left), message)
 

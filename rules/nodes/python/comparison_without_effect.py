@@ -47,7 +47,7 @@ class ComparisonWithoutEffect(PythonRule):
         Example(
             "a word, or the truth of another one",
             {"limiter.py": _NODE.format("return 1 if msg.data == 'a' or 'b' else 2")},
-            "12:40: or 'b' makes this condition true always; write msg.data in (...)",
+            "12:40: or 'b' makes this condition always true; write msg.data in (...)",
         ),
         Example(
             "compared in a test, which TS043 reports",
@@ -70,7 +70,7 @@ class ComparisonWithoutEffect(PythonRule):
                     op=ast.Or(),
                     values=[ast.Compare(left=asked, ops=[ast.Eq()]), *_, ast.Constant() as last],
                 ) if last.value and _is_condition(module, choice):
-                    message = f"or {module.text(last)} makes this condition true always"
+                    message = f"or {module.text(last)} makes this condition always true"
                     hint = f"write {module.text(asked)} in (...)"
                     yield self.report(module.location(last), f"{message}; {hint}")
 
