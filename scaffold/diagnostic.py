@@ -26,16 +26,18 @@ class Effect(IntEnum):
     STOPS_BUILD = 0
     """A file cannot be read, or the package is not built."""
     STOPS_PROGRAM = 1
-    """A program stops, or does the wrong thing."""
-    IGNORED = 2
-    """Code has no effect; the program continues."""
-    SPOILS_INSTALL = 3
+    """A program does not start, stops or hangs."""
+    WRONG_BEHAVIOR = 2
+    """A program runs, but does the wrong thing, such as waiting for messages that never arrive."""
+    IGNORED = 3
+    """Code or a setting has no effect."""
+    SPOILS_INSTALL = 4
     """The build or installation is incomplete; a program that needs it stops later."""
-    MISSING_ELSEWHERE = 4
+    MISSING_ELSEWHERE = 5
     """A program stops on a machine that lacks a package."""
-    DECLARED_WRONG = 5
+    DECLARED_WRONG = 6
     """The manifest, a name or a test is wrong; nothing stops here."""
-    UNPUBLISHABLE = 6
+    UNPUBLISHABLE = 7
     """Nothing stops, but a license or a notice is missing that others need."""
 
 

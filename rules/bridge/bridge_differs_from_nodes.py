@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
+from scaffold.api import Diagnostic, Effect, Example, Package, Report, Rule, Severity
 from scaffold.api.messages import message_paths
 from scaffold.api.parameters import keeps_default_name
 from scaffold.api.programs import is_remapped, topics_of
@@ -61,6 +61,7 @@ class BridgeDiffersFromNodes(Rule):
         Severity.WARNING: "it carries the data in the other direction, or a parameter of the node "
         "names the topic"
     }
+    effect = Effect.WRONG_BEHAVIOR
     examples = (
         Example(
             "the same type; the other direction; another topic",

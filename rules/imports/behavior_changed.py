@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, PythonRule, Report, Severity
+from scaffold.api import Diagnostic, Effect, Example, PythonRule, Report, Severity
 from scaffold.api.python import PythonModule
 from scaffold.api.rclpy import changed_calls
 
@@ -85,6 +85,7 @@ class BehaviorChanged(PythonRule):
     code = "IM052"
     name = "behavior-changed"
     severity = Severity.WARNING
+    effect = Effect.WRONG_BEHAVIOR
     is_about_moves = True
     examples = (
         Example("not moved", {"counter.py": _SERVER.format("")}, distro="lyrical"),

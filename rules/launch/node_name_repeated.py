@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule, Severity
+from scaffold.api import Diagnostic, Effect, Example, Package, Rule, Severity
 from scaffold.api.launch import started_nodes
 
 _LAUNCH = (
@@ -29,6 +29,7 @@ class NodeNameRepeated(Rule):
     code = "LF012"
     name = "node-name-repeated"
     severity = Severity.WARNING
+    effect = Effect.WRONG_BEHAVIOR
     examples = (
         Example(
             "two names; two namespaces",

@@ -6,7 +6,7 @@ import ast
 import re
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, MessageRule
+from scaffold.api import Diagnostic, Effect, Example, MessageRule
 from scaffold.api.messages import MessageTypes
 
 _NODE = (
@@ -46,6 +46,7 @@ class ColorOrderSwapped(MessageRule):
 
     code = "MS031"
     name = "color-order-swapped"
+    effect = Effect.WRONG_BEHAVIOR
     examples = (
         Example("as OpenCV expects it", {"a.py": _NODE.format("'bgr8'", *["COLOR_BGR2HSV"] * 2)}),
         Example("swapped on purpose", {"a.py": _NODE.format("'rgb8'", *["COLOR_BGR2RGB"] * 2)}),

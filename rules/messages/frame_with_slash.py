@@ -5,7 +5,17 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator, Sequence
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, MessageRule, Package, Report, Severity
+from scaffold.api import (
+    Diagnostic,
+    Edit,
+    Effect,
+    Example,
+    Fix,
+    MessageRule,
+    Package,
+    Report,
+    Severity,
+)
 from scaffold.api.catalog import ROS_PACKAGES
 from scaffold.api.messages import MessageTypes
 from scaffold.api.rclpy import rclpy_paths
@@ -66,6 +76,7 @@ class FrameWithSlash(MessageRule):
     other_severities = {
         Severity.WARNING: "it is in a transform, a marker, or a message not of ROS or not known"
     }
+    effect = Effect.WRONG_BEHAVIOR
     examples = (
         Example("no slash", {"node.py": _CODE.format("'map'", "'base'", "'map'")}),
         Example("a test", {"test/test_a.py": _CODE.format("'/map'", "'/base'", "'/map'")}),

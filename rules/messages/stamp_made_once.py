@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Callable, Iterator, Sequence
 
-from scaffold.api import Diagnostic, Example, RclpyRule, Report, Severity
+from scaffold.api import Diagnostic, Effect, Example, RclpyRule, Report, Severity
 from scaffold.api.programs import Phases, phases_of
 from scaffold.api.rclpy import RclpyFile
 
@@ -38,6 +38,7 @@ class StampMadeOnce(RclpyRule):
     code = "MS012"
     name = "stamp-made-once"
     other_severities = {Severity.WARNING: "a message that is made once is sent again and again"}
+    effect = Effect.WRONG_BEHAVIOR
     examples = (
         Example(
             "the time of the message",

@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator
 from difflib import SequenceMatcher
 
-from scaffold.api import Diagnostic, Example, Package, Rule, Severity
+from scaffold.api import Diagnostic, Effect, Example, Package, Rule, Severity
 from scaffold.api.programs import NamedEndpoint, is_private, is_remapped, named_endpoints, one_sided
 
 _SHORTEST = 5
@@ -54,6 +54,7 @@ class TopicNameDiffers(Rule):
     code = "MS021"
     name = "topic-name-differs"
     severity = Severity.WARNING
+    effect = Effect.WRONG_BEHAVIOR
     examples = (
         Example(
             "the same name of a topic",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Effect, Example, Package, Rule
 from scaffold.api.messages import message_paths
 from scaffold.api.parameters import keeps_default_name
 from scaffold.api.programs import NamedEndpoint, services_of, topics_of
@@ -31,6 +31,7 @@ class TopicTypeDiffers(Rule):
 
     code = "MS020"
     name = "topic-type-differs"
+    effect = Effect.WRONG_BEHAVIOR
     examples = (
         Example(
             "the same type",

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator, Mapping
 
-from scaffold.api import Diagnostic, Example, MessageRule, Report, Severity
+from scaffold.api import Diagnostic, Effect, Example, MessageRule, Report, Severity
 from scaffold.api.messages import MessageTypes
 
 from . import _angles, _components, _fractions, _images, _matrices
@@ -66,6 +66,7 @@ class ValueImplausible(MessageRule):
     other_severities = {
         Severity.WARNING: "it is a range or an encoding that other programs may accept"
     }
+    effect = Effect.WRONG_BEHAVIOR
     examples = (
         Example("plausible", {"talker.py": _NODE.format(*_GOOD)}),
         Example(

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, Severity
+from scaffold.api import Diagnostic, Edit, Effect, Example, Fix, Package, Report, Rule, Severity
 from scaffold.api.distributions import target
 from scaffold.api.setup_py import SetupPy
 
@@ -35,6 +35,7 @@ class LicenseClassifier(Rule):
     code = "SP058"
     name = "license-classifier"
     severity = Severity.INFO
+    effect = Effect.DECLARED_WRONG
     is_deprecation = True
     is_fixed_for_all = True
     examples = (

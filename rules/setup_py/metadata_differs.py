@@ -4,7 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, Safety, Severity
+from scaffold.api import (
+    Diagnostic,
+    Edit,
+    Effect,
+    Example,
+    Fix,
+    Package,
+    Report,
+    Rule,
+    Safety,
+    Severity,
+)
 from scaffold.api.manifest import (
     Manifest,
     is_placeholder,
@@ -59,6 +70,7 @@ class MetadataDiffers(Rule):
     name = "metadata-differs"
     severity = Severity.WARNING
     other_severities = {Severity.ERROR: "it is the name"}
+    effect = Effect.DECLARED_WRONG
     examples = (
         Example(
             "the same", {"package.xml": _MANIFEST, "setup.py": _SETUP.format("0.2.0", "Apache-2.0")}

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule, Severity
+from scaffold.api import Diagnostic, Effect, Example, Package, Rule, Severity
 from scaffold.api.robot import Part, is_known, urdf_parts
 
 _ROBOT = (
@@ -45,6 +45,7 @@ class ValueImpossible(Rule):
     code = "UR014"
     name = "value-impossible"
     severity = Severity.WARNING
+    effect = Effect.WRONG_BEHAVIOR
     examples = (
         Example("possible", {"robot.urdf": _ROBOT.format("2", "0 0 1", "-1", "1")}),
         Example(

@@ -24,6 +24,7 @@ _SET_ASIDE = re.compile(
     re.IGNORECASE,
 )
 """Matches the name of a directory with abandoned code."""
+_AT_RUN_TIME = frozenset({Effect.STOPS_PROGRAM, Effect.WRONG_BEHAVIOR, Effect.IGNORED})
 _TESTS = re.compile(r"(?:^|/)(?:tests?/|test_[^/]*$|[^/]*_test\.py$)")
 """Matches the paths of tests, which no robot runs."""
 DEPENDENCY = "dependency "
@@ -114,7 +115,7 @@ def merged(entries: Sequence[Entry]) -> list[Entry]:
 def in_order(entries: Sequence[Entry]) -> list[Entry]:
     """Return entries by severity; within one, files that cannot be read or built come first.
 
-    Then come crashes, code without effect, wrong builds, and declarations.
+    Then come crashes, wrong behavior, code without effect, wrong builds, and declarations.
 
     Directories such as ``archive`` or ``old`` come last.
     """
@@ -149,6 +150,6 @@ def _effect(first: Diagnostic, rules: Mapping[str, type[Rule]]) -> Effect:
     effect = rule.usual_effect() if rule else Effect.STOPS_PROGRAM
     if first.cause.startswith(DEPENDENCY):
         return Effect.MISSING_ELSEWHERE
-    if effect in {Effect.STOPS_PROGRAM, Effect.IGNORED} and _TESTS.search(first.location.path):
+    if effect in _AT_RUN_TIME and _TESTS.search(first.location.path):
         return Effect.SPOILS_INSTALL
     return effect

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, RclpyRule, Severity
+from scaffold.api import Diagnostic, Effect, Example, RclpyRule, Severity
 from scaffold.api.programs import (
     blocks_node,
     in_callbacks,
@@ -82,6 +82,7 @@ class CallbackBlocks(RclpyRule):
     code = "ND030"
     name = "callback-blocks"
     severity = Severity.WARNING
+    effect = Effect.WRONG_BEHAVIOR
     examples = (
         Example("no wait", {"talker.py": _NODE.format("self.now = time.time()")}),
         Example("too short to do harm", {"talker.py": _NODE.format("time.sleep(0.001)")}),

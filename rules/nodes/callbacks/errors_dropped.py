@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, RclpyRule, Severity
+from scaffold.api import Diagnostic, Effect, Example, RclpyRule, Severity
 from scaffold.api.python import FunctionNode
 from scaffold.api.rclpy import (
     Callback,
@@ -47,6 +47,7 @@ class ErrorsDropped(RclpyRule):
     code = "ND120"
     name = "errors-dropped"
     severity = Severity.WARNING
+    effect = Effect.WRONG_BEHAVIOR
     examples = (
         Example("what is expected", {"listener.py": _NODE.format("ValueError", "pass")}),
         Example(

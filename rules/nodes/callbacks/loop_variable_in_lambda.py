@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, RclpyRule
+from scaffold.api import Diagnostic, Effect, Example, RclpyRule
 from scaffold.api.rclpy import RclpyFile
 
 _NODE = (
@@ -32,6 +32,7 @@ class LoopVariableInLambda(RclpyRule):
 
     code = "ND035"
     name = "loop-variable-in-lambda"
+    effect = Effect.WRONG_BEHAVIOR
     examples = (
         Example("bound", {"listener.py": _NODE.format("lambda m, name=name: self.hear(m, name)")}),
         Example(

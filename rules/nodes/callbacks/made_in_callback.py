@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, RclpyRule, Report, Severity
+from scaffold.api import Diagnostic, Effect, Example, RclpyRule, Report, Severity
 from scaffold.api.programs import in_callbacks
 from scaffold.api.python import FunctionNode, conditions_on
 from scaffold.api.rclpy import RclpyFile, Service
@@ -51,6 +51,7 @@ class MadeInCallback(RclpyRule):
     code = "ND124"
     name = "made-in-callback"
     other_severities = {Severity.WARNING: "what is made is kept, or is a client"}
+    effect = Effect.WRONG_BEHAVIOR
     examples = (
         Example("once", {"talker.py": _NODE.format("        self.timer.cancel()\n")}),
         Example(

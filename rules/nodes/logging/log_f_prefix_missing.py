@@ -6,7 +6,7 @@ import ast
 import re
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, RclpyRule, Severity
+from scaffold.api import Diagnostic, Effect, Example, Package, RclpyRule, Severity
 from scaffold.api.interfaces import TEXTS
 from scaffold.api.messages import MessageTypes
 from scaffold.api.rclpy import RclpyFile, log_calls
@@ -41,6 +41,7 @@ class LogFPrefixMissing(RclpyRule):
     code = "ND102"
     name = "log-f-prefix-missing"
     severity = Severity.WARNING
+    effect = Effect.WRONG_BEHAVIOR
     examples = (
         Example("an f-string", {"talker.py": _NODE.format("f'heard {text}'")}),
         Example("braces around no variable", {"talker.py": _NODE.format("'heard {number}'")}),

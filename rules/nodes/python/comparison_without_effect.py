@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, PythonRule
+from scaffold.api import Diagnostic, Effect, Example, PythonRule
 from scaffold.api.python import PythonModule
 
 _NODE = (
@@ -32,6 +32,7 @@ class ComparisonWithoutEffect(PythonRule):
 
     code = "ND134"
     name = "comparison-without-effect"
+    effect = Effect.WRONG_BEHAVIOR
     examples = (
         Example("assigned", {"limiter.py": _NODE.format("self.limit = msg.data")}),
         Example("asked", {"limiter.py": _NODE.format("return self.limit == msg.data")}),

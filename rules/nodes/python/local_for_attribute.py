@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, RclpyRule
+from scaffold.api import Diagnostic, Effect, Example, Package, RclpyRule
 from scaffold.api.rclpy import NodeClass, RclpyFile, is_used_elsewhere
 
 _NODE = (
@@ -39,6 +39,7 @@ class LocalForAttribute(RclpyRule):
 
     code = "ND132"
     name = "local-for-attribute"
+    effect = Effect.WRONG_BEHAVIOR
     examples = (
         Example("kept", {"gate.py": _NODE.format("self.is_open", "return")}),
         Example("used where it is set", {"gate.py": _NODE.format("is_open", "return is_open")}),

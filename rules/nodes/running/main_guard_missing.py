@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Location, Package, Report, Rule
+from scaffold.api import Diagnostic, Edit, Effect, Example, Fix, Location, Package, Report, Rule
 from scaffold.api.cmake import programs
 from scaffold.api.python import PythonModule
 
@@ -26,6 +26,7 @@ class MainGuardMissing(Rule):
 
     code = "ND022"
     name = "main-guard-missing"
+    effect = Effect.WRONG_BEHAVIOR
     examples = (
         Example("guarded", {"CMakeLists.txt": _LISTS, "talker/node.py": _MAIN + _GUARD}),
         Example(

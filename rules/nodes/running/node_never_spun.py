@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator, Mapping, Sequence
 
-from scaffold.api import Diagnostic, Example, Package, RclpyRule
+from scaffold.api import Diagnostic, Effect, Example, Package, RclpyRule
 from scaffold.api.rclpy import (
     NodeClass,
     NodeDefinition,
@@ -43,6 +43,7 @@ class NodeNeverSpun(RclpyRule):
 
     code = "ND014"
     name = "node-never-spun"
+    effect = Effect.WRONG_BEHAVIOR
     examples = (
         Example("spun", {"talker.py": _NODE.format("    rclpy.spin(node)\n")}),
         Example(

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, RclpyRule
+from scaffold.api import Diagnostic, Effect, Example, RclpyRule
 from scaffold.api.programs import spins_in_one_thread
 from scaffold.api.python import FunctionNode
 from scaffold.api.rclpy import GOAL_HANDLE, ActionServer, RclpyFile, class_of
@@ -53,6 +53,7 @@ class GoalNeverCanceled(RclpyRule):
 
     code = "ND114"
     name = "goal-never-canceled"
+    effect = Effect.WRONG_BEHAVIOR
     examples = (
         Example("two threads", {"server.py": _NODE.format(_CANCEL, _THREADS)}),
         Example(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, RclpyRule, Severity
+from scaffold.api import Diagnostic, Effect, Example, Package, RclpyRule, Severity
 from scaffold.api.rclpy import RclpyFile
 
 _NODE = (
@@ -39,6 +39,7 @@ class ResultNeverAsked(RclpyRule):
     code = "ND122"
     name = "result-never-asked"
     severity = Severity.WARNING
+    effect = Effect.WRONG_BEHAVIOR
     examples = (
         Example(
             "asks",

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, RclpyRule, Report, Severity
+from scaffold.api import Diagnostic, Effect, Example, RclpyRule, Report, Severity
 from scaffold.api.programs import in_callbacks, in_constructors, in_helpers
 from scaffold.api.python import conditions_on
 from scaffold.api.rclpy import RclpyFile, Timer, class_of
@@ -50,6 +50,7 @@ class SentBeforeKnown(RclpyRule):
     code = "ND116"
     name = "sent-before-known"
     other_severities = {Severity.WARNING: "it is a message, which may come again"}
+    effect = Effect.WRONG_BEHAVIOR
     examples = (
         Example(
             "waits", {"caller.py": _NODE.format("        self.client.wait_for_service(5.0)\n")}

@@ -6,7 +6,7 @@ import ast
 import re
 from collections.abc import Iterator, Mapping
 
-from scaffold.api import Diagnostic, Example, RclpyRule, Report, Severity
+from scaffold.api import Diagnostic, Effect, Example, RclpyRule, Report, Severity
 from scaffold.api.rclpy import RclpyFile
 
 _RATES = frozenset({"rate", "frequency", "freq", "hz", "fps"})
@@ -52,6 +52,7 @@ class RateAsPeriod(RclpyRule):
     code = "ND108"
     name = "rate-as-period"
     other_severities = {Severity.WARNING: "the name may be that of a period after all"}
+    effect = Effect.WRONG_BEHAVIOR
     examples = (
         Example("a period", {"talker.py": _NODE.format("1.0 / rate")}),
         Example("a thousand per minute", {"talker.py": _NODE.format("1000 / 60000")}),

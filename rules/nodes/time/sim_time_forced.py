@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, RclpyRule, Severity
+from scaffold.api import Diagnostic, Effect, Example, Package, RclpyRule, Severity
 from scaffold.api.rclpy import RclpyFile
 
 _PARAMETERS = frozenset({"rclpy.parameter.Parameter", "rclpy.Parameter"})
@@ -45,6 +45,7 @@ class SimTimeForced(RclpyRule):
     code = "ND107"
     name = "sim-time-forced"
     severity = Severity.WARNING
+    effect = Effect.WRONG_BEHAVIOR
     examples = (
         Example("off", {"driver.py": _NODE.format("", "False")}),
         Example("for who asks for it", {"driver.py": _NODE.format(", simulated", "simulated")}),

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator, Sequence
 
-from scaffold.api import Diagnostic, Example, RclpyRule
+from scaffold.api import Diagnostic, Effect, Example, RclpyRule
 from scaffold.api.rclpy import RclpyFile, unit_problems
 
 _PARTS = ("sec", "nanosec")
@@ -45,6 +45,7 @@ class StepWithoutFraction(RclpyRule):
 
     code = "ND106"
     name = "step-without-fraction"
+    effect = Effect.WRONG_BEHAVIOR
     examples = (
         Example("both parts", {"odometry.py": _NODE.format(_BOTH)}),
         Example(

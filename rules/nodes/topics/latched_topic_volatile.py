@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, RclpyRule, Report, Severity
+from scaffold.api import Diagnostic, Effect, Example, Package, RclpyRule, Report, Severity
 from scaffold.api.programs import publish_calls, published_at_start, topics_of
 from scaffold.api.rclpy import (
     Endpoint,
@@ -77,6 +77,7 @@ class LatchedTopicVolatile(RclpyRule):
     name = "latched-topic-volatile"
     severity = Severity.WARNING
     other_severities = {Severity.ERROR: "the topic is published only once"}
+    effect = Effect.WRONG_BEHAVIOR
     examples = (
         Example(
             "transient local",

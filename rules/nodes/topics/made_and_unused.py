@@ -6,7 +6,7 @@ import ast
 import re
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, RclpyRule, Report, Severity
+from scaffold.api import Diagnostic, Effect, Example, Package, RclpyRule, Report, Severity
 from scaffold.api.python import Unknown, paths_importing
 from scaffold.api.rclpy import NodeClass, RclpyFile, is_used_elsewhere
 
@@ -74,6 +74,7 @@ class MadeAndUnused(RclpyRule):
     name = "made-and-unused"
     severity = Severity.WARNING
     other_severities = {Severity.ERROR: "it is a window that nothing draws"}
+    effect = Effect.WRONG_BEHAVIOR
     examples = (
         Example(
             "one callback for two topics",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
+from scaffold.api import Diagnostic, Effect, Example, Package, Report, Rule, Severity
 from scaffold.api.install import is_never_run
 from scaffold.api.parameters import keeps_default_name
 from scaffold.api.programs import NamedEndpoint, is_named_in_compiled_code, topics_of
@@ -40,6 +40,7 @@ class QosIncompatible(Rule):
     code = "ND051"
     name = "qos-incompatible"
     other_severities = {Severity.WARNING: "nothing runs the script that the other side is in"}
+    effect = Effect.WRONG_BEHAVIOR
     examples = (
         Example(
             "compatible",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, MessageRule, Package, Report, Severity
+from scaffold.api import Diagnostic, Effect, Example, MessageRule, Package, Report, Severity
 from scaffold.api.messages import MessageTypes
 from scaffold.api.rclpy import Synchronizer, is_unused
 
@@ -47,6 +47,7 @@ class SynchronizerMisused(MessageRule):
     other_severities = {
         Severity.WARNING: "the slop is too large, or the file uses other filters than this one"
     }
+    effect = Effect.WRONG_BEHAVIOR
     examples = (
         Example("matches", {"viewer.py": _NODE.format("Image", "10, 0.1", _REGISTER)}),
         Example(

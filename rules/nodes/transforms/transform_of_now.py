@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, RclpyRule, Severity
+from scaffold.api import Diagnostic, Effect, Example, RclpyRule, Severity
 from scaffold.api.programs import in_callbacks, may_run_meanwhile
 from scaffold.api.rclpy import Lookup, RclpyFile, is_spun_by_listener, lookups_in
 
@@ -41,6 +41,7 @@ class TransformOfNow(RclpyRule):
     code = "ND109"
     name = "transform-of-now"
     severity = Severity.WARNING
+    effect = Effect.WRONG_BEHAVIOR
     examples = (
         Example("the latest", {"follower.py": _NODE.format("", "Time()")}),
         Example(

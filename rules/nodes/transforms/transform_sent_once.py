@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, RclpyRule
+from scaffold.api import Diagnostic, Effect, Example, RclpyRule
 from scaffold.api.programs import phases_of
 from scaffold.api.python import returned
 from scaffold.api.rclpy import RclpyFile
@@ -54,6 +54,7 @@ class TransformSentOnce(RclpyRule):
 
     code = "ND113"
     name = "transform-sent-once"
+    effect = Effect.WRONG_BEHAVIOR
     examples = (
         Example("static", {"mount.py": _NODE.format("Static")}),
         Example(
