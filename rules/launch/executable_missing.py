@@ -70,21 +70,20 @@ class ExecutableMissing(Rule):
         Example(
             "the module's name",
             {**_FILES, "launch/a.launch.py": _LAUNCH.format("talk.py")},
-            "launch/a.launch.py:7:43: talker has no program 'talk.py' (it has: talk); closest: "
-            "'talk'",
+            "launch/a.launch.py:7:43: talker has no program 'talk.py'; closest: 'talk'",
         ),
         Example(
-            "one of many",
+            "a name unlike all others",
             {
                 **_FILES,
                 "setup.py": _FILES["setup.py"].replace(
                     "'talk = talker.talk:main'",
                     ", ".join(f"'{name}_node = talker.talk:main'" for name in "abcdefgh"),
                 ),
-                "launch/a.launch.py": _LAUNCH.format("g_nde"),
+                "launch/a.launch.py": _LAUNCH.format("listener"),
             },
-            "launch/a.launch.py:7:43: talker has no program 'g_nde' (it has: g_node, a_node, "
-            "b_node, c_node, d_node and 3 more); closest: 'g_node'",
+            "launch/a.launch.py:7:43: talker has no program 'listener'; it has a_node, b_node, "
+            "c_node, d_node, e_node and 3 more",
         ),
         Example(
             "in another package of the workspace, in XML and in YAML",
@@ -93,9 +92,8 @@ class ExecutableMissing(Rule):
                 "launch/a.launch.xml": '<launch>\n  <node pkg="talker" exec="tlk"/>\n</launch>\n',
                 "launch/b.launch.yaml": "launch:\n- node:\n    pkg: talker\n    exec: tlk\n",
             },
-            "launch/a.launch.xml:2:28: talker has no program 'tlk' (it has: talk); closest: 'talk'",
-            "launch/b.launch.yaml:4:11: talker has no program 'tlk' (it has: talk); closest: "
-            "'talk'",
+            "launch/a.launch.xml:2:28: talker has no program 'tlk'; closest: 'talk'",
+            "launch/b.launch.yaml:4:11: talker has no program 'tlk'; closest: 'talk'",
             neighbours={"talker": _FILES},
         ),
         Example(
@@ -161,10 +159,10 @@ class ExecutableMissing(Rule):
                 continue
             if other is package and self._is_script(package, name):
                 continue
-            have = listed_names(programs.sources, name)
             closest = get_close_matches(name, programs.sources, 1, 0.7)
-            hint = f"; closest: {closest[0]!r}" if closest else ""
-            message = f"{use.name} has no program {name!r} (it has: {have}){hint}"
+            has = f"it has {listed_names(programs.sources, name)}"
+            hint = f"closest: {closest[0]!r}" if closest else has
+            message = f"{use.name} has no program {name!r}; {hint}"
             cause = "" if programs.sources else f"programs of {use.name}"
             yield self.report(use.executable_location, message, cause=cause)
 
