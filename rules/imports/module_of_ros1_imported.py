@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Rule, ViewError
+from scaffold.api.cmake import programs
 from scaffold.api.python import imports_by_path, rospack_lookups
 
 _NEW = {
@@ -53,6 +54,31 @@ class ModuleOfRos1Imported(Rule):
             "talker/node.py:2:1: 'rospy' belongs to ROS 1; use rclpy",
         ),
         Example(
+            "of ROS 1, in a program",
+            {
+                "package.xml": _MANIFEST.replace("ament_cmake", "ament_python"),
+                "setup.py": "from setuptools import setup\n\nsetup(\n    name='talker',\n"
+                "    packages=['talker'],\n"
+                "    entry_points={'console_scripts': ['node = talker.node:main']},\n)\n",
+                "talker/__init__.py": "",
+                "talker/node.py": "import rospy\nimport tf\n\n\ndef main():\n"
+                "    rospy.init_node('talker')\n",
+                "talker/past.py": "import rospy\n",
+            },
+            "talker/node.py:1:1: 'rospy' belongs to ROS 1; use rclpy",
+        ),
+        Example(
+            "of ROS 1, in a program that is only installed for ROS 1",
+            {
+                "package.xml": _MANIFEST.replace(
+                    "<export>", "<depend condition='$ROS_VERSION == 1'>rospy</depend><export>"
+                ),
+                "CMakeLists.txt": "project(talker)\n"
+                "install(PROGRAMS talker/node.py DESTINATION lib/${PROJECT_NAME})\n",
+                "talker/node.py": "import rospy\n",
+            },
+        ),
+        Example(
             "rospkg, of which nothing is asked that ROS 2 does not know",
             {
                 "package.xml": _MANIFEST,
@@ -74,11 +100,15 @@ class ModuleOfRos1Imported(Rule):
     def check(self, package: Package) -> Iterator[Diagnostic]:
         if not (package.manifest.build_type or "").startswith("ament"):
             return
+        started = _started(package)
         for path, imports in imports_by_path(package):
-            if all(item.root != "rclpy" or item.in_tests for item in imports):
+            is_of_ros1 = all(item.root != "rclpy" or item.in_tests for item in imports)
+            if is_of_ros1 and path not in started:
                 continue
             for item in imports:
                 root = item.root
+                if is_of_ros1 and root != "rospy":
+                    continue  # not reached
                 is_known = root in _NEW or root in _WITHOUT_PYTHON
                 if not is_known or item.guarded or item.conditional or package.has_directory(root):
                     continue
@@ -94,3 +124,16 @@ class ModuleOfRos1Imported(Rule):
                     "get_package_share_directory() of ament_index_python"
                 )
                 yield self.report(at, message)
+
+
+def _started(package: Package) -> set[str]:
+    """Return the files of programs, unless some may be meant for ROS 1."""
+    if "ROS_VERSION" in package.source("package.xml").text:
+        return set()
+    try:
+        if package.build_type == "ament_python":
+            modules = {script.module for script in package.setup_py.console_scripts}
+            return {f"{module.replace('.', '/')}.py" for module in modules}
+        return {program.path for program in programs(package)}
+    except ViewError:
+        return set()

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
 from scaffold.api.python import Unknown
-from scaffold.api.setup_py import FindPackages, SetupPy
+from scaffold.api.setup_py import FindPackages, SetupPy, installed_data
 
 _SETUP = (
     "from setuptools import find_packages, setup\n\nsetup(\n    name='talker',\n{}"
@@ -124,6 +124,17 @@ class ModuleNotPacked(Rule):
             },
         ),
         Example(
+            "a sub-package among the data",
+            {
+                "talker/__init__.py": "",
+                "talker/launch/__init__.py": "",
+                "setup.py": _SETUP_SUBPACKAGES.format("setup", "['talker']").replace(
+                    ",\n)",
+                    ",\n    data_files=[('share/talker', ['talker/launch/__init__.py'])],\n)",
+                ),
+            },
+        ),
+        Example(
             "one listed, and no sub-package",
             {
                 **_FILES_SUBPACKAGES,
@@ -231,6 +242,7 @@ class ModuleNotPacked(Rule):
         keyword = setup.keyword("packages")
         if keyword is None or not packages or isinstance(packages, FindPackages | Unknown):
             return
+        data = installed_data(package) or set()
         missing = sorted(
             name
             for path in package.files
@@ -238,6 +250,7 @@ class ModuleNotPacked(Rule):
             for name in (path.removesuffix("/__init__.py").replace("/", "."),)
             if name.rpartition(".")[0] in packages and name not in packages
             if name.rpartition(".")[2] not in _TESTS
+            if path not in data
         )
         if not missing or setup.keyword("package_dir"):
             return

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
-from scaffold.api.install import own_files
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
+from scaffold.api.install import is_never_run, is_unused_module, own_files
 from scaffold.api.setup_py import installed_data, matches, package_data
 
 _SETUP = (
@@ -34,6 +34,7 @@ class PackageDataMissing(Rule):
 
     code = "SP015"
     name = "package-data-missing"
+    other_severities = {Severity.WARNING: "nothing imports or starts the module"}
     examples = (
         Example(
             "installed with the package",
@@ -75,6 +76,22 @@ class PackageDataMissing(Rule):
             "package_data={'talker': ['words.txt']}",
         ),
         Example(
+            "excluded; nothing imports or starts the module",
+            {
+                **_FILES,
+                "setup.py": _SETUP.format(
+                    "    entry_points={'console_scripts': ['node = talker.node:main']},\n"
+                ),
+                "talker/node.py": "def main():\n    pass\n",
+            },
+            Report(
+                "setup.py:5:14",
+                "talker/text.py:3 reads talker/words.txt, which is not installed; add "
+                "package_data={'talker': ['words.txt']}",
+                severity=Severity.WARNING,
+            ),
+        ),
+        Example(
             "read as a resource; another file is installed",
             {
                 **_FILES,
@@ -109,7 +126,8 @@ class PackageDataMissing(Rule):
                 f"{where.path}:{where.line} reads {file.path}, which is not installed; "
                 f"add package_data={{'{holder.replace('/', '.')}': ['{inside}']}}"
             )
-            yield self.report(at, message)
+            is_unused = is_never_run(package, where.path) or is_unused_module(package, where.path)
+            yield self.report(at, message, severity=Severity.WARNING if is_unused else None)
 
     def _owning_package(self, package: Package, path: str) -> str | None:
         """Return the Python package that a file is installed with."""

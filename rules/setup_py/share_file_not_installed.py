@@ -106,6 +106,22 @@ class ShareFileNotInstalled(Rule):
             ),
         ),
         Example(
+            "a parameter file whose name stands for one elsewhere",
+            {
+                "package.xml": _MANIFEST,
+                "setup.py": _SETUP.format(
+                    "        ('share/talker/launch', glob('launch/*.launch.py')),\n"
+                ),
+                "launch/talk.launch.py": "CONFIG = '/home/ann/talker.yaml'\n" + _LAUNCH,
+                "config/talker.yaml": "",
+            },
+            Report(
+                "setup.py:7:16",
+                "data_files installs nothing of config/, for instance config/talker.yaml",
+                severity=Severity.WARNING,
+            ),
+        ),
+        Example(
             "a file that two packages have, named by a third one",
             {
                 "package.xml": _MANIFEST,

@@ -58,7 +58,8 @@ class TestsNotRun(Rule):
     is_fixed_for_all = True
     is_deprecation = True
     other_severities = {
-        Severity.INFO: "it says so with ``tests_require``, which Ubuntu 24.04 still reads"
+        Severity.INFO: "it says so with ``tests_require``, which Ubuntu 24.04 still reads",
+        Severity.WARNING: "the tests only run linters of ament",
     }
     examples = (
         Example("said", {"setup.py": _SETUP.format(_EXTRA), "test/test_talker.py": _TEST}),
@@ -72,6 +73,23 @@ class TestsNotRun(Rule):
                 "class TestTalker(unittest.TestCase):\n\n"
                 "    def test_talk(self):\n        self.assertTrue('talk')\n",
             },
+        ),
+        Example(
+            "not said; the only test is one of ``ros2 pkg create``",
+            {
+                "setup.py": _SETUP.format(""),
+                "test/test_flake8.py": "from ament_flake8.main import main_with_errors\n"
+                "import pytest\n\n\n@pytest.mark.flake8\ndef test_flake8():\n"
+                "    assert main_with_errors(argv=[])[0] == 0\n",
+            },
+            Report(
+                "setup.py:3:1",
+                "no extra requires pytest for test/: colcon runs 0 tests; add "
+                "extras_require={'test': ['pytest']}",
+                fix="add extras_require={'test': ['pytest']}",
+                severity=Severity.WARNING,
+            ),
+            fixed={"setup.py": _SETUP.format(_EXTRA)},
         ),
         Example(
             "not said",
@@ -223,7 +241,9 @@ class TestsNotRun(Rule):
         can_fix = edit is not None and setup.keyword("extras_require") is None
         directory = tests[0].partition("/")[0]
         message = f"no extra requires pytest for {directory}/: colcon runs 0 tests; add {_NEW}"
-        yield self.report(setup, message, Fix(f"add {_NEW}", (edit,)) if edit and can_fix else None)
+        fix = Fix(f"add {_NEW}", (edit,)) if edit and can_fix else None
+        is_generated = all(_is_of_linter(package, path) for path in tests)
+        yield self.report(setup, message, fix, severity=Severity.WARNING if is_generated else None)
 
     def _check_tests_require(self, package: Package, setup: SetupPy) -> Iterator[Diagnostic]:
         old = setup.keyword("tests_require")
@@ -281,6 +301,14 @@ def _needs_pytest(package: Package, path: str) -> bool:
     bases = [module.text(base) for item in module.classes.values() for base in item.node.bases]
     is_written_for_it = any(base.endswith("TestCase") for base in bases)
     return not is_written_for_it or any(name.startswith("test") for name in module.functions)
+
+
+def _is_of_linter(package: Package, path: str) -> bool:
+    """Tell whether a test only runs a linter of ament, as those of ``ros2 pkg create`` do."""
+    roots = package.imports(path) - {"pytest"}
+    return bool(roots) and all(
+        root.startswith("ament_") and root != "ament_index_python" for root in roots
+    )
 
 
 def _setup_cfg(package: Package) -> IniFile | None:

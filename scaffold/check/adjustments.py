@@ -20,7 +20,7 @@ from scaffold.model.install.unused import (
 )
 from scaffold.model.launch.unused_files import is_left_alone
 from scaffold.model.package import Package
-from scaffold.model.python.facts import paths_importing
+from scaffold.model.python.facts import imports_of, paths_importing
 from scaffold.model.python.guards import all_conditions, is_unevaluated
 from scaffold.model.python.module import PythonModule
 from scaffold.model.rclpy.stopping import only_while_stopping
@@ -30,7 +30,7 @@ from scaffold.model.rclpy.uncalled import (
     may_be_in_uncalled_function,
 )
 from scaffold.record import NamedTuple
-from scaffold.source import ViewError
+from scaffold.source import Location, ViewError
 
 _OF_LINTERS = ("E9", "F")
 _OF_PROGRAMS = ("IM", "LF", "MS", "ND", "TY")
@@ -46,6 +46,8 @@ _QUOTED = re.compile(r"'([^']+)'")
 _UNDEFINED = "F821"
 _UNDECLARED = "PX020"
 """Codes of undeclared dependencies, reported at an import."""
+_OF_ROS1 = "IM044"
+"""The code of imports from ROS 1."""
 _PLATFORMS = ("os.name", "sys.platform", "platform.system")
 """Words of conditions on the platform."""
 
@@ -151,14 +153,14 @@ def _is_unreached(package: Package, diagnostic: Diagnostic) -> bool:
     if code.startswith(_OF_LINTERS):
         return is_out_of_reach(package, path) or _is_hardly_reached(package, diagnostic)
     return code.startswith(_OF_PROGRAMS) and (
-        is_out_of_reach(package, path) or _is_uncalled(package, diagnostic)
+        is_out_of_reach(package, path) or _is_uncalled(package, diagnostic.location)
     )
 
 
 def _is_of_ros1(package: Package, diagnostic: Diagnostic) -> bool:
     """Tell whether an error is in a file for ROS 1, which ROS 2 stops at ``import rospy``."""
     path, code = diagnostic.location.path, diagnostic.code
-    if not code.startswith((*_OF_LINTERS, *_OF_PROGRAMS)):
+    if code == _OF_ROS1 or not code.startswith((*_OF_LINTERS, *_OF_PROGRAMS)):
         return False
     try:
         imports = package.module(path).imports if b"rospy" in package.data(path) else ()
@@ -183,16 +185,20 @@ def _is_needed_by_unused_code(package: Package, undeclared: Diagnostic) -> bool:
 
     It is reported at the first of the files that import it.
     """
-    if not _is_unused(package, undeclared.location.path):
-        return False  # before the imports of all files are looked at
     needed = _QUOTED.search(undeclared.message)
-    paths = paths_importing(package, needed[1]) if needed else ()
-    return all(_is_unused(package, path) for path in paths)
+    if needed is None or not _is_unused_import(package, undeclared.location):
+        return False  # before the imports of all files are looked at
+    return all(
+        _is_unused_import(package, item.location)
+        for path in paths_importing(package, needed[1])
+        for item in imports_of(package, path)
+        if item.root == needed[1]
+    )
 
 
-def _is_unused(package: Package, path: str) -> bool:
-    """Tell whether a file is never run, or a module that nothing imports or starts."""
-    return is_never_run(package, path) or _is_unused_module(package, path)
+def _is_unused_import(package: Package, at: Location) -> bool:
+    """Tell whether an import is in a file that is never run, or in an uncalled function."""
+    return is_never_run(package, at.path) or _is_uncalled(package, at)
 
 
 def _is_unused_module(package: Package, path: str) -> bool:
@@ -202,9 +208,8 @@ def _is_unused_module(package: Package, path: str) -> bool:
         return False
 
 
-def _is_uncalled(package: Package, diagnostic: Diagnostic) -> bool:
+def _is_uncalled(package: Package, at: Location) -> bool:
     """Tell whether code is in an unused module, or in an uncalled function."""
-    at = diagnostic.location
     if _is_unused_module(package, at.path):
         return True
     try:
@@ -222,7 +227,7 @@ def _is_hardly_reached(package: Package, undefined: Diagnostic) -> bool:
     """
     if undefined.code != _UNDEFINED:
         return False
-    return _is_uncalled(package, undefined) or any(
+    return _is_uncalled(package, undefined.location) or any(
         only_while_stopping(module, name)
         or _is_of_platform(module, name)
         or _is_raised(module, name)

@@ -414,8 +414,8 @@ CONSOLE_SCRIPT = SETUP.replace(
     [
         (MISTAKE, "warning"),
         ("from . import node\n" + MISTAKE + "if __name__ == '__main__':\n    node\n", "warning"),
-        (MISTAKE + "if __name__ == '__main__':\n    print()\n", "error"),
-        (MISTAKE + "\n\ndef main():\n    print()\n", "error"),
+        (MISTAKE + "if __name__ == '__main__':\n    print()\n", "warning"),
+        (MISTAKE + "\n\ndef main():\n    print()\n", "warning"),
     ],
 )
 def test_module_that_nothing_imports_or_starts(
@@ -430,6 +430,40 @@ def test_module_that_nothing_imports_or_starts(
         ("talker/node.py", "warning"),  # in an uncalled method
         ("talker/plan.py", severity),
     }
+
+
+@pytest.mark.parametrize(
+    ("path", "text"),
+    [
+        ("README.md", "Start it: `python3 talker/plan.py`\n"),
+        ("launch/plan.launch.py", "PLAN = 'plan.py'\n"),
+        ("setup.py", CONSOLE_SCRIPT.replace("talker.node", "talker.plan")),
+        ("setup.py", CONSOLE_SCRIPT.replace("['talk = talker.node:main']", "[*scripts]")),
+        (
+            "setup.py",
+            CONSOLE_SCRIPT.replace(")\n", ", data_files=[('lib', glob('talker/*.py'))])\n"),
+        ),
+    ],
+)
+def test_module_that_may_be_started(
+    package: Path, capsys: pytest.CaptureFixture[str], path: str, text: str
+) -> None:
+    write(package / "setup.py", CONSOLE_SCRIPT)
+    write(package / "talker" / "node.py", "")
+    write(package / "talker" / "plan.py", UNDEFINED + "\n\ndef main():\n    pass\n")
+    assert severities(capsys, "F821") == {"talker/plan.py": "warning"}
+    write(package / path, text.replace("\n", "\nfrom glob import glob\n", 1))
+    assert severities(capsys, "F821")["talker/plan.py"] == "error"
+
+
+def test_dependency_of_an_uncalled_function(
+    package: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    lazy = "def main():\n    pass\n\n\ndef show():\n    import cv2\n\n    cv2.imshow()\n"
+    write(package / "talker" / "node.py", lazy)
+    assert severities(capsys, "PX020") == {"talker/node.py": "warning"}
+    write(package / "talker" / "node.py", lazy.replace("pass", "show()"))
+    assert severities(capsys, "PX020") == {"talker/node.py": "error"}
 
 
 def test_module_imported_by_another_package(

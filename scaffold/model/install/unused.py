@@ -39,7 +39,8 @@ _TAKES_ALL = (
 """Matches code that uses all files of a directory."""
 _BUILDING = ("CMakeLists.txt", "setup.py", "setup.cfg", "pyproject.toml")
 _NAMING = (*_KEPT, ".txt", ".cfg", ".toml", ".cmake", ".sh")
-_TEXTS = (".md", ".rst")
+TEXTS = (".md", ".rst")
+"""The endings of texts that tell people what to start."""
 _RUN_AS_THEY_ARE = frozenset({"setup.py", "__init__.py", "__main__.py"})
 _FOR_TESTS = "conftest.py"
 """The file that pytest loads for the tests in and below a directory."""
@@ -68,7 +69,7 @@ def is_out_of_reach(package: Package, path: str) -> bool:
 
     People start a script from the sources when a text of the package says so.
     """
-    return _is_never_reached(package, path, _TEXTS)
+    return _is_never_reached(package, path, TEXTS)
 
 
 def _is_never_reached(package: Package, path: str, texts: tuple[str, ...]) -> bool:

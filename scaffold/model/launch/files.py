@@ -20,6 +20,10 @@ _USERS = (".py", ".xml", ".yaml", ".yml", ".cpp", ".hpp")
 _LONGEST_PATH = 200
 _WORD = re.compile(r"(?<![^\"'\s=/])(?!self\.)[\w-]*\.[\w.-]*")
 """Matches possible file names in a text, but not attributes of ``self``."""
+_INSTALLED = re.compile(
+    r"(?i)share|package://|model://|\$\(find|\$\(dirname\)|__file__|ThisLaunchFileDir|MoveItConfigs"
+)
+"""Matches what paths to installed files start with."""
 _OF_DATA = (
     *(".yaml", ".yml", ".json", ".xml", ".rviz", ".urdf", ".xacro", ".sdf", ".world", ".pgm"),
     *(".png", ".dae", ".stl", ".csv", ".cfg", ".ini", ".toml", ".lua"),
@@ -44,7 +48,10 @@ def data_files(package: Package, directory: str) -> list[str]:
 
 
 def is_named(package: Package, directory: str) -> bool:
-    """Tell whether code or a launch file of the workspace mentions a file of a data directory."""
+    """Tell whether code or a launch file of the workspace looks for a file of a data directory.
+
+    The name of a file alone may be that of one in any other directory.
+    """
     mine = (f"{directory}/", "test/", "tests/")
     elsewhere = [path for path in package.files if not path.startswith(mine)]
     names = _names(data_files(package, directory)) - _names(elsewhere)
@@ -56,20 +63,22 @@ def is_named(package: Package, directory: str) -> bool:
             continue
         for path in other.files:
             is_own = other.name == package.name and path.startswith(f"{directory}/")
-            if not is_own and _named_in(package, other, path, wanted):
+            if not is_own and _named_in(package, other, path, directory, wanted):
                 return True
     return False
 
 
 def _named_in(
-    package: Package, user: Package, path: str, wanted: AbstractSet[str]
+    package: Package, user: Package, path: str, directory: str, wanted: AbstractSet[str]
 ) -> AbstractSet[str]:
-    """Return the data files of a package that a file of a package mentions."""
+    """Return the data files of a package that a file mentions, with installed places."""
     if not path.endswith(_USERS):
         return set()
     try:
         text = user.source(path).text
     except ViewError:
+        return set()
+    if directory not in text or not _INSTALLED.search(text):
         return set()
     named = {name for name in wanted if name in text and _is_named_in(text, name)}
     if named:

@@ -9,9 +9,10 @@ from typing import TYPE_CHECKING
 
 from scaffold.formats.hash_comments import without_comments
 from scaffold.model.cmake.ament import programs
-from scaffold.model.install.unused import is_named
+from scaffold.model.install.unused import TEXTS, is_named
 from scaffold.model.python.module import is_in_tests
 from scaffold.model.rclpy.api import NODE, has
+from scaffold.model.setup_py.package_data import installed_data
 from scaffold.source import ViewError
 
 if TYPE_CHECKING:
@@ -89,8 +90,9 @@ def is_in_uncalled_function(package: Package, module: PythonModule, line: int) -
 def is_unused_module(package: Package, path: str) -> bool:
     """Tell whether no file mentions a module next to programs, and it is no program itself.
 
-    It is told from the texts of files: none is parsed for this. A module with relative imports
-    cannot be run as a file; one with ``main()`` is meant to be started, and will be.
+    It is told from the texts of files: none is parsed for this. A module with ``main()`` or a main
+    guard may be started as a file, unless it is installed in a Python package without an entry
+    point, where ``ros2 run`` does not find it.
 
     Raises:
         ViewError: the file cannot be read.
@@ -102,17 +104,26 @@ def is_unused_module(package: Package, path: str) -> bool:
 
     def find() -> bool:
         text = package.data(path)
-        is_startable = b"__main__" in text and not _IMPORTS_RELATIVELY.search(text)
+        has_guard = b"__main__" in text and not _IMPORTS_RELATIVELY.search(text)
+        is_startable = has_guard or b"def main(" in text
         if (
-            is_startable
-            or b"def main(" in text
-            or not _has_programs(package)
-            or is_named(package, path, stem)
+            not _has_programs(package)
+            or (is_startable and not _is_only_importable(package, path))
+            or is_named(package, path, stem, TEXTS if is_startable else ())
         ):
             return False
         return not any(_is_named_in(user, path, (stem,)) for user in package.workspace)
 
     return package.remember(("unused module", path), find)
+
+
+def _is_only_importable(package: Package, path: str) -> bool:
+    """Tell whether setup.py installs a module in a Python package alone, not as a program."""
+    is_in_package = package.has(f"{path.rpartition('/')[0]}/__init__.py")
+    if package.build_type != "ament_python" or not is_in_package:
+        return False
+    data = installed_data(package)
+    return data is not None and path not in data and package.setup_py.entry_points_complete
 
 
 def _helps_programs(package: Package, module: PythonModule) -> bool:
