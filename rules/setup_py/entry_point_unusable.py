@@ -234,7 +234,8 @@ class EntryPointUnusable(Rule):
                 is_running = not entry.function and _runs_when_imported(package, entry.module)
                 is_used = package.build_type != "ament_cmake" and not is_running
                 severity = Severity.ERROR if is_used else Severity.WARNING
-                yield self.report(entry, message, severity=severity)
+                cause = f"console scripts: {entry.malformed}"
+                yield self.report(entry, message, severity=severity, cause=cause)
 
     def _check_names(self, package: Package) -> Iterator[Diagnostic]:
         seen: dict[str, EntryPoint] = {}
@@ -320,7 +321,9 @@ class EntryPointUnusable(Rule):
             closest = _closest_module(package, entry.module)
             if closest:
                 message = f"no module {entry.module!r} is installed; closest: {closest!r}"
-                yield self.report(entry, message)
+                is_shortened = closest.endswith(f".{entry.module}")
+                cause = "console scripts without their package" if is_shortened else ""
+                yield self.report(entry, message, cause=cause)
 
     def _check_function(
         self, package: Package, entry: EntryPoint, path: str

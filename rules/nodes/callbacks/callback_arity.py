@@ -235,7 +235,7 @@ class CallbackArity(RclpyRule):
             noun = "argument" if has == "1" else "arguments"
             more = " more" if callback.is_partial else ""
             message = f"{_shown(callback)} takes {has}{more} {noun}, but {given[1]}"
-            yield self.report(callback, message)
+            yield self.report(callback, message, cause=f"{file.module.path}: {given[1]}")
 
 
 def _shown(callback: Callback) -> str:

@@ -141,7 +141,7 @@ class QosUnusable(RclpyRule):
         for entity in entities:
             problem = self._problem(entity)
             if problem:
-                yield self.report(entity, problem)
+                yield self.report(entity, problem, cause=f"missing QoS in {file.module.path}")
 
     def _problem(self, entity: Publisher | Subscription) -> str | None:
         if entity.has_unknown_arguments or _has_old_keyword(entity.call):
