@@ -29,7 +29,7 @@ class ManifestPlaceholder(Rule):
     name = "manifest-placeholder"
     severity = Severity.WARNING
     other_severities = {
-        Severity.ERROR: "it is the license, or there is no description: the package is not built"
+        Severity.ERROR: "there is no license or description: the package is not built"
     }
     release_refused = "its license, its purpose or its maintainer would be unknown"
     examples = (
@@ -54,12 +54,8 @@ class ManifestPlaceholder(Rule):
             },
             "2:3: the description is a placeholder, 'TODO: Package description'",
             "3:22: maintainer email 'root@todo.todo' is a placeholder",
-            Report(
-                "4:12",
-                "the license is a placeholder, 'TODO: License declaration': nobody "
-                "may use the package",
-                severity=Severity.ERROR,
-            ),
+            "4:12: the license is a placeholder, 'TODO: License declaration': nobody may use the "
+            "package",
         ),
         Example(
             "empty",
@@ -105,8 +101,8 @@ class ManifestPlaceholder(Rule):
         elif is_placeholder(element.text):
             message = f"the {element.tag} is a placeholder, {element.text!r}"
             if element.tag == "license":
-                at, message = element.text_location, f"{message}: nobody may use the package"
-                yield self.report(at, message, severity=Severity.ERROR)
+                message = f"{message}: nobody may use the package"
+                yield self.report(element.text_location, message)
             else:
                 yield self.report(element, message)
 
