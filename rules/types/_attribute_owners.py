@@ -49,6 +49,15 @@ _MAKING = re.compile(rf"\(\) -> {MARKED}(?:\[.*\])?")
 METHOD = re.compile(rf"bound method ({MARKED})(?:\[.*\])?\.(\w+)\(.*")
 """Matches an uncalled method."""
 
+_SETTING = (b"setattr(", b"__dict__", b"vars(", b"patch(", b"patch.object(")
+"""Calls that set attributes whose names are strings."""
+_STORE = (
+    r"BEFORE\.NAME\b\s*(?::[^=\n]+)?=[^=]"
+    r"|(?m:^[\w.\[\], \t*(]{1,200}\.NAME\b[ \t]*,[\w.\[\], \t*)]{0,200}=(?!=))"
+    r"|\b(?:for|as)[ \t]+[\w., \t]{0,80}\.NAME\b"
+)
+"""Matches statements that set an attribute: assignments, also of tuples, and loops."""
+
 
 def known_owner(
     finding: TypeFinding, node: ast.Attribute, owner: str
@@ -97,9 +106,9 @@ def _of_ros(
     if is_of_workspace:
         return None if _is_set(package, name) else (owner, own_members(package, owner))
     class_ = _class_of_object(owner) or class_itself(owner)
-    if not class_ or _is_of_message_around(full_name(class_), name):
+    shown = full_name(class_) if class_ else ""
+    if not class_ or _is_of_message_around(shown, name) or _is_default_of_field(shown, name):
         return None
-    shown = full_name(class_)
     if shown == _EXECUTOR and _is_set(package, "executor"):
         return None  # ND013 reports that something else is assigned
     is_settable = not isinstance(node.ctx, ast.Load) or _is_set(package, name)
@@ -125,6 +134,11 @@ def _is_of_message_around(shown: str, name: str) -> bool:
     return shown.endswith(".Feedback") and name in _AROUND_FEEDBACK
 
 
+def _is_default_of_field(shown: str, name: str) -> bool:
+    """Tell whether an attribute of a message class is the default value of a field."""
+    return name.endswith("__DEFAULT") and MESSAGE.fullmatch(shown) is not None
+
+
 def cause(shown: str) -> str:
     """Return the common cause of wrong fields of one message, as in MS002."""
     matched = MESSAGE.fullmatch(shown)
@@ -138,14 +152,22 @@ def without_none(owner: str) -> str:
     return " | ".join(part for part in owner.split(" | ") if part != "None") or owner
 
 
-@fact
 def _is_set(package: Package, name: str) -> bool:
-    """Tell whether any code of the package sets an attribute of this name."""
+    """Tell whether any code of the workspace may set an attribute of this name."""
+    return _is_set_in(package, name) or any(_is_set_in(other, name) for other in package.workspace)
+
+
+@fact
+def _is_set_in(package: Package, name: str) -> bool:
     return any(_sets(package, path, name) for path in package.python_files)
 
 
 @fact
 def _sets(package: Package, path: str, name: str, before: str = "") -> bool:
-    pattern = rf"{before}\.{name}\b\s*(?::[^=\n]+)?=[^=]".encode()
     data = package.data(path)
-    return name.encode() in data and re.search(pattern, data) is not None
+    if name.encode() not in data:
+        return False
+    if any(word in data for word in _SETTING) and re.search(rf"[\"'.]{name}[\"']".encode(), data):
+        return True
+    pattern = _STORE.replace("NAME", name).replace("BEFORE", before)
+    return re.search(pattern.encode(), data) is not None

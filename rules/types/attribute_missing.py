@@ -550,6 +550,50 @@ class AttributeMissing(TypeRule):
             },
         ),
         Example(
+            "attributes that other modules store on the object",
+            {
+                "package.xml": "<package><name>rover</name></package>\n",
+                "rover/__init__.py": "",
+                "rover/odometry.py": _ODOMETRY,
+                "rover/drive.py": _DRIVE.format("restart").replace(
+                    "        self.odometry.restart()\n",
+                    "        print(self.odometry.y, self.odometry.z, self.odometry.yaw)\n",
+                ),
+                "rover/bags.py": "def replay(odometry, poses):\n"
+                "    for odometry.y in poses:\n"
+                "        odometry.z, odometry.x = 0.0, 1.0\n"
+                "    setattr(odometry, 'yaw', 0.0)\n",
+            },
+        ),
+        Example(
+            "one that another package stores on the object",
+            {
+                "package.xml": "<package><name>rover</name></package>\n",
+                "rover/__init__.py": "",
+                "rover/odometry.py": _ODOMETRY,
+                "rover/drive.py": _DRIVE.format("restart"),
+            },
+            neighbours={
+                "mission": {
+                    "package.xml": "<package><name>mission</name></package>\n",
+                    "mission.py": "from rover.drive import Drive\n\n"
+                    "drive = Drive()\ndrive.odometry.restart = drive.odometry.reset\n",
+                }
+            },
+        ),
+        Example(
+            "the default value of a field, which its class has in capital letters",
+            {
+                "package.xml": "<package><name>rover</name>"
+                "<export><build_type>ament_cmake</build_type></export></package>\n",
+                "CMakeLists.txt": "project(rover)\n"
+                'rosidl_generate_interfaces(${PROJECT_NAME} "msg/Address.msg")\n',
+                "msg/Address.msg": "string name 'none'\n",
+                "address.py": "import rclpy\nfrom rover.msg import Address\n\n"
+                "rclpy.init()\nprint(Address.NAME__DEFAULT)\n",
+            },
+        ),
+        Example(
             "a class that makes objects of others",
             {
                 "package.xml": "<package><name>rover</name></package>\n",
