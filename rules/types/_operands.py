@@ -6,6 +6,7 @@ import ast
 import builtins
 import sys
 
+from scaffold.api.messages import MessageTypes
 from scaffold.api.rclpy import RclpyFile, rclpy_file
 from scaffold.api.types import TypeFinding
 
@@ -28,7 +29,10 @@ def are_sure(finding: TypeFinding) -> bool:
         case _:
             return False
     file = rclpy_file(finding.package, finding.path)
-    return all(_is_sure(file, operand, _MAX_DEPTH) for operand in operands)
+    read = (part for item in operands for part in ast.walk(item) if isinstance(part, ast.Attribute))
+    return all(_is_sure(file, operand, _MAX_DEPTH) for operand in operands) and not any(
+        _is_given_to_object(finding, attribute) for attribute in read
+    )
 
 
 def _is_sure(file: RclpyFile, node: ast.expr, depth: int) -> bool:
@@ -46,3 +50,18 @@ def _is_sure(file: RclpyFile, node: ast.expr, depth: int) -> bool:
             root = (file.module.qualified_name(func) or "").partition(".")[0]
             return root in _LIBRARIES or root in sys.stdlib_module_names or hasattr(builtins, root)
     return False
+
+
+def _is_given_to_object(finding: TypeFinding, node: ast.Attribute) -> bool:
+    """Tell whether the type is that of a value stored on an object of a class that is unknown.
+
+    The class may have a property of that name, which returns something else.
+    """
+    module = finding.module
+    owner = module.text(node.value)
+    if owner in {"self", "cls"}:
+        return False
+    if MessageTypes.of(finding.package, finding.path).field_type_of(node) is not None:
+        return False
+    stored = (use for use in module.index.attributes(node.attr) if isinstance(use.ctx, ast.Store))
+    return any(module.text(use.value) == owner and use is not node for use in stored)

@@ -132,6 +132,13 @@ class OperatorUnsupported(TypeRule):
             "10:28: '+' cannot join an int and a str: TypeError; use an f-string",
         ),
         Example(
+            "a list for an attribute that may be a property of its class",
+            {
+                "state.py": "import rclpy\nfrom vehicle import State\n\nrclpy.init()\n"
+                "state = State()\nstate.array = [3.0, 4.0]\nstate.array += 0.5\n"
+            },
+        ),
+        Example(
             "a text and the bytes of a serial port",
             {"port.py": _PORT.format("line.decode()")},
         ),
