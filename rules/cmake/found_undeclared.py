@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 
 from scaffold.api import (
@@ -33,6 +34,14 @@ _LISTS_RUN_ONLY = "project(talker)\nfind_package(std_msgs REQUIRED)\n"
 _EXEC = "  <exec_depend>std_msgs</exec_depend>\n"
 
 
+_HOLDING = frozenset({"BUILD_TESTING", "UNIX", "LINUX", "TRUE", "ON", "1"}) | frozenset(
+    {"NOT", "AND", "OR", "WIN32", "APPLE", "MSVC", "ANDROID", "CMAKE_CROSSCOMPILING"}
+)
+"""Words of conditions that hold on the platform of ROS 2, by default."""
+_OF_DISTRIBUTION = re.compile(r"ROS_DISTRO|rclcpp_VERSION|ROS_VERSION|ament_cmake_VERSION")
+"""Matches what is asked for in conditions on the distribution, which are decided."""
+
+
 class FoundUndeclared(Rule):
     """``find_package`` looks for a ROS package that the manifest does not declare for the build.
 
@@ -51,7 +60,10 @@ class FoundUndeclared(Rule):
     code = "CM020"
     name = "found-undeclared"
     release_refused = "the build farm does not install the package before it builds"
-    other_severities = {Severity.WARNING: "it is declared, but as a run dependency only"}
+    other_severities = {
+        Severity.WARNING: "it is declared, but as a run dependency only; or it is only looked for "
+        "under a condition that need not hold"
+    }
     examples = (
         Example(
             "declared, and a library whose key may have another name",
@@ -104,6 +116,29 @@ class FoundUndeclared(Rule):
                 'option(CHECK_TIDY "Run clang-tidy" OFF)\nif(CHECK_TIDY)\n'
                 "  find_package(ament_cmake_clang_tidy REQUIRED)\nendif()\n",
             },
+        ),
+        Example(
+            "looked for with one version of Gazebo, and for tests",
+            {
+                "package.xml": _MANIFEST.format(""),
+                "CMakeLists.txt": "project(talker)\nfind_package(rclcpp REQUIRED)\n"
+                'if("$ENV{GZ_VERSION}" STREQUAL "harmonic")\n'
+                "  find_package(ros_gz_bridge REQUIRED)\nendif()\n"
+                "if(BUILD_TESTING)\n  find_package(std_srvs REQUIRED)\nendif()\n",
+            },
+            Report(
+                "CMakeLists.txt:4:16",
+                "finds 'ros_gz_bridge', which no dependency in package.xml names; add "
+                "<build_depend>ros_gz_bridge</build_depend>",
+                fix="declare ros_gz_bridge",
+                severity=Severity.WARNING,
+            ),
+            Report(
+                "CMakeLists.txt:7:16",
+                "finds 'std_srvs', which no dependency in package.xml names; add "
+                "<test_depend>std_srvs</test_depend>",
+                fix="declare std_srvs",
+            ),
         ),
         Example(
             "declared for another distribution",
@@ -193,7 +228,10 @@ class FoundUndeclared(Rule):
         yield from self._check_run_only(package)
         manifest = package.manifest
         reported: set[str] = set()
-        for found in _undeclared(package):
+        always_first = sorted(
+            _undeclared(package), key=lambda found: not _is_always_found(package, found)
+        )
+        for found in always_first:
             name = found.name
             if name in reported or not found.required or package.cmake.is_off(found.command):
                 continue
@@ -212,7 +250,9 @@ class FoundUndeclared(Rule):
             reported.add(name)
             needed = declaring(package, _tag(found), name)
             message = f"finds {name!r}, which no dependency in package.xml names; {needed.advice}"
-            yield self.report(found, message, needed.fix, cause=f"dependency {name}")
+            severity = None if _is_always_found(package, found) else Severity.WARNING
+            cause = f"dependency {name}"
+            yield self.report(found, message, needed.fix, severity=severity, cause=cause)
 
     def _check_run_only(self, package: Package) -> Iterator[Diagnostic]:
         manifest = package.manifest
@@ -259,6 +299,15 @@ def _undeclared(package: Package) -> Iterator[FoundPackage]:
         if neighbor is None and (name not in ROS_PACKAGES or removed_package(name)):
             continue  # unknown, or reported by package-removed
         yield found
+
+
+def _is_always_found(package: Package, found: FoundPackage) -> bool:
+    """Tell whether no condition on a variable decides whether a package is searched for."""
+    options = [command.values for command in package.cmake.find("option")]
+    holding = {*_HOLDING, *(values[0] for values in options if values[2:] == ["ON"])}
+    asked = [*package.cmake.conditions(found.command)]
+    words = {word for condition in asked for word in condition}
+    return words <= holding or any(map(_OF_DISTRIBUTION.search, words))
 
 
 def _tag(found: FoundPackage) -> str:
