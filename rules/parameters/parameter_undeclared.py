@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import NamedTuple
 
 from scaffold.api import (
@@ -63,7 +63,7 @@ class ParameterUndeclared(Rule):
     effect = Effect.IGNORED
     other_severities = {
         Severity.WARNING: "the node has this value anyway: as the default of the closest "
-        "parameter, or in its code; or the value is empty"
+        "parameter, under the right name as well, or in its code; or the value is empty"
     }
     examples = (
         Example(
@@ -150,6 +150,19 @@ class ParameterUndeclared(Rule):
             ),
         ),
         Example(
+            "set under the right name as well",
+            {
+                "talker.py": _NODE.format(""),
+                "a.yaml": _FILE.format("limits:\n      high: 5\n      hihg: 5"),
+            },
+            Report(
+                "a.yaml:7:7",
+                "node 'talker' declares no parameter 'limits.hihg': the value is "
+                "ignored; did you mean 'limits.high'?",
+                severity=Severity.WARNING,
+            ),
+        ),
+        Example(
             "misspelled, and missing",
             {
                 "talker.py": _NODE.format(""),
@@ -179,7 +192,10 @@ class ParameterUndeclared(Rule):
                 for entry in section.entries:
                     if not any(node.has(entry.name) for node in declarations):
                         value = comparable_in_file(entry.value)
-                        ignored = _Ignored(package, owners, declarations, entry.name, value)
+                        others = {
+                            other.name: comparable_in_file(other.value) for other in section.entries
+                        }
+                        ignored = _Ignored(package, owners, declarations, entry.name, value, others)
                         yield self._report(entry.location, ignored, owners[0].node_name)
 
     def _in_launch_files(self, package: Package) -> Iterator[Diagnostic]:
@@ -191,7 +207,8 @@ class ParameterUndeclared(Rule):
             for given in node.parameters:
                 if not declared.has(given.name) and not _is_shared(package, node, given.name):
                     value = _comparable_in_launch(given)
-                    ignored = _Ignored(package, [owner], [declared], given.name, value)
+                    others = {other.name: _comparable_in_launch(other) for other in node.parameters}
+                    ignored = _Ignored(package, [owner], [declared], given.name, value, others)
                     yield self._report(given.key_location, ignored, node.name(package))
 
     def _report(self, at: Location, ignored: _Ignored, node: object) -> Diagnostic:
@@ -210,6 +227,8 @@ class _Ignored(NamedTuple):
     name: str
     value: str
     """See `comparable`."""
+    others: Mapping[str, str]
+    """The comparable values of all parameters that are set next to it."""
 
     def judged(self) -> tuple[str, Severity]:
         """Return a hint at the parameters of the node, and the severity."""
@@ -230,12 +249,23 @@ class _Ignored(NamedTuple):
         meant = declared.places.get(closest)
         if meant is not None and comparable(meant.default) == self.value:
             return True
+        if self._is_set_under_right_name(declared):
+            return True
         home = owner.home(self.package)
         try:
             own = own_values(home, owner.path).get(plain_name(self.name), frozenset())
             return own == {self.value} or self.value in own_texts(home, owner.path)
         except ViewError:
             return False
+
+    def _is_set_under_right_name(self, declared: Declared) -> bool:
+        """Tell whether a declared parameter with a similar name is set to the same value, too."""
+        names = [
+            name
+            for name, value in self.others.items()
+            if value == self.value and declared.has(name)
+        ]
+        return bool(names) and bool(closest_name(self.package, self.name, names, 0.6))
 
 
 def _comparable_in_launch(given: GivenParameter) -> str:
