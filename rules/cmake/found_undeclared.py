@@ -118,13 +118,12 @@ class FoundUndeclared(Rule):
             },
         ),
         Example(
-            "looked for with one version of Gazebo, and for tests",
+            "looked for with one version of Gazebo only",
             {
                 "package.xml": _MANIFEST.format(""),
                 "CMakeLists.txt": "project(talker)\nfind_package(rclcpp REQUIRED)\n"
                 'if("$ENV{GZ_VERSION}" STREQUAL "harmonic")\n'
-                "  find_package(ros_gz_bridge REQUIRED)\nendif()\n"
-                "if(BUILD_TESTING)\n  find_package(std_srvs REQUIRED)\nendif()\n",
+                "  find_package(ros_gz_bridge REQUIRED)\nendif()\n",
             },
             Report(
                 "CMakeLists.txt:4:16",
@@ -133,12 +132,12 @@ class FoundUndeclared(Rule):
                 fix="declare ros_gz_bridge",
                 severity=Severity.WARNING,
             ),
-            Report(
-                "CMakeLists.txt:7:16",
-                "finds 'std_srvs', which no dependency in package.xml names; add "
-                "<test_depend>std_srvs</test_depend>",
-                fix="declare std_srvs",
-            ),
+            fixed={
+                "package.xml": _MANIFEST.format("").replace(
+                    "  <depend>rclcpp</depend>\n",
+                    "  <build_depend>ros_gz_bridge</build_depend>\n  <depend>rclcpp</depend>\n",
+                )
+            },
         ),
         Example(
             "declared for another distribution",
