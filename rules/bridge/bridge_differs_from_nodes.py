@@ -37,7 +37,7 @@ _OF_SENSORS = frozenset(
     | {"sensor_msgs/msg/CameraInfo", "sensor_msgs/msg/Imu", "sensor_msgs/msg/PointCloud2"}
     | {"sensor_msgs/msg/NavSatFix", "sensor_msgs/msg/MagneticField"}
 )
-"""Data of Gazebo sensors, which its own plugins never read from ROS."""
+"""Data of Gazebo sensors, which Gazebo plugins never read from ROS."""
 _OF_PLUGINS = ("gz-sim", "gz-plugin", "gz_sim", "gz_plugin", "ignition-gazebo", "ignition-plugin")
 """The prefixes of the CMake packages for building Gazebo plugins."""
 
@@ -45,12 +45,12 @@ _OF_PLUGINS = ("gz-sim", "gz-plugin", "gz_sim", "gz_plugin", "ignition-gazebo", 
 class BridgeDiffersFromNodes(Rule):
     """A bridge has a different type or direction for a topic than the nodes of its package.
 
-    **Why.** The two never connect, or nobody publishes on the side that the bridge listens to: in
-    the simulation nothing moves or nothing arrives, without an error.
+    **Why.** The two never connect, or nothing publishes on the side that the bridge subscribes to:
+    the simulated robot does not move, or no data arrives, without an error.
 
     **Fix.** Use the same type on both sides; ``Twist`` and ``TwistStamped`` both correspond to
-    ``gz.msgs.Twist``. ``ROS_TO_GZ`` is for what nodes publish, ``GZ_TO_ROS`` for sensors and the
-    clock.
+    ``gz.msgs.Twist``. Write ``ROS_TO_GZ`` for topics that nodes publish, ``GZ_TO_ROS`` for sensors
+    and the clock.
 
     **Source.** ROS 2 documentation, "Topics": a topic has one type; ros_gz_bridge, README.
     """
@@ -73,15 +73,15 @@ class BridgeDiffersFromNodes(Rule):
             },
             Report(
                 "a.yaml:10:14",
-                "'cmd_vel' comes from Gazebo, but driver.py:8 publishes it: nothing "
-                "arrives there; write ROS_TO_GZ",
+                "'cmd_vel' comes from Gazebo, but driver.py:8 publishes it: nothing arrives in "
+                "Gazebo; write ROS_TO_GZ",
                 severity=Severity.WARNING,
             ),
         ),
         Example(
             "another type",
             {"driver.py": _NODE, "a.yaml": _ENTRY.format("/cmd_vel", "Twist", "ROS_TO_GZ")},
-            "a.yaml:3:18: '/cmd_vel' has type geometry_msgs/msg/Twist here, but "
+            "a.yaml:3:18: '/cmd_vel' has the type geometry_msgs/msg/Twist here, but "
             "geometry_msgs/msg/TwistStamped in driver.py:8: they never connect",
         ),
         Example(
@@ -94,13 +94,13 @@ class BridgeDiffersFromNodes(Rule):
             },
             Report(
                 "a.yaml:3:18",
-                "'/cmd_vel' has type geometry_msgs/msg/Twist here, but "
+                "'/cmd_vel' has the type geometry_msgs/msg/Twist here, but "
                 "geometry_msgs/msg/TwistStamped in driver.py:8: they never connect",
                 severity=Severity.WARNING,
             ),
         ),
         Example(
-            "both ways",
+            "both directions",
             {
                 "driver.py": _NODE_DIRECTION,
                 "a.yaml": _ENTRY_DIRECTION.format(
@@ -119,7 +119,7 @@ class BridgeDiffersFromNodes(Rule):
             },
         ),
         Example(
-            "the other way round",
+            "the opposite direction",
             {
                 "driver.py": _NODE_DIRECTION,
                 "a.yaml": _ENTRY_DIRECTION.format(
@@ -129,14 +129,14 @@ class BridgeDiffersFromNodes(Rule):
             },
             Report(
                 "a.yaml:5:14",
-                "'cmd_vel' comes from Gazebo, but driver.py:8 publishes it: nothing "
-                "arrives there; write ROS_TO_GZ",
+                "'cmd_vel' comes from Gazebo, but driver.py:8 publishes it: nothing arrives in "
+                "Gazebo; write ROS_TO_GZ",
                 severity=Severity.WARNING,
             ),
             Report(
                 "a.yaml:10:14",
-                "'clock' goes to Gazebo, which publishes it itself: nothing arrives "
-                "in ROS; write GZ_TO_ROS",
+                "'clock' goes to Gazebo, but Gazebo publishes it: nothing arrives in ROS; write "
+                "GZ_TO_ROS",
                 severity=Severity.WARNING,
             ),
         ),
@@ -168,7 +168,8 @@ class BridgeDiffersFromNodes(Rule):
                     continue
                 at = endpoint.location
                 message = (
-                    f"{entry.ros_topic!r} has type {type_.text} here, but {endpoint.interface} in "
+                    f"{entry.ros_topic!r} has the type {type_.text} here, but "
+                    f"{endpoint.interface} in "
                     f"{at.path}:{at.line}: they never connect"
                 )
                 is_set = endpoint.from_parameter is not None  # set at the start
@@ -182,8 +183,8 @@ class BridgeDiffersFromNodes(Rule):
             is_of_sensor = entry.text("ros_type_name") in _OF_SENSORS
             if entry.direction == "ROS_TO_GZ" and is_of_sensor and not _has_plugin(package):
                 message = (
-                    f"{entry.ros_topic!r} goes to Gazebo, which publishes it itself: nothing "
-                    "arrives in ROS; write GZ_TO_ROS"
+                    f"{entry.ros_topic!r} goes to Gazebo, but Gazebo publishes it: nothing "
+                    f"arrives in ROS; write GZ_TO_ROS"
                 )
                 yield self.report(direction, message, severity=Severity.WARNING)
             elif entry.direction == "GZ_TO_ROS" and message_paths(package):
@@ -191,8 +192,8 @@ class BridgeDiffersFromNodes(Rule):
                 if topic is not None and topic.publishers and not topic.subscriptions:
                     at = topic.publishers[0].location
                     message = (
-                        f"{entry.ros_topic!r} comes from Gazebo, but {at.path}:{at.line} publishes "
-                        "it: nothing arrives there; write ROS_TO_GZ"
+                        f"{entry.ros_topic!r} comes from Gazebo, but {at.path}:{at.line} "
+                        f"publishes it: nothing arrives in Gazebo; write ROS_TO_GZ"
                     )
                     yield self.report(direction, message, severity=Severity.WARNING)
 

@@ -55,14 +55,14 @@ _NEW = "gz.msgs."
 
 
 class BridgeEntryUnusable(Rule):
-    """An entry of a bridge has a key, a direction or types that ros_gz_bridge does not know.
+    """A bridge entry has a key, a direction or types that ros_gz_bridge does not support.
 
     **Why.** ``Could not parse entry``, or ``Failed to create a bridge for topic [scan]``: the
-    bridge goes on without it, and nothing arrives. Unknown keys are silently ignored.
+    bridge drops the entry, and nothing arrives. Unknown keys are silently ignored.
 
-    **Fix.** ``ros_topic_name``, ``gz_topic_name``, ``ros_type_name``, ``gz_type_name``, as
-    direction ``GZ_TO_ROS``, ``ROS_TO_GZ`` or ``BIDIRECTIONAL``, and a pair of types such as
-    ``sensor_msgs/msg/LaserScan`` and ``gz.msgs.LaserScan``.
+    **Fix.** Use the keys ``ros_topic_name``, ``gz_topic_name``, ``ros_type_name`` and
+    ``gz_type_name``, one of the directions ``GZ_TO_ROS``, ``ROS_TO_GZ`` and ``BIDIRECTIONAL``, and
+    a supported pair of types such as ``sensor_msgs/msg/LaserScan`` and ``gz.msgs.LaserScan``.
 
     **Source.** ros_gz_bridge, ``bridge_config.cpp``, ``mappings.py`` and ``get_factory``; the names
     ``ignition.msgs`` are those of Gazebo Fortress.
@@ -70,7 +70,7 @@ class BridgeEntryUnusable(Rule):
 
     code = "BR001"
     name = "bridge-entry-unusable"
-    other_severities = {Severity.WARNING: "the type has an old name that is still converted"}
+    other_severities = {Severity.WARNING: "the type has its old name, which still works"}
     examples = (
         Example("a bridge", {"bridge.yaml": _ENTRY}),
         Example(
@@ -85,44 +85,47 @@ class BridgeEntryUnusable(Rule):
             "ROS_TO_GZ, BIDIRECTIONAL",
         ),
         Example(
-            "keys without their end",
+            "keys without their suffix",
             {"bridge.yaml": _ENTRY.replace("_name", "")},
-            "1:3: the bridge ignores the key 'ros_topic': write 'ros_topic_name'",
-            "2:3: the bridge ignores the key 'gz_topic': write 'gz_topic_name'",
-            "3:3: the bridge ignores the key 'ros_type': write 'ros_type_name'",
-            "4:3: the bridge ignores the key 'gz_type': write 'gz_type_name'",
+            "1:3: unknown key 'ros_topic': the bridge ignores it; write 'ros_topic_name'",
+            "2:3: unknown key 'gz_topic': the bridge ignores it; write 'gz_topic_name'",
+            "3:3: unknown key 'ros_type': the bridge ignores it; write 'ros_type_name'",
+            "4:3: unknown key 'gz_type': the bridge ignores it; write 'gz_type_name'",
         ),
         Example(
-            "other keys; those of Fortress",
+            "unknown keys; keys of Fortress",
             {
                 "a.yaml": _ENTRY.replace("ros_type_name", "ros_type"),
                 "b.yaml": _ENTRY.replace("gz_topic_name", "ign_topic_name"),
             },
-            "a.yaml:3:3: the bridge ignores the key 'ros_type': write 'ros_type_name'",
-            "b.yaml:2:3: the bridge ignores the key 'ign_topic_name': write 'gz_topic_name'",
+            "a.yaml:3:3: unknown key 'ros_type': the bridge ignores it; write 'ros_type_name'",
+            "b.yaml:2:3: unknown key 'ign_topic_name': the bridge ignores it; write "
+            "'gz_topic_name'",
         ),
         Example(
-            "no type; no topic; two topics",
+            "a missing type; a missing topic; two topics",
             {
                 "a.yaml": _ENTRY.replace("  gz_type_name: gz.msgs.LaserScan\n", ""),
                 "b.yaml": "- ros_type_name: std_msgs/msg/Bool\n  gz_type_name: gz.msgs.Boolean\n",
                 "c.yaml": _ENTRY.replace("gz_topic_name", "topic_name"),
             },
-            "a.yaml:1:3: no 'gz_type_name': 'Could not parse entry', nothing is bridged",
-            "b.yaml:1:3: no topic: write 'ros_topic_name' and 'gz_topic_name'",
-            "c.yaml:2:3: 'topic_name' and 'ros_topic_name' exclude each other: the bridge drops "
-            "the entry",
+            "a.yaml:1:3: no 'gz_type_name': the bridge drops the entry with 'Could not parse "
+            "entry'",
+            "b.yaml:1:3: no topic: the bridge drops the entry; write 'ros_topic_name' and "
+            "'gz_topic_name'",
+            "c.yaml:2:3: 'topic_name' and 'ros_topic_name' are mutually exclusive: the bridge "
+            "drops the entry",
         ),
         Example(
             "not YAML",
             {"a.yaml": _ENTRY.replace("  gz_topic", "\tgz_topic")},
-            "2:1: line is indented with a tab; YAML allows only spaces: the bridge connects "
-            "nothing",
+            "2:1: line is indented with a tab; YAML allows only spaces: the bridge bridges no "
+            "topics",
         ),
         Example(
             "not a list",
             {"a.yaml": _ENTRY.replace("- ", "", 1).replace("\n  ", "\n")},
-            "1:1: the bridge reads a list of entries: write '- ' before the first key",
+            "1:1: expected a list of entries; write '- ' before the first key",
         ),
         Example(
             "a pair of types",
@@ -133,37 +136,36 @@ class BridgeEntryUnusable(Rule):
             {"bridge.yaml": _ENTRY_TYPES.format("my_msgs/msg/Sonar", "gz.msgs.Sonar")},
         ),
         Example(
-            "a type with the name of Fortress",
+            "the Fortress name of a type",
             {"bridge.yaml": _ENTRY_TYPES.format("rosgraph_msgs/msg/Clock", "ignition.msgs.Clock")},
             Report(
                 "4:17",
-                "'ignition.msgs.Clock' is the name of Gazebo Fortress, which "
-                "Harmonic replaces: 'gz.msgs.Clock'",
+                "'ignition.msgs.Clock' is the name in Gazebo Fortress; use 'gz.msgs.Clock' instead",
                 severity=Severity.WARNING,
             ),
         ),
         Example(
-            "two types that do not belong together; a name that Gazebo does not have",
+            "two types without a conversion; an unknown Gazebo type",
             {
                 "a.yaml": _ENTRY_TYPES.format("sensor_msgs/msg/Image", "gz.msgs.LaserScan"),
                 "b.yaml": _ENTRY_TYPES.format("sensor_msgs/msg/LaserScan", "gz.msgs.LidarScan"),
             },
             "a.yaml:4:17: no conversion between 'sensor_msgs/msg/Image' and 'gz.msgs.LaserScan': "
-            "nothing is bridged; 'sensor_msgs/msg/Image' goes with gz.msgs.Image",
+            "nothing is bridged; 'sensor_msgs/msg/Image' is converted to gz.msgs.Image",
             "b.yaml:4:17: no conversion between 'sensor_msgs/msg/LaserScan' and "
-            "'gz.msgs.LidarScan': nothing is bridged; 'sensor_msgs/msg/LaserScan' goes with "
+            "'gz.msgs.LidarScan': nothing is bridged; 'sensor_msgs/msg/LaserScan' is converted to "
             "gz.msgs.LaserScan",
         ),
         Example(
-            "an unknown type of ROS; one without msg",
+            "an unknown ROS type; one without msg",
             {
                 "a.yaml": _ENTRY_TYPES.format("sensor_msgs/msg/LaserScans", "gz.msgs.LaserScan"),
                 "b.yaml": _ENTRY_TYPES.format("sensor_msgs/LaserScan", "gz.msgs.LaserScan"),
             },
-            "a.yaml:3:18: the bridge does not know the type 'sensor_msgs/msg/LaserScans': nothing "
-            "is bridged; closest: 'sensor_msgs/msg/LaserScan'",
-            "b.yaml:3:18: the bridge does not know the type 'sensor_msgs/LaserScan': nothing is "
-            "bridged; closest: 'sensor_msgs/msg/LaserScan'",
+            "a.yaml:3:18: unknown type 'sensor_msgs/msg/LaserScans': nothing is bridged; closest: "
+            "'sensor_msgs/msg/LaserScan'",
+            "b.yaml:3:18: unknown type 'sensor_msgs/LaserScan': nothing is bridged; closest: "
+            "'sensor_msgs/msg/LaserScan'",
         ),
         Example(
             "types in a launch file",
@@ -178,12 +180,13 @@ class BridgeEntryUnusable(Rule):
                 'exec="parameter_bridge" args="/a@std_msgs/msg/Bool@gz.msgs.Image"/>\n</launch>\n',
             },
             "launch/a.launch.py:8:25: no conversion between 'sensor_msgs/msg/LaserScan' and "
-            "'gz.msgs.Image': nothing is bridged; 'sensor_msgs/msg/LaserScan' goes with "
+            "'gz.msgs.Image': nothing is bridged; 'sensor_msgs/msg/LaserScan' is converted to "
             "gz.msgs.LaserScan",
             "launch/b.launch.xml:2:59: no conversion between 'std_msgs/msg/Bool' and "
-            "'gz.msgs.Image': nothing is bridged; 'std_msgs/msg/Bool' goes with gz.msgs.Boolean",
-            "launch/c.launch.py:8:25: the type of ROS comes first: write "
-            "@sensor_msgs/msg/LaserScan, then gz.msgs.LaserScan; nothing is bridged",
+            "'gz.msgs.Image': nothing is bridged; 'std_msgs/msg/Bool' is converted to "
+            "gz.msgs.Boolean",
+            "launch/c.launch.py:8:25: the ROS type comes first: nothing is bridged; write "
+            "@gz.msgs.LaserScan, then sensor_msgs/msg/LaserScan",
         ),
     )
 
@@ -194,9 +197,9 @@ class BridgeEntryUnusable(Rule):
     def _check_keys(self, package: Package) -> Iterator[Diagnostic]:
         for path, root in bridge_roots(package):
             if isinstance(root, ParseError):
-                yield self.report(root, f"{root.message}: the bridge connects nothing")
+                yield self.report(root, f"{root.message}: the bridge bridges no topics")
             elif isinstance(root, Mapping) and any(key.text in _KEYS for key, _ in root.pairs):
-                message = "the bridge reads a list of entries: write '- ' before the first key"
+                message = "expected a list of entries; write '- ' before the first key"
                 yield self.report(package.start_of(path), message)
         for entry in bridge_entries(package):
             yield from self._check(package, entry)
@@ -207,7 +210,7 @@ class BridgeEntryUnusable(Rule):
             whole = f"{key}_name" if f"{key}_name" in _KEYS else None
             closest = _OLD.get(key) or whole or closest_name(package, key, _KEYS, 0.75)
             if closest and closest not in entry.keys:
-                message = f"the bridge ignores the key {key!r}: write {closest!r}"
+                message = f"unknown key {key!r}: the bridge ignores it; write {closest!r}"
                 yield self.report(entry.keys[key], message)
         direction = entry.values.get("direction")
         if direction is not None and direction.text not in _DIRECTIONS:
@@ -220,13 +223,19 @@ class BridgeEntryUnusable(Rule):
         if not misspelt:
             for key in ("ros_type_name", "gz_type_name"):
                 if key not in entry.keys:
-                    message = f"no {key!r}: 'Could not parse entry', nothing is bridged"
+                    message = f"no {key!r}: the bridge drops the entry with 'Could not parse entry'"
                     yield self.report(entry, message)
             if not any(key in entry.keys for key in _TOPICS):
-                yield self.report(entry, "no topic: write 'ros_topic_name' and 'gz_topic_name'")
+                yield self.report(
+                    entry,
+                    "no topic: the bridge drops the entry; write "
+                    "'ros_topic_name' and 'gz_topic_name'",
+                )
         both = [key for key in _TOPICS[:2] if key in entry.keys]
         if "topic_name" in entry.keys and both:
-            message = f"'topic_name' and {both[0]!r} exclude each other: the bridge drops the entry"
+            message = (
+                f"'topic_name' and {both[0]!r} are mutually exclusive: the bridge drops the entry"
+            )
             yield self.report(entry.keys["topic_name"], message)
 
     def _check_types(self, package: Package) -> Iterator[Diagnostic]:
@@ -252,7 +261,7 @@ class BridgeEntryUnusable(Rule):
         self, package: Package, ros: str, gz: str, ros_at: Location, gz_at: Location
     ) -> Iterator[Diagnostic]:
         if ros.startswith((_NEW, _OLD_TYPES)):
-            message = f"the type of ROS comes first: write @{gz}, then {ros}; nothing is bridged"
+            message = f"the ROS type comes first: nothing is bridged; write @{ros}, then {gz}"
             yield self.report(ros_at, message)
             return
         new = gz.replace(_OLD_TYPES, _NEW, 1)
@@ -260,15 +269,15 @@ class BridgeEntryUnusable(Rule):
         of_gz = sorted(name for name, item in BRIDGED_TYPES if item == new)
         if (ros, new) in BRIDGED_TYPES:
             if gz != new:
-                message = f"{gz!r} is the name of Gazebo Fortress, which Harmonic replaces: {new!r}"
+                message = f"{gz!r} is the name in Gazebo Fortress; use {new!r} instead"
                 yield self.report(gz_at, message, severity=Severity.WARNING)
         elif of_ros:
             message = f"no conversion between {ros!r} and {gz!r}: nothing is bridged"
-            yield self.report(gz_at, f"{message}; {ros!r} goes with {' or '.join(of_ros)}")
+            yield self.report(gz_at, f"{message}; {ros!r} is converted to {' or '.join(of_ros)}")
         elif of_gz and package.workspace.interfaces.find(ros) is None:
             closest = closest_name(package, ros, {name for name, _ in BRIDGED_TYPES}, 0.7)
             hint = f"; closest: {closest!r}" if closest else ""
-            message = f"the bridge does not know the type {ros!r}: nothing is bridged{hint}"
+            message = f"unknown type {ros!r}: nothing is bridged{hint}"
             yield self.report(ros_at, message)
 
 

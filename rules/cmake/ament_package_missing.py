@@ -1,4 +1,4 @@
-"""CM002: ``ament_package()`` is reached."""
+"""CM002: CMakeLists.txt calls ``ament_package()``."""
 
 from __future__ import annotations
 
@@ -17,10 +17,11 @@ _CALL = "ament_package()\n"
 class AmentPackageMissing(Rule):
     """CMakeLists.txt does not call ``ament_package()``, or returns before it.
 
-    **Why.** The build passes, but the package is not in the ament index: ``ros2 run`` answers
-    ``Package 'talker' not found``. What comes after ``return()`` is neither built nor installed.
+    **Why.** The build succeeds, but the package is not in the ament index: ``ros2 run`` fails with
+    ``Package 'talker' not found``. Nothing after ``return()`` is built or installed.
 
-    **Fix.** Add ``ament_package()`` as the last call; put ``return()`` into the ``if()`` it is for.
+    **Fix.** Add ``ament_package()`` as the last call; move ``return()`` into the ``if()`` that it
+    belongs to.
 
     **Source.** ROS 2 documentation, "ament_cmake user documentation"; CMake documentation,
     ``return``.
@@ -31,17 +32,18 @@ class AmentPackageMissing(Rule):
     examples = (
         Example("called", {"CMakeLists.txt": _LISTS + _CALL}),
         Example(
-            "forgotten",
+            "not called",
             {"CMakeLists.txt": _LISTS},
             Report(
                 "3:1",
-                "no ament_package() at the end: `ros2` does not find the package",
-                fix="call ament_package()",
+                "no ament_package() at the end: `ros2 run` and `ros2 launch` do not find the "
+                "package; add it",
+                fix="Add ament_package()",
             ),
             fixed={"CMakeLists.txt": f"{_LISTS}\n{_CALL}"},
         ),
         Example(
-            "return() under a condition, in a function",
+            "a conditional return(), and one in a function",
             {
                 "CMakeLists.txt": _RETURN.format(
                     "if(WIN32)\n  return()\nendif()\nfunction(stop)\n  return()\nendfunction()\n"
@@ -54,9 +56,10 @@ class AmentPackageMissing(Rule):
             {"CMakeLists.txt": f"{_RETURN.format('')}ament_package()\nreturn()\n"},
         ),
         Example(
-            "return() before it",
+            "return() before ament_package()",
             {"CMakeLists.txt": _RETURN.format("return()\n") + "ament_package()\n"},
-            "3:1: return() ends the file here: ament_package() in line 5 is never called",
+            "3:1: return() ends the file here, so ament_package() in line 5 is never called; move "
+            "it into a condition",
         ),
     )
 
@@ -71,8 +74,11 @@ class AmentPackageMissing(Rule):
         end = len(cmake.source.text)
         text = f"{cmake.source.newline}ament_package(){cmake.source.newline}"
         lead = "" if cmake.source.text.endswith("\n") else cmake.source.newline
-        fix = Fix("call ament_package()", (Edit("CMakeLists.txt", end, end, lead + text),))
-        message = "no ament_package() at the end: `ros2` does not find the package"
+        fix = Fix("Add ament_package()", (Edit("CMakeLists.txt", end, end, lead + text),))
+        message = (
+            "no ament_package() at the end: `ros2 run` and `ros2 launch` do not find the "
+            "package; add it"
+        )
         yield self.report(last.name_location, message, fix)
 
     def _check_return(self, package: Package) -> Iterator[Diagnostic]:
@@ -81,5 +87,8 @@ class AmentPackageMissing(Rule):
         returns = [command for command in package.cmake.find("return") if not command.blocks]
         if certain and returns and returns[0].index < calls[0].index:
             line = certain[0].location.line
-            message = f"return() ends the file here: ament_package() in line {line} is never called"
+            message = (
+                f"return() ends the file here, so ament_package() in line {line} is never "
+                f"called; move it into a condition"
+            )
             yield self.report(returns[0].name_location, message)

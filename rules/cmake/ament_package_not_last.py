@@ -33,11 +33,12 @@ _LISTS = "project(talker)\nfind_package(ament_cmake REQUIRED)\n"
 class AmentPackageNotLast(Rule):
     """A call that has to come before ``ament_package()`` comes after it.
 
-    **Why.** CMake stops at an export, at interfaces and where it looks for ament_lint_auto after
-    it; a Python package, a plugin or a linter after it is never registered, for ``ament_package()``
-    does that. ``install()`` works there.
+    **Why.** CMake stops at exports, interfaces and ``find_package(ament_lint_auto)`` that come
+    later. A Python package, plugin or linter is never registered, because ``ament_package()``
+    registers it. ``install()`` still works there.
 
-    **Fix.** Move ``ament_package()`` to the end. No automatic fix: comments would be torn apart.
+    **Fix.** Move ``ament_package()`` to the end. No automatic fix: comments would be separated from
+    their code.
 
     **Source.** ROS 2 documentation, "ament_cmake user documentation"; ``ament_cmake_export_*``.
     """
@@ -76,7 +77,7 @@ class AmentPackageNotLast(Rule):
             "6:3: ament_lint_auto_find_test_dependencies() comes after ament_package() in line 3",
         ),
         Example(
-            "linters that are found before it, and registered after it",
+            "linters that are found before it and registered after it",
             {
                 "CMakeLists.txt": f"{_LISTS}find_package(ament_lint_auto REQUIRED)\n"
                 "ament_package()\nif(BUILD_TESTING)\n"
@@ -90,11 +91,11 @@ class AmentPackageNotLast(Rule):
             ),
         ),
         Example(
-            "an installation before it",
+            "install() before it",
             {"CMakeLists.txt": f"project(talker)\n{_INSTALL}ament_package()\n"},
         ),
         Example(
-            "installations after it",
+            "install() after it",
             {"CMakeLists.txt": f"project(talker)\nament_package()\n{_INSTALL}{_INSTALL}"},
             Report(
                 "3:1",

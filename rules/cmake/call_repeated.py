@@ -1,4 +1,4 @@
-"""CM095: what is named, found or exported once is not named, found or exported again."""
+"""CM095: names of tests and targets are unique, and no call is repeated."""
 
 from __future__ import annotations
 
@@ -38,14 +38,13 @@ class CallRepeated(Rule):
     """A test, target or Python package has the name of another, or a call is repeated.
 
     **Why.** CMake stops: ``add_test given test NAME "talk" which already exists in this
-    directory``. A Python package with the name of the interfaces that are generated stops it as
-    well, up to Kilted: the target ``ament_cmake_python_copy_my_robot`` exists already. A second
-    ``ament_package()`` writes the index entry and the configuration files again, with what was
-    collected up to there. A second ``find_package`` does nothing, and is forgotten when the
-    dependency is removed.
+    directory``. Up to Kilted, it also stops at a Python package with the same name as the generated
+    interfaces: the target ``ament_cmake_python_copy_my_robot`` already exists. A second
+    ``ament_package()`` writes the index entry and the configuration files again. A second
+    ``find_package`` does nothing, and is easily missed when the dependency is removed.
 
-    **Fix.** Give each its own name, or remove the call; of ``ament_package()`` keep the last. Move
-    interfaces to a separate package, such as ``my_robot_msgs``.
+    **Fix.** Give each a unique name, or remove the second call; keep the last ``ament_package()``.
+    Move interfaces to a separate package, such as ``my_robot_msgs``.
 
     **Source.** CMake documentation, ``add_test``; ``ament_python_install_package.cmake``; ROS 2
     documentation, "ament_cmake user documentation": "exactly once"; catkin_lint, "duplicate
@@ -55,11 +54,11 @@ class CallRepeated(Rule):
     code = "CM095"
     name = "call-repeated"
     effect = Effect.STOPS_BUILD
-    other_severities = {Severity.WARNING: "it only looks for a package again"}
+    other_severities = {Severity.WARNING: "the call is ``find_package``"}
     examples = (
         Example("two names", {"CMakeLists.txt": _LISTS.format("more"), **_FILES}),
         Example(
-            "two tests of one name",
+            "two tests with the same name",
             {"CMakeLists.txt": _LISTS.format("talk"), **_FILES},
             "CMakeLists.txt:3:23: ament_add_pytest_test(talk) is already called in line 2: CMake "
             "stops",
@@ -82,7 +81,7 @@ class CallRepeated(Rule):
             Report(
                 "3:1",
                 "'rclcpp' is already found in line 2",
-                fix="remove it",
+                fix="Remove the second call",
                 severity=Severity.WARNING,
             ),
             fixed={"CMakeLists.txt": f"project(talker)\n{_FIND}"},
@@ -92,15 +91,15 @@ class CallRepeated(Rule):
             {"CMakeLists.txt": _LISTS_INTERFACES % "my_robot_tools", **_FILES_INTERFACES},
         ),
         Example(
-            "the same name where both are merged",
+            "the same name on a distribution that merges both",
             {"CMakeLists.txt": _LISTS_INTERFACES % "${PROJECT_NAME}", **_FILES_INTERFACES},
             distro="lyrical",
         ),
         Example(
             "the same name",
             {"CMakeLists.txt": _LISTS_INTERFACES % "${PROJECT_NAME}", **_FILES_INTERFACES},
-            "CMakeLists.txt:3:1: the Python package 'my_robot' and the interfaces generated in "
-            "line 2 have the same name, so CMake stops: move the interfaces to a separate package",
+            "CMakeLists.txt:3:1: the Python package 'my_robot' has the name of the interfaces "
+            "generated in line 2: CMake stops; move the interfaces to a separate package",
         ),
     )
 
@@ -158,7 +157,11 @@ class CallRepeated(Rule):
             end = cmake.source.offset(command.location.end_line + 1)
             text = cmake.source.text[start:end]
             alone = text.strip() == cmake.source.text[command.start : command.end]
-            fix = Fix("remove it", (Edit("CMakeLists.txt", start, end, ""),)) if alone else None
+            fix = (
+                Fix("Remove the second call", (Edit("CMakeLists.txt", start, end, ""),))
+                if alone
+                else None
+            )
             message = f"{values[0]!r} is already found in line {first[values]}"
             yield self.report(command.name_location, message, fix, severity=Severity.WARNING)
 
@@ -172,7 +175,7 @@ class CallRepeated(Rule):
             name = cmake.expand(command.arguments[0], command) if command.arguments else None
             if name is not None and name == cmake.project_name:
                 message = (
-                    f"the Python package {name!r} and the interfaces generated in line {line} "
-                    "have the same name, so CMake stops: move the interfaces to a separate package"
+                    f"the Python package {name!r} has the name of the interfaces generated in "
+                    f"line {line}: CMake stops; move the interfaces to a separate package"
                 )
                 yield self.report(command.name_location, message)

@@ -101,13 +101,13 @@ _LISTS_TARGETS = (
 
 
 class CommandOrTargetUndefined(Rule):
-    """A command or target is used that neither CMake nor a package found before defines.
+    """A command or target is defined neither by CMake nor by a package that was found before.
 
-    **Why.** CMake stops: ``Unknown CMake command "ament_pakage"``, or the first argument
-    must be a valid target name.
+    **Why.** CMake stops: ``Unknown CMake command "ament_pakage"``, or ``the first argument must be
+    a valid target name``.
 
-    **Fix.** Write the name of the target. Call ``find_package`` for the package of the command
-    first, or correct the name; the commands of catkin have successors in ament.
+    **Fix.** Correct the name, or first call ``find_package`` for the package that provides the
+    command. Replace commands of catkin by those of ament.
 
     **Source.** CMake documentation, "cmake-commands"; ``ament_cmake``, ``ament_lint``, ``rosidl``
     and ``rclcpp``: the files that define the commands; ROS 2 documentation, "Migrating from ROS 1";
@@ -170,37 +170,37 @@ class CommandOrTargetUndefined(Rule):
             "3:1: unknown command ament_pakage(): CMake stops; closest: ament_package()",
         ),
         Example(
-            "of catkin",
+            "a command of catkin",
             {"CMakeLists.txt": _CALL.format("catkin_package")},
-            "3:1: catkin_package() is a command of ROS 1: CMake stops; use ament_package",
+            "3:1: catkin_package() is a ROS 1 command: CMake stops; use ament_package",
         ),
         Example("defined", {"CMakeLists.txt": _LISTS_TARGETS.format("talk")}),
         Example(
             "not defined",
             {"CMakeLists.txt": _LISTS_TARGETS.format("talks")},
-            "3:27: nothing defines the target 'talks'; closest: 'talk'",
+            "3:27: undefined target 'talks'; closest: 'talk'",
         ),
         Example(
-            "Python scripts are no targets",
+            "a Python script instead of a target",
             {
                 "CMakeLists.txt": "project(talker)\n"
                 "install(TARGETS talk listen DESTINATION lib/${PROJECT_NAME})\n",
                 "talker/talk.py": "",
             },
-            "CMakeLists.txt:2:17: nothing defines the target 'talk': CMake stops",
-            "CMakeLists.txt:2:22: nothing defines the target 'listen': CMake stops",
+            "CMakeLists.txt:2:17: undefined target 'talk': CMake stops",
+            "CMakeLists.txt:2:22: undefined target 'listen': CMake stops",
         ),
         Example(
-            "of an unknown command",
+            "a target of an unknown command",
             {
                 "CMakeLists.txt": "project(talker)\nfind_package(maker REQUIRED)\n"
                 "make_some(talk)\ninstall(TARGETS talk DESTINATION lib/${PROJECT_NAME})\n"
             },
         ),
         Example(
-            "not defined, but named elsewhere",
+            "not defined, but mentioned elsewhere",
             {"CMakeLists.txt": _LISTS_TARGETS.format("talks") + "message(STATUS talks)\n"},
-            "3:27: nothing defines the target 'talks'; closest: 'talk'",
+            "3:27: undefined target 'talks'; closest: 'talk'",
         ),
     )
 
@@ -244,7 +244,7 @@ class CommandOrTargetUndefined(Rule):
                 continue
             successor = _OF_ROS1.get(name)
             if successor and command.parent is None:
-                message = f"{name}() is a command of ROS 1: CMake stops; use {successor}"
+                message = f"{name}() is a ROS 1 command: CMake stops; use {successor}"
                 yield self.report(command.name_location, message)
             elif not successor:
                 for closest in _closest(name):
@@ -263,7 +263,7 @@ class CommandOrTargetUndefined(Rule):
         for target, argument in never_named:
             closest = closest_name(package, target, targets, 0.75)
             hint = f"; closest: {closest!r}" if closest else ": CMake stops"
-            yield self.report(argument, f"nothing defines the target {target!r}{hint}")
+            yield self.report(argument, f"undefined target {target!r}{hint}")
         reported = {target for target, _ in never_named}
         for command in cmake.find(*TAKING_TARGETS):
             name = cmake.expand(command.arguments[0], command) if command.arguments else None
@@ -271,7 +271,7 @@ class CommandOrTargetUndefined(Rule):
                 continue
             closest = closest_name(package, name, targets, 0.75)
             if closest:
-                message = f"nothing defines the target {name!r}; closest: {closest!r}"
+                message = f"undefined target {name!r}; closest: {closest!r}"
                 yield self.report(command.arguments[0], message)
 
 

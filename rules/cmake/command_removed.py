@@ -1,4 +1,4 @@
-"""CM110: the commands of CMakeLists.txt are there on the distribution."""
+"""CM110: the distribution has the commands that CMakeLists.txt calls."""
 
 from __future__ import annotations
 
@@ -77,14 +77,14 @@ class CommandRemoved(Rule):
     name = "command-removed"
     is_fixed_for_all = True
     is_deprecation = True
-    other_severities = {Severity.INFO: "the distribution still has it, and warns"}
+    other_severities = {Severity.INFO: "the distribution still has it, but warns"}
     examples = (
         Example(
-            "still there",
+            "a command that still exists",
             {"CMakeLists.txt": _LISTS.format(f"{_OLD}(talker rclcpp std_msgs)")},
         ),
         Example(
-            "in a directory of its own",
+            "in a separate directory",
             {
                 "CMakeLists.txt": "project(talker)\nadd_subdirectory(src)\n",
                 "src/CMakeLists.txt": f"{_OLD}(talker rclcpp)\n",
@@ -94,13 +94,13 @@ class CommandRemoved(Rule):
                 "src/CMakeLists.txt:1:1",
                 "ament_target_dependencies was removed in Lyrical: CMake stops; "
                 "use target_link_libraries (ament_cmake 572, 614)",
-                fix="write target_link_libraries",
+                fix="Replace ament_target_dependencies with target_link_libraries",
             ),
             fixed={"src/CMakeLists.txt": "target_link_libraries(talker ${rclcpp_TARGETS})\n"},
             distro="lyrical",
         ),
         Example(
-            "in a file that is included, from the directory of modules too",
+            "in included files, also from the module path",
             {
                 "CMakeLists.txt": "project(talker)\n"
                 "list(APPEND CMAKE_MODULE_PATH ${CMAKE_CURRENT_SOURCE_DIR}/cmake)\n"
@@ -115,19 +115,19 @@ class CommandRemoved(Rule):
                 "cmake/Link.cmake:1:1",
                 "ament_target_dependencies was removed in Lyrical: CMake stops; use "
                 "target_link_libraries (ament_cmake 572, 614)",
-                fix="write target_link_libraries",
+                fix="Replace ament_target_dependencies with target_link_libraries",
             ),
             Report(
                 "cmake/Listen.cmake:1:1",
                 "ament_target_dependencies was removed in Lyrical: CMake stops; use "
                 "target_link_libraries (ament_cmake 572, 614)",
-                fix="write target_link_libraries",
+                fix="Replace ament_target_dependencies with target_link_libraries",
             ),
             Report(
                 "cmake/Talk.cmake:1:1",
                 "ament_target_dependencies was removed in Lyrical: CMake stops; use "
                 "target_link_libraries (ament_cmake 572, 614)",
-                fix="write target_link_libraries",
+                fix="Replace ament_target_dependencies with target_link_libraries",
             ),
             fixed={
                 "cmake/Talk.cmake": "target_link_libraries(talker ${rclcpp_TARGETS})\n"
@@ -149,7 +149,7 @@ class CommandRemoved(Rule):
             distro="lyrical",
         ),
         Example(
-            "a package that has the command itself",
+            "a package that defines the command itself",
             {
                 "CMakeLists.txt": f"include(cmake/old.cmake)\n{_OLD}(talker rclcpp)\n",
                 "cmake/old.cmake": f"macro({_OLD} TARGET)\nendmacro()\n",
@@ -157,7 +157,7 @@ class CommandRemoved(Rule):
             distro="lyrical",
         ),
         Example(
-            "asked for",
+            "under a condition that tests for the command",
             {
                 "CMakeLists.txt": _LISTS.format(
                     f"if(COMMAND {_OLD})\n  {_OLD}(talker rclcpp)\n"
@@ -171,18 +171,18 @@ class CommandRemoved(Rule):
             distro="lyrical",
         ),
         Example(
-            "a command of all distributions",
+            "a command that all distributions have",
             {"CMakeLists.txt": _LISTS.format("target_link_libraries(talker ${rclcpp_TARGETS})")},
             distro="lyrical",
         ),
         Example(
-            "gone",
+            "removed",
             {"CMakeLists.txt": _LISTS.format(_COMMENTED)},
             Report(
                 "4:1",
                 "ament_target_dependencies was removed in Lyrical: CMake stops; "
                 "use target_link_libraries (ament_cmake 572, 614)",
-                fix="write target_link_libraries",
+                fix="Replace ament_target_dependencies with target_link_libraries",
             ),
             fixed={
                 "CMakeLists.txt": _LISTS.format(
@@ -199,7 +199,7 @@ class CommandRemoved(Rule):
                 "5:1",
                 "ament_target_dependencies was removed in Lyrical: CMake stops; use "
                 "target_link_libraries (ament_cmake 572, 614)",
-                fix="write target_link_libraries",
+                fix="Replace ament_target_dependencies with target_link_libraries",
             ),
             fixed={
                 "CMakeLists.txt": _NAMED.format(
@@ -215,7 +215,7 @@ class CommandRemoved(Rule):
                 "4:3",
                 "ament_target_dependencies was removed in Lyrical: CMake stops; use "
                 "target_link_libraries (ament_cmake 572, 614)",
-                fix="write target_link_libraries",
+                fix="Replace ament_target_dependencies with target_link_libraries",
             ),
             fixed={
                 "CMakeLists.txt": _MANY.format(
@@ -227,13 +227,13 @@ class CommandRemoved(Rule):
             distro="lyrical",
         ),
         Example(
-            "packages that are not of ROS",
+            "non-ROS packages",
             {"CMakeLists.txt": _LISTS.format(f"{_OLD}(talker Eigen3 urdf Boost)")},
             Report(
                 "4:1",
                 "ament_target_dependencies was removed in Lyrical: CMake stops; use "
                 "target_link_libraries (ament_cmake 572, 614)",
-                fix="write target_link_libraries",
+                fix="Replace ament_target_dependencies with target_link_libraries",
             ),
             fixed={
                 "CMakeLists.txt": _LISTS.format(
@@ -249,7 +249,7 @@ class CommandRemoved(Rule):
                 "4:1",
                 "ament_target_dependencies was removed in Lyrical: CMake stops; use "
                 "target_link_libraries (ament_cmake 572, 614)",
-                unsafe_fix="write target_link_libraries",
+                unsafe_fix="Replace ament_target_dependencies with target_link_libraries",
             ),
             fixed={
                 "CMakeLists.txt": _LISTS.format("target_link_libraries(talker ${shapes_TARGETS})")
@@ -269,7 +269,7 @@ class CommandRemoved(Rule):
                 "4:1",
                 "ament_target_dependencies is deprecated since Kilted, and "
                 "Lyrical removes it: CMake warns; use target_link_libraries (ament_cmake 572, 614)",
-                fix="write target_link_libraries",
+                fix="Replace ament_target_dependencies with target_link_libraries",
                 severity=Severity.INFO,
             ),
             fixed={
@@ -329,7 +329,9 @@ class CommandRemoved(Rule):
         edits.append(Edit(path, start, end, "target_link_libraries"))
         is_sure = all(_exports(package, name) for names in linked for name in names)
         safety = Safety.SAFE if is_sure else Safety.UNSAFE
-        return Fix("write target_link_libraries", tuple(edits), safety)
+        return Fix(
+            "Replace ament_target_dependencies with target_link_libraries", tuple(edits), safety
+        )
 
 
 def _is_asked_for(cmake: CMakeLists, command: Command) -> bool:

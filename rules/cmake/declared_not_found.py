@@ -1,4 +1,4 @@
-"""CM021: what is declared for the build is found."""
+"""CM021: CMakeLists.txt finds the build dependencies of package.xml."""
 
 from __future__ import annotations
 
@@ -27,10 +27,10 @@ _LISTS = "project(talker)\nfind_package(ament_cmake REQUIRED)\n{}ament_package()
 class DeclaredNotFound(Rule):
     """A ``<build_depend>`` is never found in CMakeLists.txt.
 
-    **Why.** Either the build does not need it, or a ``find_package`` is missing and it works by
-    chance because another package brings it along.
+    **Why.** Either the build does not need it, or a ``find_package`` call is missing and the build
+    only works because another package depends on it.
 
-    **Fix.** Call ``find_package``, or declare ``<exec_depend>`` for what only runs.
+    **Fix.** Call ``find_package``, or declare ``<exec_depend>`` if it is only needed at run time.
 
     **Source.** ROS 2 documentation, "ament_cmake user documentation"; catkin_lint,
     "unconfigured build_depend".
@@ -48,7 +48,7 @@ class DeclaredNotFound(Rule):
             },
         ),
         Example(
-            "the variables of ROS",
+            "a list of dependencies in a variable",
             {
                 "package.xml": _MANIFEST.replace("std_msgs", "ros_environment"),
                 "CMakeLists.txt": _LISTS.format(""),
@@ -57,8 +57,8 @@ class DeclaredNotFound(Rule):
         Example(
             "not found",
             {"package.xml": _MANIFEST, "CMakeLists.txt": _LISTS.format("")},
-            "package.xml:3:17: <build_depend> 'std_msgs', but CMakeLists.txt does not find that "
-            "package",
+            "package.xml:3:17: <build_depend> 'std_msgs', but CMakeLists.txt does not call "
+            "find_package(std_msgs); add the call, or declare <exec_depend>",
         ),
     )
 
@@ -78,7 +78,8 @@ class DeclaredNotFound(Rule):
                 continue
             if not any(name in argument for argument in self._arguments(package)):
                 message = (
-                    f"<{dependency.kind}> {name!r}, but CMakeLists.txt does not find that package"
+                    f"<{dependency.kind}> {name!r}, but CMakeLists.txt does not call "
+                    f"find_package({name}); add the call, or declare <exec_depend>"
                 )
                 yield self.report(dependency, message)
 

@@ -1,4 +1,4 @@
-"""CM010: programs, launch files and modules are installed where they are looked for."""
+"""CM010: programs, launch files and modules are installed where they are searched for."""
 
 from __future__ import annotations
 
@@ -21,16 +21,16 @@ _LISTS_PYTHON = "project(talker)\ninstall(DIRECTORY talker DESTINATION {})\n"
 
 
 class DestinationDiffers(Rule):
-    """``install`` puts files into a directory where they are not found.
+    """``install`` puts files into a directory where ROS 2 or Python does not search.
 
-    **Why.** ``ros2 run`` only looks in ``lib/<package>``: ``No executable found``; ``ros2 launch``
-    and ``get_package_share_directory`` in ``share/<package>``: ``file 'talk.launch.py' was not
-    found in the share directory of package 'talker'``. Modules below another version of Python are
-    not imported. An absolute path leaves the workspace: the build needs root permissions, and a
-    Debian package cannot be made.
+    **Why.** ``ros2 run`` only searches ``lib/<package>``: ``No executable found``; ``ros2 launch``
+    searches ``share/<package>``: ``file 'talk.launch.py' was not found in the share directory of
+    package 'talker'``. Python does not import modules from the directory of another Python version.
+    An absolute path is outside of the workspace: the build needs root permissions, and no Debian
+    package can be built.
 
-    **Fix.** ``lib/${PROJECT_NAME}`` for programs, ``share/${PROJECT_NAME}`` for launch files and
-    their data, ``ament_python_install_package(${PROJECT_NAME})`` for modules.
+    **Fix.** Install programs to ``lib/${PROJECT_NAME}``, launch files and data to
+    ``share/${PROJECT_NAME}``, and modules with ``ament_python_install_package(${PROJECT_NAME})``.
 
     **Source.** ``ros2pkg.api.get_executable_paths``; ``ros2launch/api/api.py``; CMake
     documentation, ``install``; ``ament_cmake_python``: ``PYTHON_INSTALL_DIR``.
@@ -38,32 +38,34 @@ class DestinationDiffers(Rule):
 
     code = "CM010"
     name = "destination-differs"
-    other_severities = {Severity.WARNING: "modules below the version of Python that ROS 2 runs on"}
+    other_severities = {
+        Severity.WARNING: "the directory is that of the distribution's Python version"
+    }
     examples = (
         Example(
-            "programs where ros2 run looks",
+            "programs in the directory that ros2 run searches",
             {"CMakeLists.txt": _LISTS.format(_RIGHT), "talker/node.py": "import rclpy\n"},
         ),
         Example(
-            "programs to bin, as for others",
+            "programs in bin, for users without ROS",
             {"CMakeLists.txt": _LISTS.format("bin"), "talker/node.py": "import rclpy\n"},
             Report(
                 "CMakeLists.txt:2:45",
-                "installs to bin; `ros2 run talker` looks in lib/talker",
-                fix="install to lib/${PROJECT_NAME}",
+                "installs to bin, but `ros2 run talker` searches lib/talker",
+                fix="Install to lib/${PROJECT_NAME}",
             ),
             fixed={"CMakeLists.txt": _LISTS.format(_RIGHT)},
         ),
         Example(
-            "programs to a path without the braces",
+            "programs in a path without the braces",
             {
                 "CMakeLists.txt": _LISTS.format("lib/PROJECT_NAME"),
                 "talker/node.py": "import rclpy\n",
             },
             Report(
                 "CMakeLists.txt:2:45",
-                "installs to lib/PROJECT_NAME; `ros2 run talker` looks in lib/talker",
-                fix="install to lib/${PROJECT_NAME}",
+                "installs to lib/PROJECT_NAME, but `ros2 run talker` searches lib/talker",
+                fix="Install to lib/${PROJECT_NAME}",
             ),
             fixed={"CMakeLists.txt": _LISTS.format(_RIGHT)},
         ),
@@ -71,28 +73,28 @@ class DestinationDiffers(Rule):
             "launch files below share", {"CMakeLists.txt": _LISTS_SHARE.format(_WANTED), **_FILES}
         ),
         Example(
-            "launch files to share, without the package",
+            "launch files in share, without the package",
             {"CMakeLists.txt": _LISTS_SHARE.format("share"), **_FILES},
             Report(
                 "CMakeLists.txt:2:38",
-                "installs to share/; `ros2 launch` and launch files look in share/talker/",
-                fix="install to share/${PROJECT_NAME}",
+                "installs to share/, but `ros2 launch` searches share/talker/",
+                fix="Install to share/${PROJECT_NAME}",
             ),
             fixed={"CMakeLists.txt": _LISTS_SHARE.format(_WANTED)},
         ),
         Example(
-            "launch files with the programs",
+            "launch files in the directory of the programs",
             {"CMakeLists.txt": _LISTS_SHARE.format("lib/${PROJECT_NAME}"), **_FILES},
             Report(
                 "CMakeLists.txt:2:38",
-                "installs to lib/talker/; `ros2 launch` and launch files look in share/talker/",
-                fix="install to share/${PROJECT_NAME}",
+                "installs to lib/talker/, but `ros2 launch` searches share/talker/",
+                fix="Install to share/${PROJECT_NAME}",
             ),
             fixed={"CMakeLists.txt": _LISTS_SHARE.format(_WANTED)},
         ),
         Example("relative", {"CMakeLists.txt": _LISTS_ABSOLUTE.format("share/${PROJECT_NAME}")}),
         Example(
-            "absolute only if somebody asks for it",
+            "absolute only if an option is set",
             {
                 "CMakeLists.txt": "project(talker)\nif(INSTALL_UDEV_RULES)\n"
                 "  install(FILES talker.rules DESTINATION /etc/udev/rules.d)\nendif()\n"
@@ -101,25 +103,26 @@ class DestinationDiffers(Rule):
         Example(
             "absolute",
             {"CMakeLists.txt": _LISTS_ABSOLUTE.format("/opt/talker/share")},
-            "2:38: installs to /opt/talker/share, outside of the workspace",
+            "2:38: installs to /opt/talker/share, outside of the workspace: the build "
+            "needs root permissions; use a relative path",
         ),
         Example(
-            "modules, by the variable",
+            "modules in PYTHON_INSTALL_DIR",
             {"CMakeLists.txt": _LISTS_PYTHON.format("${PYTHON_INSTALL_DIR}")},
         ),
         Example(
-            "modules below a version of Python",
+            "modules in the directory of another Python version",
             {"CMakeLists.txt": _LISTS_PYTHON.format("lib/python3.8/site-packages")},
-            "2:38: installs Python modules to lib/python3.8/site-packages, which only that "
-            "version of Python searches",
+            "2:38: installs Python modules to lib/python3.8/site-packages, which only that Python "
+            "version searches",
         ),
         Example(
-            "modules below the version of Python of the distribution",
+            "modules in the directory of the distribution's Python version",
             {"CMakeLists.txt": _LISTS_PYTHON.format("lib/python3.10/site-packages")},
             Report(
                 "2:38",
                 "installs Python modules to lib/python3.10/site-packages, which only "
-                "that version of Python searches",
+                "that Python version searches",
                 severity=Severity.WARNING,
             ),
             distro="humble",
@@ -143,8 +146,8 @@ class DestinationDiffers(Rule):
             if given == wanted or not self._is_meant_for_run(package, install, given):
                 continue
             edit = Edit("CMakeLists.txt", argument.start, argument.end, _RIGHT)
-            fix = Fix(f"install to {_RIGHT}", (edit,)) if not given.startswith("/") else None
-            message = f"installs to {given}; `ros2 run {cmake.project_name}` looks in {wanted}"
+            fix = Fix(f"Install to {_RIGHT}", (edit,)) if not given.startswith("/") else None
+            message = f"installs to {given}, but `ros2 run {cmake.project_name}` searches {wanted}"
             yield self.report(argument, message, fix)
 
     def _is_meant_for_run(self, package: Package, install: Install, given: str) -> bool:
@@ -195,8 +198,8 @@ class DestinationDiffers(Rule):
             if given.startswith((right, "/", "$", ".")) or not self._holds_data(install, placed):
                 continue
             edit = Edit("CMakeLists.txt", argument.start, argument.end, _WANTED)
-            message = f"installs to {given}/; `ros2 launch` and launch files look in {right}/"
-            yield self.report(argument, message, Fix(f"install to {_WANTED}", (edit,)))
+            message = f"installs to {given}/, but `ros2 launch` searches {right}/"
+            yield self.report(argument, message, Fix(f"Install to {_WANTED}", (edit,)))
 
     def _holds_data(self, install: Install, placed: set[str | None]) -> bool:
         """Tell whether only launch data is installed, and only here."""
@@ -209,7 +212,10 @@ class DestinationDiffers(Rule):
             if argument is None or not (install.destination or "").startswith("/"):
                 continue
             if package.build_type == "ament_cmake" and not _is_asked_for(install.command):
-                message = f"installs to {install.destination}, outside of the workspace"
+                message = (
+                    f"installs to {install.destination}, outside of the workspace: the "
+                    f"build needs root permissions; use a relative path"
+                )
                 yield self.report(argument, message)
 
     def _check_python(self, package: Package) -> Iterator[Diagnostic]:
@@ -220,8 +226,7 @@ class DestinationDiffers(Rule):
                 continue
             if "$" not in argument.raw:
                 message = (
-                    f"installs Python modules to {where}, which only that version of "
-                    "Python searches"
+                    f"installs Python modules to {where}, which only that Python version searches"
                 )
                 is_searched = f"python{target().python_version}/" in where
                 severity = Severity.WARNING if is_searched else None

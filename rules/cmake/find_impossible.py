@@ -1,4 +1,4 @@
-"""CM023: packages to find are spelled correctly, and have CMake files."""
+"""CM023: ``find_package`` names packages that exist and provide CMake files."""
 
 from __future__ import annotations
 
@@ -23,14 +23,14 @@ _PURE = frozenset(
 
 
 class FindImpossible(Rule):
-    """``find_package`` looks for a package whose name is misspelled, or that is pure Python.
+    """``find_package`` names a package that is misspelled, or that is pure Python.
 
-    **Why.** CMake stops: ``By not providing "Findstd_msg.cmake"``; after
+    **Why.** CMake stops: ``By not providing "Findstd_msg.cmake"``; for
     ``ament_export_dependencies``, in every package that finds this one. Packages of build type
-    ament_python, and libraries of PyPI, install no files for CMake.
+    ament_python, and libraries from PyPI, install no CMake files.
 
-    **Fix.** Write the name as the package spells it; remove the line of a Python package, for which
-    ``<exec_depend>`` in package.xml is enough.
+    **Fix.** Correct the spelling; for a Python package, remove the line: ``<exec_depend>`` in
+    package.xml is enough.
 
     **Source.** CMake documentation, ``find_package``; the packages' ``setup.py``.
     """
@@ -44,25 +44,29 @@ class FindImpossible(Rule):
             "a letter is missing",
             {"CMakeLists.txt": _LISTS.format("std_msg")},
             Report(
-                "2:14", "no package 'std_msg' is known; closest: 'std_msgs'", fix="write std_msgs"
+                "2:14",
+                "unknown package 'std_msg'; closest: 'std_msgs'",
+                fix="Replace with std_msgs",
             ),
             fixed={"CMakeLists.txt": _LISTS.format("std_msgs")},
         ),
         Example(
-            "in what others find because of this package",
+            "in ament_export_dependencies",
             {
                 "CMakeLists.txt": _LISTS.format("std_msgs")
                 + "ament_export_dependencies(std_msgs std_msg)\n"
             },
             Report(
-                "3:36", "no package 'std_msg' is known; closest: 'std_msgs'", fix="write std_msgs"
+                "3:36",
+                "unknown package 'std_msg'; closest: 'std_msgs'",
+                fix="Replace with std_msgs",
             ),
             fixed={
                 "CMakeLists.txt": _LISTS.format("std_msgs")
                 + "ament_export_dependencies(std_msgs std_msgs)\n"
             },
         ),
-        Example("a package of CMake", {"CMakeLists.txt": _LISTS.format("rclpy")}),
+        Example("a module of CMake", {"CMakeLists.txt": _LISTS.format("rclpy")}),
         Example(
             "pure Python",
             {"CMakeLists.txt": _LISTS.format("launch_ros")},
@@ -74,9 +78,9 @@ class FindImpossible(Rule):
             "2:14: 'python3-numpy' is a pure Python package without CMake files: CMake stops",
         ),
         Example(
-            "of ROS 1",
+            "a ROS 1 package",
             {"CMakeLists.txt": _LISTS.format("ament_cmake") + "find_package(catkin REQUIRED)\n"},
-            "3:14: 'catkin' belongs to ROS 1: CMake stops; use ament_cmake",
+            "3:14: 'catkin' is a ROS 1 package: CMake stops; use ament_cmake",
         ),
     )
 
@@ -105,8 +109,8 @@ class FindImpossible(Rule):
         fix = None
         if argument.value == name:
             edit = Edit("CMakeLists.txt", argument.start, argument.end, closest)
-            fix = Fix(f"write {closest}", (edit,))
-        yield self.report(at, f"no package {name!r} is known; closest: {closest!r}", fix)
+            fix = Fix(f"Replace with {closest}", (edit,))
+        yield self.report(at, f"unknown package {name!r}; closest: {closest!r}", fix)
 
     def _check_python(self, package: Package) -> Iterator[Diagnostic]:
         for call in package.cmake.found_packages:
@@ -116,7 +120,7 @@ class FindImpossible(Rule):
                 message = f"{call.name!r} is a pure Python package without CMake files: CMake stops"
                 yield self.report(call, message)
             elif call.name == "catkin" and call.command.depth == 0 and uses_ament(package):
-                yield self.report(call, "'catkin' belongs to ROS 1: CMake stops; use ament_cmake")
+                yield self.report(call, "'catkin' is a ROS 1 package: CMake stops; use ament_cmake")
 
 
 def _is_of_ros(name: str) -> bool:

@@ -1,4 +1,4 @@
-"""CM020: what CMake finds is declared."""
+"""CM020: package.xml declares what CMakeLists.txt finds."""
 
 from __future__ import annotations
 
@@ -43,14 +43,14 @@ _OF_DISTRIBUTION = re.compile(r"ROS_DISTRO|rclcpp_VERSION|ROS_VERSION|ament_cmak
 
 
 class FoundUndeclared(Rule):
-    """``find_package`` looks for a ROS package that the manifest does not declare for the build.
+    """``find_package`` names a ROS package that package.xml does not declare for the build.
 
-    **Why.** On a clean machine rosdep does not install it and CMake stops; colcon may build the
-    two packages in the wrong order. What is only needed to run, the build farm leaves out.
+    **Why.** On a clean machine rosdep does not install it and CMake stops; colcon may build the two
+    packages in the wrong order. The build farm does not install run dependencies before the build.
 
-    **Fix.** Add a ``<build_depend>``, or a ``<test_depend>`` when it is found for tests only; if
-    there is one whose condition excludes the distribution, change the condition. A package of
-    Python code alone need not be found at all.
+    **Fix.** Add a ``<build_depend>``, or a ``<test_depend>`` if only tests need it. If the
+    condition of an existing dependency excludes the distribution, change the condition. Pure Python
+    packages need no ``find_package``.
 
     **Source.** ROS 2 documentation, "ament_cmake user documentation"; REP-149; bloom, whose
     ``Build-Depends`` are those of ``buildtool_depend``, ``build_depend``, ``depend`` and
@@ -61,19 +61,19 @@ class FoundUndeclared(Rule):
     name = "found-undeclared"
     release_refused = "the build farm does not install the package before it builds"
     other_severities = {
-        Severity.WARNING: "it is declared, but as a run dependency only; or it is only looked for "
+        Severity.WARNING: "it is declared as a run dependency only; or it is only looked for "
         "under a condition that need not hold"
     }
     examples = (
         Example(
-            "declared, and a library whose key may have another name",
+            "declared, and a library whose rosdep key may differ",
             {
                 "package.xml": _MANIFEST.format("  <depend>std_msgs</depend>\n"),
                 "CMakeLists.txt": _LISTS.format("std_msgs") + "find_package(Eigen3 REQUIRED)\n",
             },
         ),
         Example(
-            "a library of the system",
+            "a system library",
             {
                 "package.xml": _MANIFEST.format("  <depend>liboctomap-dev</depend>\n"),
                 "CMakeLists.txt": _LISTS.format("octomap"),
@@ -109,7 +109,7 @@ class FoundUndeclared(Rule):
             },
         ),
         Example(
-            "looked for only where an option is switched on",
+            "found only if an option is on",
             {
                 "package.xml": _MANIFEST.format(""),
                 "CMakeLists.txt": "project(talker)\nfind_package(rclcpp REQUIRED)\n"
@@ -127,9 +127,9 @@ class FoundUndeclared(Rule):
             },
             Report(
                 "CMakeLists.txt:4:16",
-                "finds 'ros_gz_bridge', which no dependency in package.xml names; add "
+                "finds 'ros_gz_bridge', which package.xml does not declare; add "
                 "<build_depend>ros_gz_bridge</build_depend>",
-                fix="declare ros_gz_bridge",
+                fix="Declare ros_gz_bridge",
                 severity=Severity.WARNING,
             ),
             fixed={
@@ -147,20 +147,20 @@ class FoundUndeclared(Rule):
                 + "if(USES_NODES)\n  find_package(rclcpp REQUIRED)\nendif()\n",
             },
             "CMakeLists.txt:2:14: finds 'rclcpp', and line 3 of package.xml declares it only if "
-            "$ROS_DISTRO == humble, which excludes Jazzy; change the condition, or find it under "
-            "the same one",
+            "$ROS_DISTRO == humble, which excludes Jazzy; change the condition, or call "
+            "find_package under the same one",
         ),
         Example(
-            "what comes along with a dependency for another distribution",
+            "transitive dependency of a dependency for another distribution",
             {
                 "package.xml": _ELSEWHERE.format(""),
                 "CMakeLists.txt": "project(talker)\nfind_package(rcl_interfaces REQUIRED)\n",
             },
             Report(
                 "CMakeLists.txt:2:14",
-                "finds 'rcl_interfaces', which no dependency in package.xml names; "
-                "add <build_depend>rcl_interfaces</build_depend>",
-                fix="declare rcl_interfaces",
+                "finds 'rcl_interfaces', which package.xml does not declare; add "
+                "<build_depend>rcl_interfaces</build_depend>",
+                fix="Declare rcl_interfaces",
             ),
             fixed={
                 "package.xml": _ELSEWHERE.format("  <build_depend>rcl_interfaces</build_depend>\n")
@@ -171,9 +171,9 @@ class FoundUndeclared(Rule):
             {"package.xml": _MANIFEST.format(""), "CMakeLists.txt": _LISTS.format("std_msgs")},
             Report(
                 "CMakeLists.txt:3:14",
-                "finds 'std_msgs', which no dependency in package.xml names; add "
+                "finds 'std_msgs', which package.xml does not declare; add "
                 "<build_depend>std_msgs</build_depend>",
-                fix="declare std_msgs",
+                fix="Declare std_msgs",
             ),
             fixed={
                 "package.xml": _MANIFEST.format("").replace(
@@ -183,7 +183,7 @@ class FoundUndeclared(Rule):
             },
         ),
         Example(
-            "for the build",
+            "declared for the build",
             {
                 "package.xml": _MANIFEST_RUN_ONLY.format("  <depend>std_msgs</depend>\n"),
                 "CMakeLists.txt": _LISTS_RUN_ONLY,
@@ -199,20 +199,20 @@ class FoundUndeclared(Rule):
             },
         ),
         Example(
-            "where it is there",
+            "found only where it is installed",
             {
                 "package.xml": _MANIFEST_RUN_ONLY.format(_EXEC),
                 "CMakeLists.txt": "project(talker)\nfind_package(std_msgs)\n",
             },
         ),
         Example(
-            "for running",
+            "declared for run time",
             {"package.xml": _MANIFEST_RUN_ONLY.format(_EXEC), "CMakeLists.txt": _LISTS_RUN_ONLY},
             Report(
                 "package.xml:3:3",
                 "<exec_depend> 'std_msgs' is not installed when the package is built, "
                 "but CMakeLists.txt, line 2 finds it; add <build_depend>",
-                fix="add a <build_depend> of std_msgs",
+                fix="Add a <build_depend> of std_msgs",
                 severity=Severity.WARNING,
             ),
             fixed={
@@ -242,13 +242,13 @@ class FoundUndeclared(Rule):
                 message = (
                     f"finds {name!r}, and line {other.location.line} of package.xml declares it "
                     f"only if {other.condition}, which excludes {target().title}; change the "
-                    f"condition, or find it under the same one"
+                    f"condition, or call find_package under the same one"
                 )
                 yield self.report(found, message)
                 continue
             reported.add(name)
             needed = declaring(package, _tag(found), name)
-            message = f"finds {name!r}, which no dependency in package.xml names; {needed.advice}"
+            message = f"finds {name!r}, which package.xml does not declare; {needed.advice}"
             severity = None if _is_always_found(package, found) else Severity.WARNING
             cause = f"dependency {name}"
             yield self.report(found, message, needed.fix, severity=severity, cause=cause)
@@ -279,7 +279,7 @@ class FoundUndeclared(Rule):
                 f"<exec_depend> {name!r} is not installed when the package is built, but "
                 f"CMakeLists.txt, line {found_package.location.line} finds it; add <build_depend>"
             )
-            fix = Fix(f"add a <build_depend> of {name}", (manifest.insert("build_depend", name),))
+            fix = Fix(f"Add a <build_depend> of {name}", (manifest.insert("build_depend", name),))
             yield self.report(element, message, fix, severity=Severity.WARNING)
 
 

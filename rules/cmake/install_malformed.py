@@ -1,4 +1,4 @@
-"""CM092: ``install`` says what to install, and where."""
+"""CM092: ``install`` has a valid kind and a destination."""
 
 from __future__ import annotations
 
@@ -25,14 +25,14 @@ _FILES = {"launch/talk.launch.py": ""}
 
 
 class InstallMalformed(Rule):
-    """``install`` has no destination, or begins with an unknown keyword.
+    """``install`` has no destination, or starts with an unknown keyword.
 
     **Why.** CMake stops: ``install DIRECTORY given no DESTINATION!``, ``install called with unknown
     mode PROGRAM``.
 
-    **Fix.** Add ``DESTINATION share/${PROJECT_NAME}``, for programs ``lib/${PROJECT_NAME}``. Write
-    ``PROGRAMS`` for scripts, ``TARGETS`` for what is compiled, ``DIRECTORY`` for directories,
-    ``FILES`` for other files; in capitals.
+    **Fix.** Add ``DESTINATION share/${PROJECT_NAME}``, for programs ``lib/${PROJECT_NAME}``. The
+    keywords are ``PROGRAMS`` for scripts, ``TARGETS`` for executables and libraries, ``DIRECTORY``
+    and ``FILES``, in upper case.
 
     **Source.** CMake documentation, ``install``.
     """
@@ -42,11 +42,11 @@ class InstallMalformed(Rule):
     effect = Effect.STOPS_BUILD
     examples = (
         Example(
-            "with one",
+            "with a destination",
             {"CMakeLists.txt": _LISTS.format(" DESTINATION share/${PROJECT_NAME}"), **_FILES},
         ),
         Example(
-            "without",
+            "without a destination",
             {"CMakeLists.txt": _LISTS.format(""), **_FILES},
             "CMakeLists.txt:2:1: install(DIRECTORY) has no DESTINATION: CMake stops",
         ),
@@ -60,7 +60,7 @@ class InstallMalformed(Rule):
             Report(
                 "CMakeLists.txt:2:9",
                 "unknown install() keyword 'PROGRAM': CMake stops; closest: PROGRAMS",
-                fix="write PROGRAMS",
+                fix="Replace with PROGRAMS",
             ),
             fixed={"CMakeLists.txt": _KIND.format("PROGRAMS")},
         ),
@@ -70,12 +70,12 @@ class InstallMalformed(Rule):
             Report(
                 "CMakeLists.txt:2:9",
                 "unknown install() keyword 'programs': CMake stops; closest: PROGRAMS",
-                fix="write PROGRAMS",
+                fix="Replace with PROGRAMS",
             ),
             fixed={"CMakeLists.txt": _KIND.format("PROGRAMS")},
         ),
         Example(
-            "nothing like it",
+            "an unknown keyword",
             {"CMakeLists.txt": _KIND.format("BINARY"), "talker/node.py": "pass\n"},
             "CMakeLists.txt:2:9: unknown install() keyword 'BINARY': CMake stops",
         ),
@@ -100,5 +100,5 @@ class InstallMalformed(Rule):
         closest = closest_name(package, kind.value.upper(), _KINDS, 0.7)
         if closest:
             edit = Edit("CMakeLists.txt", kind.start, kind.end, closest)
-            message, fix = f"{message}; closest: {closest}", Fix(f"write {closest}", (edit,))
+            message, fix = f"{message}; closest: {closest}", Fix(f"Replace with {closest}", (edit,))
         yield self.report(kind, message, fix)

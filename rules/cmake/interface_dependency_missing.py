@@ -1,4 +1,4 @@
-"""CM064: packages that the types of fields come from are found, and among the DEPENDENCIES."""
+"""CM064: packages whose types the fields use are found, and listed in DEPENDENCIES."""
 
 from __future__ import annotations
 
@@ -28,13 +28,13 @@ _BEAT = {"msg/Beat.msg": "std_msgs/Header header\n"}
 
 
 class InterfaceDependencyMissing(Rule):
-    """A package whose types interfaces use is not among the ``DEPENDENCIES``, or is not found.
+    """Interfaces use types of a package that is not listed in ``DEPENDENCIES``, or not found.
 
     **Why.** The build stops: the generators do not find the definition of the type, or
     ``rosidl_generate_interfaces() the passed dependency 'std_msgs' has not been found before using
     find_package()``.
 
-    **Fix.** Call ``find_package`` for the package before, and add it to ``DEPENDENCIES``.
+    **Fix.** Call ``find_package`` for the package first, and add it to ``DEPENDENCIES``.
 
     **Source.** ``rosidl_cmake/cmake/rosidl_generate_interfaces.cmake``: DEPENDENCIES are "the
     packages from which message types are being used".
@@ -45,33 +45,33 @@ class InterfaceDependencyMissing(Rule):
     effect = Effect.STOPS_BUILD
     examples = (
         Example(
-            "geometry_msgs brings std_msgs along",
+            "std_msgs as a dependency of geometry_msgs",
             {"CMakeLists.txt": _LISTS % "DEPENDENCIES geometry_msgs", **_FILES},
         ),
         Example(
-            "no DEPENDENCIES; one that is not enough",
+            "no DEPENDENCIES; incomplete DEPENDENCIES",
             {"CMakeLists.txt": _LISTS % "", **_FILES},
-            "CMakeLists.txt:4:1: msg/Beat.msg:1 uses a type of 'std_msgs', which is not among the "
-            "DEPENDENCIES: add it",
-            "CMakeLists.txt:4:1: msg/Beat.msg:2 uses a type of 'geometry_msgs', which is not "
-            "among the DEPENDENCIES: add it",
+            "CMakeLists.txt:4:1: msg/Beat.msg:1 uses a type of 'std_msgs', which is not in "
+            "DEPENDENCIES: the build stops; add it",
+            "CMakeLists.txt:4:1: msg/Beat.msg:2 uses a type of 'geometry_msgs', which is not in "
+            "DEPENDENCIES: the build stops; add it",
         ),
         Example(
-            "found before",
+            "found first",
             {"CMakeLists.txt": _LISTS_FOUND.format("find_package(std_msgs REQUIRED)\n"), **_BEAT},
         ),
         Example(
-            "geometry_msgs brings it along, which is found",
+            "found as a dependency of geometry_msgs",
             {
                 "CMakeLists.txt": _LISTS_FOUND.format("find_package(geometry_msgs REQUIRED)\n"),
                 **_BEAT,
             },
         ),
         Example(
-            "among the DEPENDENCIES, but not found",
+            "listed in DEPENDENCIES, but not found",
             {"CMakeLists.txt": _LISTS_FOUND.format(""), **_BEAT},
-            "CMakeLists.txt:4:1: 'std_msgs' is among the DEPENDENCIES, but nothing finds it: "
-            "find_package(std_msgs REQUIRED) is missing",
+            "CMakeLists.txt:4:1: 'std_msgs' is in DEPENDENCIES, but not found: CMake stops; call "
+            "find_package('std_msgs' REQUIRED) first",
         ),
     )
 
@@ -90,8 +90,8 @@ class InterfaceDependencyMissing(Rule):
             for name, path, line in _used_packages(package, call):
                 if name not in {*reached, package.name}:
                     message = (
-                        f"{path}:{line} uses a type of {name!r}, which is not among the "
-                        "DEPENDENCIES: add it"
+                        f"{path}:{line} uses a type of {name!r}, which is not in DEPENDENCIES: "
+                        f"the build stops; add it"
                     )
                     yield self.report(call.command.name_location, message)
 
@@ -105,8 +105,8 @@ class InterfaceDependencyMissing(Rule):
             for name in call.dependencies or ():
                 if name not in {*(available or ()), *_ALWAYS, package.name}:
                     message = (
-                        f"{name!r} is among the DEPENDENCIES, but nothing finds it: "
-                        f"find_package({name} REQUIRED) is missing"
+                        f"{name!r} is in DEPENDENCIES, but not found: CMake stops; call "
+                        f"find_package({name!r} REQUIRED) first"
                     )
                     yield self.report(call.command.name_location, message)
 

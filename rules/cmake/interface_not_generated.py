@@ -16,14 +16,13 @@ _LISTS_FILES = "project(my_msgs)\nrosidl_generate_interfaces(${PROJECT_NAME}\n  
 class InterfaceNotGenerated(Rule):
     """A .msg, .srv or .action file is not generated, or not under the name of the project.
 
-    **Why.** The build succeeds; ``ros2 interface show`` and every import say that there is no such
-    type. The libraries are named after the first argument, but Python and C++ look for them under
-    the name of the package: ``UnsupportedTypeSupport: Could not import 'rosidl_typesupport_c' for
-    package 'my_msgs'``. A warning where no code in the workspace imports the type from this
-    package.
+    **Why.** The build succeeds, but ``ros2 interface show`` and every import fail. The libraries
+    are named after the first argument, but Python and C++ load them by the name of the package:
+    ``UnsupportedTypeSupport: Could not import 'rosidl_typesupport_c' for package 'my_msgs'``. It is
+    a warning if no code in the workspace imports the type from this package.
 
-    **Fix.** Add the file to ``rosidl_generate_interfaces(${PROJECT_NAME} ...)``. Packages of the
-    build type ament_python cannot generate interfaces: move the file to a package of ament_cmake.
+    **Fix.** Add the file to ``rosidl_generate_interfaces(${PROJECT_NAME} ...)``. ament_python
+    packages cannot generate interfaces: move the file to an ament_cmake package.
 
     **Source.** ROS 2 documentation, "Creating custom msg and srv files": the library name must
     match ``${PROJECT_NAME}``; https://github.com/ros2/rosidl/issues/441.
@@ -31,13 +30,16 @@ class InterfaceNotGenerated(Rule):
 
     code = "CM060"
     name = "interface-not-generated"
-    other_severities = {Severity.WARNING: "no code of the workspace imports the interface"}
+    other_severities = {Severity.WARNING: "no code in the workspace imports the interface"}
     examples = (
         Example(
             "under the name of the project",
             {"CMakeLists.txt": _LISTS % "${PROJECT_NAME}", **_MESSAGE},
         ),
-        Example("under the name, spelled out", {"CMakeLists.txt": _LISTS % "my_msgs", **_MESSAGE}),
+        Example(
+            "the project name, spelled out",
+            {"CMakeLists.txt": _LISTS % "my_msgs", **_MESSAGE},
+        ),
         Example(
             "under another name, only for tests",
             {"CMakeLists.txt": _LISTS % "my_test_msgs SKIP_INSTALL", **_MESSAGE},
@@ -48,13 +50,13 @@ class InterfaceNotGenerated(Rule):
             Report(
                 "CMakeLists.txt:2:28",
                 "the interfaces are generated as 'messages', but the project is "
-                "'my_msgs': their libraries are not found when they are used",
-                fix="write ${PROJECT_NAME}",
+                "'my_msgs': their libraries are not found at run time",
+                fix="Replace the name with ${PROJECT_NAME}",
             ),
             fixed={"CMakeLists.txt": _LISTS % "${PROJECT_NAME}"},
         ),
         Example(
-            "a file in place of the name",
+            "a file instead of the name",
             {"CMakeLists.txt": _LISTS % "msg/Rate.msg", **_MESSAGE},
             "CMakeLists.txt:2:28: the first argument must be a name, not the file 'msg/Rate.msg': "
             "insert ${PROJECT_NAME} before it",
@@ -77,8 +79,8 @@ class InterfaceNotGenerated(Rule):
             },
             Report(
                 "CMakeLists.txt:2:1",
-                "srv/Add.srv is not among the files: no code is generated for Add",
-                fix="generate srv/Add.srv",
+                "srv/Add.srv is not listed: no code is generated for Add; add it",
+                fix="Add srv/Add.srv",
                 severity=Severity.WARNING,
             ),
             fixed={"CMakeLists.txt": _LISTS_FILES % '"msg/Beat.msg"\n  "srv/Add.srv"'},
@@ -92,12 +94,12 @@ class InterfaceNotGenerated(Rule):
             },
             Report(
                 "CMakeLists.txt:1:1",
-                "nothing generates msg/Beat.msg: rosidl_generate_interfaces is not called",
+                "msg/Beat.msg is never generated: call rosidl_generate_interfaces()",
                 severity=Severity.WARNING,
             ),
         ),
         Example(
-            "nothing is generated, and what uses it is a comment",
+            "nothing is generated, and only a comment uses it",
             {
                 "package.xml": "<package><name>my_msgs</name></package>\n",
                 "CMakeLists.txt": "project(my_msgs)\nfind_package(ament_cmake REQUIRED)\n",
@@ -106,7 +108,7 @@ class InterfaceNotGenerated(Rule):
             },
             Report(
                 "CMakeLists.txt:1:1",
-                "nothing generates msg/Beat.msg: rosidl_generate_interfaces is not called",
+                "msg/Beat.msg is never generated: call rosidl_generate_interfaces()",
                 severity=Severity.WARNING,
             ),
         ),
@@ -120,11 +122,12 @@ class InterfaceNotGenerated(Rule):
                 "msg/Old.msg": "int32 count\n",
                 "robot/talker.py": "from robot.msg import Beat\n",
             },
-            "msg/Beat.msg:1:1: an ament_python package generates no interfaces: move it to "
-            "ament_cmake",
+            "msg/Beat.msg:1:1: an ament_python package cannot generate interfaces; move the file "
+            "to an ament_cmake package",
             Report(
                 "msg/Old.msg:1:1",
-                "an ament_python package generates no interfaces: move it to ament_cmake",
+                "an ament_python package cannot generate interfaces; move the file to an "
+                "ament_cmake package",
                 severity=Severity.WARNING,
             ),
         ),
@@ -144,12 +147,12 @@ class InterfaceNotGenerated(Rule):
             target = call.command.arguments[0]
             message = (
                 f"the interfaces are generated as {call.target!r}, but the project is "
-                f"{cmake.project_name!r}: their libraries are not found when they are used"
+                f"{cmake.project_name!r}: their libraries are not found at run time"
             )
             fix = None
             if "/" not in call.target and "." not in call.target:
                 edit = Edit("CMakeLists.txt", target.start, target.end, "${PROJECT_NAME}")
-                fix = Fix("write ${PROJECT_NAME}", (edit,))
+                fix = Fix("Replace the name with ${PROJECT_NAME}", (edit,))
             else:
                 message = (
                     f"the first argument must be a name, not the file {call.target!r}: insert "
@@ -164,7 +167,10 @@ class InterfaceNotGenerated(Rule):
         used = names_used_in_code(package)
         if package.build_type == "ament_python":
             for path in files:
-                message = "an ament_python package generates no interfaces: move it to ament_cmake"
+                message = (
+                    "an ament_python package cannot generate interfaces; move the file to "
+                    "an ament_cmake package"
+                )
                 at = package.start_of(path)
                 yield self.report(at, message, severity=_severity(_type_of(path) in used))
             return
@@ -174,7 +180,7 @@ class InterfaceNotGenerated(Rule):
         if not calls:
             project = package.cmake.project
             if project is not None and uses_ament(package):
-                message = f"nothing generates {files[0]}: rosidl_generate_interfaces is not called"
+                message = f"{files[0]} is never generated: call rosidl_generate_interfaces()"
                 is_used = any(_type_of(path) in used for path in files)
                 yield self.report(project.name_location, message, severity=_severity(is_used))
             return
@@ -183,7 +189,7 @@ class InterfaceNotGenerated(Rule):
             if path in listed or is_commented_out(package, path):
                 continue
             name = _type_of(path)
-            message = f"{path} is not among the files: no code is generated for {name}"
+            message = f"{path} is not listed: no code is generated for {name}; add it"
             yield self.report(
                 calls[0].command.name_location,
                 message,
@@ -210,4 +216,4 @@ def _add(call: Generation, path: str) -> Fix | None:
     on_own_line = last.location.line > call.command.location.line
     separator = f"\n{indent}" if on_own_line else " "
     edit = Edit("CMakeLists.txt", last.end, last.end, separator + text)
-    return Fix(f"generate {path}", (edit,), Safety.SAFE)
+    return Fix(f"Add {path}", (edit,), Safety.SAFE)

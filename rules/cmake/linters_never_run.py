@@ -1,4 +1,4 @@
-"""CM099: linters that are declared or looked for run."""
+"""CM099: linters that are found also run."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ _LISTS_SWITCHED = (
 
 
 class LintersNeverRun(Rule):
-    """``ament_lint_auto`` is found, but its linters are not registered, or one is marked as found.
+    """``ament_lint_auto`` is found, but its linters are not registered, or one is disabled.
 
-    **Why.** No linter runs under ``colcon test``, which passes. ``ros2 pkg create`` writes the line
-    that switches a linter off, with the advice to remove it: until then missing license headers
-    pass.
+    **Why.** ``colcon test`` passes without running any linter. ``ros2 pkg create`` writes a line
+    that disables a linter, with the advice to remove it: until then, missing license headers are
+    not reported.
 
     **Fix.** Call ``ament_lint_auto_find_test_dependencies()`` after ``find_package``; remove the
-    line of a linter, once every source file has its header.
+    line that disables a linter once every source file has a license header.
 
     **Source.** ``ament_lint_auto/cmake/ament_lint_auto_find_test_dependencies.cmake``;
     ``ros2pkg/resource/ament_cmake/CMakeLists.txt.em``.
@@ -29,22 +29,26 @@ class LintersNeverRun(Rule):
     code = "CM099"
     name = "linters-never-run"
     severity = Severity.WARNING
-    other_severities = {Severity.INFO: "a single linter is switched off"}
+    other_severities = {Severity.INFO: "a single linter is disabled"}
     examples = (
         Example(
             "registered",
             {"CMakeLists.txt": _LISTS.format("  ament_lint_auto_find_test_dependencies()\n")},
         ),
         Example(
-            "found only",
+            "found, but not registered",
             {"CMakeLists.txt": _LISTS.format("")},
-            "3:16: no linter runs: ament_lint_auto_find_test_dependencies() is not called",
+            "3:16: no linter runs; call ament_lint_auto_find_test_dependencies()",
         ),
-        Example("none switched off", {"CMakeLists.txt": _LISTS_SWITCHED.format("")}),
+        Example("no linter disabled", {"CMakeLists.txt": _LISTS_SWITCHED.format("")}),
         Example(
-            "one switched off, as written by ros2 pkg create",
+            "a linter disabled by ros2 pkg create",
             {"CMakeLists.txt": _LISTS_SWITCHED.format("  set(ament_cmake_copyright_FOUND TRUE)\n")},
-            Report("3:3", "disables ament_cmake_copyright: it never runs", severity=Severity.INFO),
+            Report(
+                "3:3",
+                "disables ament_cmake_copyright, so it never runs; remove this line",
+                severity=Severity.INFO,
+            ),
         ),
     )
 
@@ -62,7 +66,7 @@ class LintersNeverRun(Rule):
             return
         for found_package in cmake.found_packages:
             if found_package.name == "ament_lint_auto":
-                message = "no linter runs: ament_lint_auto_find_test_dependencies() is not called"
+                message = "no linter runs; call ament_lint_auto_find_test_dependencies()"
                 yield self.report(found_package, message)
 
     def _check_switched(self, package: Package) -> Iterator[Diagnostic]:
@@ -72,5 +76,5 @@ class LintersNeverRun(Rule):
                 continue
             if [value.upper() for value in values[:1]] in (["TRUE"], ["ON"], ["1"], ["YES"]):
                 linter = name.removesuffix("_FOUND")
-                message = f"disables {linter}: it never runs"
+                message = f"disables {linter}, so it never runs; remove this line"
                 yield self.report(command.name_location, message, severity=Severity.INFO)

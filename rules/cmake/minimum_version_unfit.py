@@ -1,4 +1,4 @@
-"""CM005: CMakeLists.txt begins with a ``cmake_minimum_required`` that CMake supports."""
+"""CM005: CMakeLists.txt starts with a ``cmake_minimum_required`` that CMake supports."""
 
 from __future__ import annotations
 
@@ -17,14 +17,14 @@ _MINIMUM = "cmake_minimum_required(VERSION 3.8)\n"
 
 
 class MinimumVersionUnfit(Rule):
-    """``cmake_minimum_required`` does not come before ``project``, or requires too old a version.
+    """``cmake_minimum_required`` comes after ``project``, or has an unsupported version.
 
-    **Why.** CMake sets its policies accordingly: otherwise, ``project`` uses those of another
-    version and warns. CMake 4 stops without it, and at versions before 3.5: ``Compatibility with
-    CMake < 3.5 has been removed from CMake``. Packages that come from ROS 1 begin with 2.8.3 or
+    **Why.** The call sets the policies of CMake; without it, ``project`` uses the policies of
+    another version and warns. CMake 4 stops without it, and at versions before 3.5: ``Compatibility
+    with CMake < 3.5 has been removed from CMake``. Packages migrated from ROS 1 often have 2.8.3 or
     3.0.2.
 
-    **Fix.** Begin with ``cmake_minimum_required(VERSION 3.8)``, the version that ROS 2 asks for.
+    **Fix.** Start with ``cmake_minimum_required(VERSION 3.8)``, the version that ROS 2 recommends.
 
     **Source.** CMake documentation, ``cmake_minimum_required``, "Compatibility"; ROS 2
     documentation, "ament_cmake user documentation".
@@ -45,24 +45,25 @@ class MinimumVersionUnfit(Rule):
         Example(
             "after project",
             {"CMakeLists.txt": f"project(talker)\n{_MINIMUM}"},
-            "1:1: cmake_minimum_required() of line 2 belongs before project()",
+            "1:1: cmake_minimum_required() in line 2 must come before project()",
         ),
         Example(
             "none",
             {"CMakeLists.txt": "project(talker)\n"},
-            "1:1: no cmake_minimum_required(VERSION ...) before project()",
+            "1:1: no cmake_minimum_required(VERSION ...) before project(): CMake uses old policies",
         ),
-        Example("of ROS 2", {"CMakeLists.txt": _LISTS.format("3.8")}),
+        Example("the version that ROS 2 recommends", {"CMakeLists.txt": _LISTS.format("3.8")}),
         Example(
-            "old, but known to work with newer", {"CMakeLists.txt": _LISTS.format("3.1...3.28")}
+            "old, with a range up to a newer version",
+            {"CMakeLists.txt": _LISTS.format("3.1...3.28")},
         ),
         Example(
             "too old for CMake 4",
             {"CMakeLists.txt": _LISTS.format("3.4")},
             Report(
                 "1:32",
-                "CMake 4.2 of Lyrical stops at 3.4: it supports 3.5 and newer",
-                fix="write 3.10",
+                "version 3.4 is too old: CMake 4.2 of Lyrical stops, as it requires 3.5 or newer",
+                fix="Replace with 3.10",
                 severity=Severity.ERROR,
             ),
             fixed={"CMakeLists.txt": _LISTS.format("3.10")},
@@ -73,23 +74,23 @@ class MinimumVersionUnfit(Rule):
             {"CMakeLists.txt": _LISTS.format("3.8")},
             Report(
                 "1:32",
-                "CMake 4.2 of Lyrical warns of 3.8, and a later one stops",
-                fix="write 3.10",
+                "version 3.8 is deprecated: CMake 4.2 of Lyrical warns, and a later one will stop",
+                fix="Replace with 3.10",
                 severity=Severity.INFO,
             ),
             fixed={"CMakeLists.txt": _LISTS.format("3.10")},
             distro="lyrical",
         ),
         Example(
-            "in a directory of its own",
+            "in a separate directory",
             {
                 "CMakeLists.txt": _LISTS.format("3.10") + "add_subdirectory(sim)\n",
                 "sim/CMakeLists.txt": _LISTS.format("3.4"),
             },
             Report(
                 "sim/CMakeLists.txt:1:32",
-                "CMake 4.2 of Lyrical stops at 3.4: it supports 3.5 and newer",
-                fix="write 3.10",
+                "version 3.4 is too old: CMake 4.2 of Lyrical stops, as it requires 3.5 or newer",
+                fix="Replace with 3.10",
                 severity=Severity.ERROR,
             ),
             fixed={"sim/CMakeLists.txt": _LISTS.format("3.10")},
@@ -106,12 +107,13 @@ class MinimumVersionUnfit(Rule):
             distro="humble",
         ),
         Example(
-            "of ROS 1",
+            "a version from ROS 1",
             {"CMakeLists.txt": _LISTS.format("2.8.3")},
             Report(
                 "1:32",
-                "CMake 4 stops at 2.8.3: it supports 3.5 and newer; ROS 2 asks for 3.8",
-                fix="write 3.8",
+                "version 2.8.3 is too old: CMake 4 stops, as it requires 3.5 or newer; "
+                "ROS 2 recommends 3.8",
+                fix="Replace with 3.8",
             ),
             fixed={"CMakeLists.txt": _LISTS.format("3.8")},
         ),
@@ -129,11 +131,13 @@ class MinimumVersionUnfit(Rule):
         if project is None or (cmake.find("include") and not minimum):
             return
         if not minimum:
-            message = "no cmake_minimum_required(VERSION ...) before project()"
+            message = (
+                "no cmake_minimum_required(VERSION ...) before project(): CMake uses old policies"
+            )
             yield self.report(project.name_location, message)
         elif minimum[0].index > project.index:
             line = minimum[0].location.line
-            message = f"cmake_minimum_required() of line {line} belongs before project()"
+            message = f"cmake_minimum_required() in line {line} must come before project()"
             yield self.report(project.name_location, message)
 
     def _check_version(self, cmake: CMakeLists, command: Command) -> Iterator[Diagnostic]:
@@ -149,7 +153,7 @@ class MinimumVersionUnfit(Rule):
                     yield self.report(version, message, severity=Severity.ERROR)
                 elif message and (severity is not None or cmake.source.path == _PATH):
                     edit = Edit(cmake.source.path, version.start, version.end, wanted)
-                    fix = Fix(f"write {wanted}", (edit,))
+                    fix = Fix(f"Replace with {wanted}", (edit,))
                     yield self.report(version, message, fix, severity=severity)
 
 
@@ -159,13 +163,16 @@ def _problem_and_fix(version: str, numbers: tuple[int, int]) -> tuple[str, str, 
     warns = target().fact("build.cmake_minimum_warning_below")
     cmake = _cmake()
     if stops and numbers < (_parsed_version(stops) or _OLDEST):
-        message = f"{cmake} stops at {version}: it supports {stops} and newer"
+        message = f"version {version} is too old: {cmake} stops, as it requires {stops} or newer"
         return message, warns, Severity.ERROR
     if warns and numbers < (_parsed_version(warns) or _OLDEST):
-        message = f"{cmake} warns of {version}, and a later one stops"
+        message = f"version {version} is deprecated: {cmake} warns, and a later one will stop"
         return message, warns, Severity.INFO
     if numbers < _OLDEST:
-        message = f"CMake 4 stops at {version}: it supports 3.5 and newer; ROS 2 asks for {_WANTED}"
+        message = (
+            f"version {version} is too old: CMake 4 stops, as it requires 3.5 or newer; ROS "
+            f"2 recommends {_WANTED}"
+        )
         return message, _WANTED, None
     return "", "", None
 

@@ -1,4 +1,4 @@
-"""CM011: files and directories that commands of CMake name exist."""
+"""CM011: files and directories named in CMakeLists.txt exist."""
 
 from __future__ import annotations
 
@@ -46,15 +46,15 @@ _LISTS_PACKAGE = "project(talker)\nament_python_install_package({})\n"
 
 
 class NamedFileMissing(Rule):
-    """A command names a file or a directory that does not exist, or is not of the kind it needs.
+    """A command names a file or directory that does not exist or is of the wrong kind.
 
     **Why.** The build stops: ``file INSTALL cannot find``, ``Cannot find source file``,
     ``add_subdirectory given source "src" which is not an existing directory``, ``the passed file
-    'msg/Bet.msg' doesn't exist``; so does a test, with ``file or directory not found``. An empty
-    directory is there only on the machine of its author: git does not keep it.
+    'msg/Bet.msg' doesn't exist``. A test fails with ``file or directory not found``. Git does not
+    keep empty directories: they exist only on the author's machine.
 
-    **Fix.** Correct the name, or remove it: a Python package needs no executable and no
-    ``add_subdirectory``, but an ``__init__.py``. Interfaces are in a directory, and end in .msg,
+    **Fix.** Correct the name, or remove it. Python packages need an ``__init__.py``, but neither
+    ``add_executable`` nor ``add_subdirectory``. Interfaces must be in a directory, and end in .msg,
     .srv, .action or .idl.
 
     **Source.** CMake documentation, ``install``, ``add_executable``, ``add_subdirectory``;
@@ -67,7 +67,7 @@ class NamedFileMissing(Rule):
     effect = Effect.STOPS_BUILD
     examples = (
         Example(
-            "there; a generated file and an optional one may come later",
+            "existing, generated and optional files",
             {
                 "CMakeLists.txt": _INSTALL.format("DIRECTORY launch")
                 + _INSTALL.format("FILES ${CMAKE_CURRENT_BINARY_DIR}/made.yaml")
@@ -76,7 +76,7 @@ class NamedFileMissing(Rule):
             },
         ),
         Example(
-            "a directory and a file to install that are not there",
+            "install() of a missing directory and a missing file",
             {
                 "CMakeLists.txt": _INSTALL.format("DIRECTORY include/")
                 + _INSTALL.format("PROGRAMS talker/nod.py"),
@@ -90,11 +90,11 @@ class NamedFileMissing(Rule):
         Example(
             "an empty directory",
             {"CMakeLists.txt": _INSTALL.format("DIRECTORY include/"), "include/": ""},
-            "CMakeLists.txt:2:19: the directory include/ is empty: git does not keep it, and the "
+            "CMakeLists.txt:2:19: the directory include/ is empty: git does not keep it, so the "
             "build of a clone stops",
         ),
         Example(
-            "a directory that git ignores, and a package in a directory",
+            "a directory that git ignores, and a package in a subdirectory",
             {
                 "CMakeLists.txt": _INSTALL.format(
                     "DIRECTORY built templates templates/inner/launch"
@@ -111,7 +111,7 @@ class NamedFileMissing(Rule):
             },
         ),
         Example(
-            "sources, a directory, a test and a Python package that are there",
+            "existing sources, directory, test and Python package",
             {
                 "CMakeLists.txt": _LISTS.format("src/a.cpp ${CMAKE_BINARY_DIR}/made.cpp")
                 + _LISTS_SUBDIRECTORIES.format("src")
@@ -124,9 +124,9 @@ class NamedFileMissing(Rule):
             },
         ),
         Example(
-            "a source that is not there",
+            "a missing source file",
             {"CMakeLists.txt": _LISTS.format("src/a.cpp"), "src/b.cpp": ""},
-            "CMakeLists.txt:2:23: there is no file src/a.cpp: CMake stops; closest: src/b.cpp",
+            "CMakeLists.txt:2:23: file src/a.cpp does not exist: CMake stops; closest: src/b.cpp",
         ),
         Example(
             "a submodule of git, which a clone may not have",
@@ -136,23 +136,23 @@ class NamedFileMissing(Rule):
             },
         ),
         Example(
-            "a directory to add that is not there",
+            "add_subdirectory() of a missing directory",
             {"CMakeLists.txt": _LISTS_SUBDIRECTORIES.format("src")},
             "2:18: adds the directory src/, which does not exist: CMake stops",
         ),
         Example(
-            "without a CMakeLists.txt",
+            "add_subdirectory() of a directory without CMakeLists.txt",
             {"CMakeLists.txt": _LISTS_SUBDIRECTORIES.format("src"), "src/talker.py": ""},
             "CMakeLists.txt:2:18: adds src/, which has no CMakeLists.txt: CMake stops",
         ),
         Example(
-            "a test that is not there",
+            "a missing test",
             {"CMakeLists.txt": _LISTS_TESTS.format("test_talks.py"), "test/test_talk.py": ""},
-            "CMakeLists.txt:2:28: there is no test file test/test_talks.py; closest: "
-            "test/test_talk.py",
+            "CMakeLists.txt:2:28: test file test/test_talks.py does not exist: the test fails; "
+            "closest: test/test_talk.py",
         ),
         Example(
-            "interfaces that exist, or are made by the build",
+            "interfaces that exist, or that the build generates",
             {
                 "CMakeLists.txt": _LISTS_INTERFACES
                 % "msg/Beat.msg ${CMAKE_CURRENT_BINARY_DIR}:msg/Made.msg",
@@ -160,40 +160,43 @@ class NamedFileMissing(Rule):
             },
         ),
         Example(
-            "interfaces: misspelled, without the directory",
+            "interfaces that are misspelled, or lack the directory",
             {
                 "CMakeLists.txt": _LISTS_INTERFACES % "\n  msg/beat.msg\n  Beat.msg\n",
                 "msg/Beat.msg": "int32 count\n",
             },
-            "CMakeLists.txt:3:3: there is no file 'msg/beat.msg', so CMake stops; did you mean "
+            "CMakeLists.txt:3:3: file 'msg/beat.msg' does not exist: CMake stops; did you mean "
             "'msg/Beat.msg'?",
-            "CMakeLists.txt:4:3: there is no file 'Beat.msg', so CMake stops; did you mean "
+            "CMakeLists.txt:4:3: file 'Beat.msg' does not exist: CMake stops; did you mean "
             "'msg/Beat.msg'?",
         ),
         Example(
             "an interface next to CMakeLists.txt",
             {"CMakeLists.txt": _LISTS_INTERFACES % "Beat.msg", "Beat.msg": "int32 count\n"},
-            "CMakeLists.txt:2:11: Beat.msg must be in a directory, so CMake stops: move it to msg/",
+            "CMakeLists.txt:2:11: Beat.msg is not in a subdirectory: CMake stops; move it to msg/",
         ),
         Example(
-            "another kind of file than an interface",
+            "a file that is not an interface",
             {"CMakeLists.txt": _LISTS_INTERFACES % "msg/Beat.txt", "msg/Beat.txt": ""},
-            "CMakeLists.txt:2:11: msg/Beat.txt is not a .msg, .srv, .action or .idl file",
+            "CMakeLists.txt:2:11: msg/Beat.txt is not a .msg, .srv, .action or .idl file: CMake "
+            "stops",
         ),
         Example(
             "a Python package without __init__.py",
             {"CMakeLists.txt": _LISTS_PACKAGE.format("${PROJECT_NAME}"), "talker/node.py": ""},
             Report(
                 "talker/__init__.py:1:1",
-                "missing, but CMakeLists.txt, line 2 installs talker/: CMake stops",
-                fix="create talker/__init__.py",
+                "missing, but CMakeLists.txt, line 2 installs talker/ as a Python "
+                "package: CMake stops",
+                fix="Create talker/__init__.py",
             ),
             fixed={"talker/__init__.py": ""},
         ),
         Example(
-            "no directory of the Python package",
+            "a missing Python package",
             {"CMakeLists.txt": _LISTS_PACKAGE.format("talkers"), "talker/__init__.py": ""},
-            "CMakeLists.txt:2:30: the Python package folder talkers/ does not exist: CMake stops",
+            "CMakeLists.txt:2:30: the Python package directory talkers/ does not exist: CMake "
+            "stops",
         ),
     )
 
@@ -236,7 +239,7 @@ class NamedFileMissing(Rule):
         if not package.has_directory(path):
             return f"installs the directory {path}/, which does not exist: the build stops"
         if not any(name.startswith(f"{path}/") for name in package.files):
-            kept = "git does not keep it, and the build of a clone stops"
+            kept = "git does not keep it, so the build of a clone stops"
             return f"the directory {path}/ is empty: {kept}"
         return None
 
@@ -259,7 +262,7 @@ class NamedFileMissing(Rule):
                 if package.has(path) or path.startswith(("/", "..")) or is_untracked(package, path):
                     continue
                 hint = _closest(package, path, package.files, 0.8)
-                yield self.report(argument, f"there is no file {path}: CMake stops{hint}")
+                yield self.report(argument, f"file {path} does not exist: CMake stops{hint}")
 
     def _check_subdirectories(self, package: Package) -> Iterator[Diagnostic]:
         cmake = package.cmake
@@ -295,7 +298,7 @@ class NamedFileMissing(Rule):
             if package.has(path) or package.has_directory(path):
                 continue
             hint = _closest(package, path, package.python_files, 0.7)
-            yield self.report(argument, f"there is no test file {path}{hint}")
+            yield self.report(argument, f"test file {path} does not exist: the test fails{hint}")
 
     def _check_interfaces(self, package: Package) -> Iterator[Diagnostic]:
         interfaces = [
@@ -306,10 +309,10 @@ class NamedFileMissing(Rule):
             for file in call.files:
                 path, ending = file.path, file.path.rpartition(".")[2]
                 if package.has(path) and ending not in {*SECTIONS, "idl"}:
-                    message = f"{path} is not a .msg, .srv, .action or .idl file"
+                    message = f"{path} is not a .msg, .srv, .action or .idl file: CMake stops"
                     yield self.report(file.argument, message)
                 elif package.has(path) and "/" not in path:
-                    message = f"{path} must be in a directory, so CMake stops: move it to {ending}/"
+                    message = f"{path} is not in a subdirectory: CMake stops; move it to {ending}/"
                     yield self.report(file.argument, message)
                 elif not package.has(path) and not any(path in values for values in made):
                     same = [
@@ -318,7 +321,7 @@ class NamedFileMissing(Rule):
                     hint = (
                         f"; did you mean {same[0]!r}?" if same else closest_word(path, interfaces)
                     )
-                    message = f"there is no file {path!r}, so CMake stops{hint}"
+                    message = f"file {path!r} does not exist: CMake stops{hint}"
                     yield self.report(file.argument, message)
 
     def _check_package(self, package: Package) -> Iterator[Diagnostic]:
@@ -333,11 +336,14 @@ class NamedFileMissing(Rule):
             init = f"{path}/__init__.py"
             line = command.location.line
             if not package.has_directory(path):
-                message = f"the Python package folder {path}/ does not exist: CMake stops"
+                message = f"the Python package directory {path}/ does not exist: CMake stops"
                 yield self.report(chosen[0], message)
             elif not package.has(init):
-                fix = Fix(f"create {init}", (CreateFile(init, ""),))
-                message = f"missing, but CMakeLists.txt, line {line} installs {path}/: CMake stops"
+                fix = Fix(f"Create {init}", (CreateFile(init, ""),))
+                message = (
+                    f"missing, but CMakeLists.txt, line {line} installs {path}/ as a Python "
+                    f"package: CMake stops"
+                )
                 yield self.report(package.start_of(init), message, fix)
 
 

@@ -1,4 +1,4 @@
-"""CM014: installed scripts have the executable bit, and say what runs them."""
+"""CM014: installed scripts have the executable bit and a shebang."""
 
 from __future__ import annotations
 
@@ -36,18 +36,18 @@ ENV_WORDS = 2
 
 
 class ProgramNotExecutable(Rule):
-    """An installed script is not executable, is installed as a file, or has no shebang line.
+    """An installed script is not executable, is installed with FILES, or has no valid shebang.
 
-    **Why.** Only ``PROGRAMS`` keeps the executable bit, and ``colcon build --symlink-install``
-    links to the file as it is: ``No executable found``, or ``Permission denied``. Without a shebang
-    line, the shell runs Python code as a shell script: ``Exec format error``. ``python`` without
-    the 3 does not exist on Ubuntu, and a byte order mark or a blank line in front hides the line.
+    **Why.** Only ``PROGRAMS`` sets the executable bit, and ``colcon build --symlink-install`` links
+    to the file in the source tree: ``No executable found``, or ``Permission denied``. Without a
+    shebang, ``ros2 run`` fails with ``Exec format error``. Ubuntu has no ``python``, only
+    ``python3``. The kernel does not recognize a shebang after a byte order mark or a blank line.
 
-    **Fix.** ``chmod +x``, ``install(PROGRAMS ...)``, and ``#!/usr/bin/env python3`` in the first
-    line.
+    **Fix.** Use ``chmod +x``, ``install(PROGRAMS ...)``, and ``#!/usr/bin/env python3`` as the
+    first line.
 
     **Source.** ``ros2pkg.api.get_executable_paths`` asks for the bit; CMake documentation,
-    ``install``; PEP 394; ``execve(2)``; ``ros2run`` starts the file itself; pyrobosim issue 182.
+    ``install``; PEP 394; ``execve(2)``; ``ros2run`` executes the file itself; pyrobosim issue 182.
     """
 
     code = "CM014"
@@ -63,7 +63,7 @@ class ProgramNotExecutable(Rule):
             {"CMakeLists.txt": _LISTS, "talker/node.py": "def rate():\n    return 2.0\n"},
         ),
         Example(
-            "a module that gives a class its methods in a loop",
+            "a module that adds methods to a class in a loop",
             {
                 "CMakeLists.txt": _LISTS,
                 "talker/node.py": f"{_NODE}\n\nclass Talker:\n    pass\n\n\n"
@@ -82,10 +82,9 @@ class ProgramNotExecutable(Rule):
             {"CMakeLists.txt": _LISTS, "talker/node.py": _NODE},
             Report(
                 "talker/node.py:1:1",
-                "CMakeLists.txt installs it as a program, but it has no executable "
-                "bit: `colcon build --symlink-install` makes an executable that does "
-                "not start",
-                fix="make talker/node.py executable",
+                "installed as a program, but not executable: after `colcon build "
+                "--symlink-install`, `ros2 run` finds no executable",
+                fix="Make talker/node.py executable",
             ),
             fixed={"talker/node.py": _NODE},
         ),
@@ -119,9 +118,9 @@ class ProgramNotExecutable(Rule):
             {"CMakeLists.txt": _LISTS_KIND.format("FILES"), "talker/node.py": _NODE_KIND},
             Report(
                 "CMakeLists.txt:2:15",
-                "install(FILES) drops the executable bit of talker/node.py: `ros2 "
-                "run` finds no executable; install it with PROGRAMS",
-                fix="write PROGRAMS",
+                "install(FILES) drops the executable bit of talker/node.py: `ros2 run` "
+                "finds no executable; install it with PROGRAMS",
+                fix="Replace FILES with PROGRAMS",
             ),
             fixed={"CMakeLists.txt": _LISTS_KIND.format("PROGRAMS")},
             executable=("talker/node.py",),
@@ -137,12 +136,12 @@ class ProgramNotExecutable(Rule):
             executable=("talker/node.py",),
         ),
         Example(
-            "with its first line",
+            "with a shebang",
             {"CMakeLists.txt": _LISTS, "talker/node.py": f"{SHEBANG}\nimport rclpy\n"},
             executable=("talker/node.py",),
         ),
         Example(
-            "a generator that CMake gives to Python",
+            "a generator that CMake runs with Python",
             {
                 "CMakeLists.txt": _LISTS,
                 "cmake/talker-extras.cmake": "execute_process(\n"
@@ -161,23 +160,25 @@ class ProgramNotExecutable(Rule):
             executable=("talker/node.py", "talker/run.py"),
         ),
         Example(
-            "without its first line",
+            "without a shebang",
             {"CMakeLists.txt": _LISTS, "talker/node.py": "import rclpy\n"},
             Report(
                 "talker/node.py:1:1",
-                "installed as a program, but does not begin with #!/usr/bin/env python3",
-                fix="begin with #!/usr/bin/env python3",
+                "installed as a program, but has no shebang: `ros2 run` fails with "
+                "'Exec format error'; start with #!/usr/bin/env python3",
+                fix="Start with #!/usr/bin/env python3",
             ),
             fixed={"talker/node.py": f"{SHEBANG}\nimport rclpy\n"},
             executable=("talker/node.py",),
         ),
         Example(
-            "the Python of long ago",
+            "Python 2",
             {"CMakeLists.txt": _LISTS, "talker/node.py": "#!/usr/bin/env python\nimport rclpy\n"},
             Report(
                 "talker/node.py:1:1",
-                "'#!/usr/bin/env python' uses a Python that ROS 2 does not have",
-                fix="begin with #!/usr/bin/env python3",
+                "'#!/usr/bin/env python' does not exist on Ubuntu, or is Python 2; "
+                "write #!/usr/bin/env python3",
+                fix="Start with #!/usr/bin/env python3",
             ),
             fixed={"talker/node.py": f"{SHEBANG}\nimport rclpy\n"},
             executable=("talker/node.py",),
@@ -188,26 +189,26 @@ class ProgramNotExecutable(Rule):
             Report(
                 "talker/node.py:1:1",
                 "a byte order mark comes before the shebang: the kernel does not recognize it",
-                fix="begin with #!/usr/bin/env python3",
+                fix="Start with #!/usr/bin/env python3",
             ),
             fixed={"talker/node.py": f"{SHEBANG}\nimport rclpy\n"},
             executable=("talker/node.py",),
         ),
         Example(
-            "line ends of Windows",
+            "CRLF line endings",
             {"CMakeLists.txt": _LISTS, "talker/node.py": f"{SHEBANG}\r\nimport rclpy\r\n"},
-            "talker/node.py:1:1: CRLF: the kernel looks for 'python3\\r'; save it with LF line "
-            "ends",
+            "talker/node.py:1:1: CRLF line ending: the kernel searches for 'python3\\r'; save "
+            "the file with LF line endings",
             executable=("talker/node.py",),
         ),
         Example(
-            "the Python of one machine",
+            "the Python of the author's machine",
             {"CMakeLists.txt": _LISTS, "talker/node.py": "#!/opt/bin/python3\nimport rclpy\n"},
             Report(
                 "talker/node.py:1:1",
                 "'#!/opt/bin/python3' does not exist on other machines; write "
                 "#!/usr/bin/env python3",
-                fix="begin with #!/usr/bin/env python3",
+                fix="Start with #!/usr/bin/env python3",
             ),
             fixed={"talker/node.py": f"{SHEBANG}\nimport rclpy\n"},
             executable=("talker/node.py",),
@@ -238,10 +239,10 @@ class ProgramNotExecutable(Rule):
             ):
                 continue
             message = (
-                "CMakeLists.txt installs it as a program, but it has no executable bit: "
-                "`colcon build --symlink-install` makes an executable that does not start"
+                "installed as a program, but not executable: after `colcon build "
+                "--symlink-install`, `ros2 run` finds no executable"
             )
-            fix = Fix(f"make {path} executable", (MakeExecutable(path),))
+            fix = Fix(f"Make {path} executable", (MakeExecutable(path),))
             at = package.start_of(path)
             yield self.report(at, message, fix, cause=_CAUSE)
 
@@ -294,7 +295,7 @@ class ProgramNotExecutable(Rule):
         for argument in install.command.arguments:
             if argument.raw == "FILES":
                 edit = Edit("CMakeLists.txt", argument.start, argument.end, "PROGRAMS")
-                return Fix("write PROGRAMS", (edit,), Safety.SAFE)
+                return Fix(f"Replace {install.kind} with PROGRAMS", (edit,), Safety.SAFE)
         return None
 
     def _check_shebang(self, package: Package) -> Iterator[Diagnostic]:
@@ -317,18 +318,26 @@ class ProgramNotExecutable(Rule):
                 )
             elif not line.startswith("#!"):
                 end = 0
-                problem = f"installed as a program, but does not begin with {SHEBANG}"
+                problem = (
+                    f"installed as a program, but has no shebang: `ros2 run` fails with "
+                    f"'Exec format error'; start with {SHEBANG}"
+                )
             elif line.rstrip().endswith(("/python", "/python2", "env python", "env python2")):
-                problem = f"{line.strip()!r} uses a Python that ROS 2 does not have"
+                problem = (
+                    f"{line.strip()!r} does not exist on Ubuntu, or is Python 2; write {SHEBANG}"
+                )
             elif source.text.partition("\n")[0].endswith("\r"):
                 end = 0
-                problem = "CRLF: the kernel looks for 'python3\\r'; save it with LF line ends"
+                problem = (
+                    "CRLF line ending: the kernel searches for 'python3\\r'; save the "
+                    "file with LF line endings"
+                )
             elif not _starts_python(line.strip()):
                 problem = f"{line.strip()!r} does not exist on other machines; write {SHEBANG}"
             else:
                 continue
             text = "" if end == 1 else SHEBANG if end else SHEBANG + source.newline
-            fix = Fix(f"begin with {SHEBANG}", (Edit(path, 0, end, text),))
+            fix = Fix(f"Start with {SHEBANG}", (Edit(path, 0, end, text),))
             is_crlf = problem.startswith("CRLF")
             at = package.start_of(path)
             yield self.report(at, problem, None if is_crlf else fix, cause=_CAUSE)

@@ -10,7 +10,7 @@ from scaffold.api.install import is_started, paths_imported_by
 from scaffold.api.launch import package_uses
 
 _TRIALS = ("test", "example")
-"""Prefixes of the names of programs for the author only."""
+"""Prefixes of programs that are only meant for the author."""
 _NODE = (
     "#!/usr/bin/env python3\nimport rclpy\n\n\ndef main():\n    rclpy.init()\n\n\n"
     "if __name__ == '__main__':\n    main()\n"
@@ -32,12 +32,12 @@ _LISTS_TARGETS = (
 
 
 class ProgramNotInstalled(Rule):
-    """A node or an executable, written to be started, is not among the installed programs.
+    """A node or an executable is not installed.
 
-    **Why.** ``ros2 run`` answers ``No executable found``.
+    **Why.** ``ros2 run`` fails with ``No executable found``.
 
-    **Fix.** List a script in ``install(PROGRAMS ... DESTINATION lib/${PROJECT_NAME})``, and what is
-    built in ``install(TARGETS ... DESTINATION lib/${PROJECT_NAME})``.
+    **Fix.** Install scripts with ``install(PROGRAMS ... DESTINATION lib/${PROJECT_NAME})``, and
+    executables with ``install(TARGETS ... DESTINATION lib/${PROJECT_NAME})``.
 
     **Source.** ``ros2run/command/run.py``; ROS 2 documentation, "ament_cmake user documentation";
     catkin_lint, "target is not installed".
@@ -46,13 +46,13 @@ class ProgramNotInstalled(Rule):
     code = "CM012"
     name = "program-not-installed"
     other_severities = {
-        Severity.WARNING: "no launch file starts it, and it may be a helper: no other program of "
-        "its directory is installed, it is called test or example, it imports "
-        "rospy, or no script and no text names it",
+        Severity.WARNING: "it may not be meant for users: no launch file starts it, and no other "
+        "program in its directory is installed, its name contains test or "
+        "example, it imports rospy, or nothing mentions it",
     }
     examples = (
         Example(
-            "both listed, and a module that is not a program",
+            "both installed, and a module that is not a program",
             {
                 "CMakeLists.txt": _LISTS.format("    talker/other.py\n"),
                 "talker/node.py": _NODE,
@@ -61,7 +61,7 @@ class ProgramNotInstalled(Rule):
             },
         ),
         Example(
-            "started by a script or an entry point; excluded; data; a module with a demo",
+            "scripts that are started in another way, excluded, or data; a module with a demo",
             {
                 "CMakeLists.txt": _LISTS.format("    # talker/old.py\n").replace(
                     "ament_p",
@@ -78,7 +78,7 @@ class ProgramNotInstalled(Rule):
         ),
         Example("scripts as data", {"CMakeLists.txt": _DATA, "scripts/node.py": _NODE}),
         Example(
-            "a CMakeLists.txt that colcon does not read",
+            "a package that colcon does not build",
             {
                 "package.xml": "<package><export><build_type>ament_python</build_type>"
                 "</export></package>\n",
@@ -88,50 +88,53 @@ class ProgramNotInstalled(Rule):
             },
         ),
         Example(
-            "one that nothing names",
+            "a script that is never mentioned",
             {
                 "CMakeLists.txt": _LISTS.format(""),
                 **dict.fromkeys(("talker/node.py", "talker/other.py"), _NODE),
             },
             Report(
                 "CMakeLists.txt:3:1",
-                "talker/other.py is a node with a main function, but not installed: "
-                "`ros2 run` does not find it",
+                "talker/other.py is a node with a main function, but not installed: `ros2 run` "
+                "does not find it; add it to install(PROGRAMS "
+                "...)",
                 severity=Severity.WARNING,
             ),
         ),
         Example(
-            "one is missing",
+            "one of two is not installed",
             {
                 "CMakeLists.txt": _LISTS.format(""),
                 "README.md": "    ros2 run talker other.py\n",
                 **dict.fromkeys(("talker/node.py", "talker/other.py"), _NODE),
             },
             "CMakeLists.txt:3:1: talker/other.py is a node with a main function, but not "
-            "installed: `ros2 run` does not find it",
+            "installed: `ros2 run` does not find it; add it to "
+            "install(PROGRAMS ...)",
         ),
         Example(
-            "one to try something",
+            "a script for experiments",
             {
                 "CMakeLists.txt": _LISTS.format(""),
                 **dict.fromkeys(("talker/node.py", "talker/test_node.py"), _NODE),
             },
         ),
         Example(
-            "a node in a directory of its own",
+            "a node in a separate directory",
             {
                 "CMakeLists.txt": _LISTS.format(""),
                 **dict.fromkeys(("talker/node.py", "extra/other.py"), _NODE),
             },
             Report(
                 "CMakeLists.txt:3:1",
-                "extra/other.py is a node with a main function, but not installed: "
-                "`ros2 run` does not find it",
+                "extra/other.py is a node with a main function, but not installed: `ros2 run` "
+                "does not find it; add it to install(PROGRAMS "
+                "...)",
                 severity=Severity.WARNING,
             ),
         ),
         Example(
-            "one that is left from ROS 1",
+            "a script left over from ROS 1",
             {
                 "CMakeLists.txt": _LISTS.format(""),
                 "talker/node.py": _NODE,
@@ -139,13 +142,14 @@ class ProgramNotInstalled(Rule):
             },
             Report(
                 "CMakeLists.txt:3:1",
-                "talker/other.py is a node with a main function, but not installed: "
-                "`ros2 run` does not find it",
+                "talker/other.py is a node with a main function, but not installed: `ros2 run` "
+                "does not find it; add it to install(PROGRAMS "
+                "...)",
                 severity=Severity.WARNING,
             ),
         ),
         Example(
-            "what a launch file starts and a test has in its name, with nothing installed",
+            "a node of a launch file and a test, in a package that installs no programs",
             {
                 "package.xml": "<package><name>talker</name></package>\n",
                 "CMakeLists.txt": "project(talker)\nfind_package(ament_cmake_pytest REQUIRED)\n"
@@ -157,14 +161,16 @@ class ProgramNotInstalled(Rule):
                 "talker/node.py": _NODE,
             },
             "CMakeLists.txt:4:1: talker/node.py is a node with a main function, but not "
-            "installed: `ros2 run` does not find it",
+            "installed: `ros2 run` does not find it; add it to "
+            "install(PROGRAMS ...)",
             executable=("talker/node.py",),
         ),
-        Example("both", {"CMakeLists.txt": _LISTS_TARGETS.format("listen ")}),
+        Example("both installed", {"CMakeLists.txt": _LISTS_TARGETS.format("listen ")}),
         Example(
-            "one is forgotten",
+            "an executable that is not installed",
             {"CMakeLists.txt": _LISTS_TARGETS.format("")},
-            "4:16: 'listen' is built, but not installed",
+            "4:16: 'listen' is built, but not installed: `ros2 run` does not "
+            "find it; add it to install(TARGETS ...)",
         ),
     )
 
@@ -194,8 +200,8 @@ class ProgramNotInstalled(Rule):
                 continue
             place = at.name_location if at else cmake.find("ament_package")[0].name_location
             message = (
-                f"{path} is a node with a main function, but not installed: `ros2 "
-                "run` does not find it"
+                f"{path} is a node with a main function, but not installed: `ros2 run` does not "
+                f"find it; add it to install(PROGRAMS ...)"
             )
             directory = path.rpartition("/")[0]
             has_neighbor = any(other.rpartition("/")[0] == directory for other in installed)
@@ -233,7 +239,11 @@ class ProgramNotInstalled(Rule):
                 continue
             if self._is_used(package, name) or "test" in name or "benchmark" in name:
                 continue
-            yield self.report(command.arguments[0], f"{name!r} is built, but not installed")
+            yield self.report(
+                command.arguments[0],
+                f"{name!r} is built, but not installed: `ros2 "
+                f"run` does not find it; add it to install(TARGETS ...)",
+            )
 
     def _is_used(self, package: Package, name: str) -> bool:
         """Tell whether the build itself runs or installs the executable."""

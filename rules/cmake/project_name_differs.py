@@ -1,4 +1,4 @@
-"""CM001: there is a ``project()``, named like the package, with languages that CMake knows."""
+"""CM001: ``project()`` has the name of the package, and languages that CMake supports."""
 
 from __future__ import annotations
 
@@ -22,14 +22,14 @@ _MANIFEST = '<package format="3">\n  <name>talker</name>\n</package>\n'
 
 
 class ProjectNameDiffers(Rule):
-    """``project()`` is missing, has another name than the package, or an unknown language.
+    """``project()`` is missing, differs from the package name, or has an unknown language.
 
-    **Why.** ``ament_package()`` stops the build: the names must be the same, and without a call
-    CMake invents ``Project``. A language such as Python stops it too: ``Could not find cmake module
-    file: CMakeDeterminePYTHONCompiler.cmake``.
+    **Why.** ``ament_package()`` stops the build unless both names are the same; without a call, the
+    name is ``Project``. An unknown language such as Python stops it, too: ``Could not find cmake
+    module file: CMakeDeterminePYTHONCompiler.cmake``.
 
-    **Fix.** Write ``project(<name in package.xml>)`` after ``cmake_minimum_required``; ``NONE`` is
-    the language of a package of Python alone, ``CXX`` that of C++.
+    **Fix.** Write ``project(<name in package.xml>)`` after ``cmake_minimum_required``; the language
+    is ``NONE`` for a pure Python package, ``CXX`` for C++.
 
     **Source.** ``ament_cmake_core/cmake/core/ament_package_xml.cmake``; CMake documentation,
     ``project`` and ``enable_language``.
@@ -40,14 +40,14 @@ class ProjectNameDiffers(Rule):
     effect = Effect.STOPS_BUILD
     examples = (
         Example(
-            "not named",
+            "without a name",
             {"CMakeLists.txt": _LISTS.format("")},
             "1:1: no project(): CMake stops at ament_package()",
         ),
         Example(
             "a language", {"CMakeLists.txt": _LISTS_LANGUAGE.format("VERSION 1.0 LANGUAGES C CXX")}
         ),
-        Example("no language, in short", {"CMakeLists.txt": _LISTS_LANGUAGE.format("NONE")}),
+        Example("no language, short form", {"CMakeLists.txt": _LISTS_LANGUAGE.format("NONE")}),
         Example(
             "a language in a variable",
             {"CMakeLists.txt": _LISTS_LANGUAGE.format("LANGUAGES ${LANGUAGES}")},
@@ -55,15 +55,15 @@ class ProjectNameDiffers(Rule):
         Example(
             "an unknown language",
             {"CMakeLists.txt": _LISTS_LANGUAGE.format("DESCRIPTION Talk LANGUAGES CPP PYTHON")},
-            "1:43: CMake has no language 'CPP': it stops; closest: 'CXX'",
-            "1:47: CMake has no language 'PYTHON': it stops; closest: 'NONE'",
+            "1:43: unknown language 'CPP': CMake stops; closest: 'CXX'",
+            "1:47: unknown language 'PYTHON': CMake stops; closest: 'NONE'",
         ),
         Example(
             "the name of the package",
             {"package.xml": _MANIFEST, "CMakeLists.txt": "project(talker)\n"},
         ),
         Example(
-            "one of two",
+            "one of two projects",
             {
                 "package.xml": _MANIFEST,
                 "CMakeLists.txt": "if(SUPERBUILD)\n  project(all NONE)\n  return()\nelse()\n"
@@ -75,8 +75,9 @@ class ProjectNameDiffers(Rule):
             {"package.xml": _MANIFEST, "CMakeLists.txt": "project(listener)\n"},
             Report(
                 "CMakeLists.txt:1:9",
-                "the project is 'listener', the package 'talker' (package.xml, line 2)",
-                fix="name the project talker",
+                "project name 'listener' differs from package name 'talker' "
+                "(package.xml, line 2): CMake stops",
+                fix="Rename the project to talker",
             ),
             fixed={"CMakeLists.txt": "project(talker)\n"},
         ),
@@ -106,7 +107,7 @@ class ProjectNameDiffers(Rule):
                         package, argument.value, _LANGUAGES, 0.6
                     )
                     hint = f"; closest: {closest!r}" if closest else ""
-                    message = f"CMake has no language {argument.value!r}: it stops{hint}"
+                    message = f"unknown language {argument.value!r}: CMake stops{hint}"
                     yield self.report(argument, message)
 
     def _check_name(self, package: Package) -> Iterator[Diagnostic]:
@@ -121,10 +122,13 @@ class ProjectNameDiffers(Rule):
         if any(package.cmake.expand(project) == name for project in projects):
             return  # the others are for other build systems
         line = package.manifest.all("name")[0].location.line
-        message = f"the project is {written!r}, the package {name!r} (package.xml, line {line})"
+        message = (
+            f"project name {written!r} differs from package name {name!r} (package.xml, "
+            f"line {line}): CMake stops"
+        )
         argument = package.cmake.find("project")[0].arguments[0]
         fix = None
         if argument.value == written and not argument.quoted:
             edit = Edit("CMakeLists.txt", argument.start, argument.end, name)
-            fix = Fix(f"name the project {name}", (edit,))
+            fix = Fix(f"Rename the project to {name}", (edit,))
         yield self.report(at, message, fix)

@@ -12,10 +12,10 @@ _TEST = "def test_talk():\n    pass\n"
 
 
 class PytestFileUnregistered(Rule):
-    """No command of CMakeLists.txt names a test file.
+    """A test file is not registered in CMakeLists.txt.
 
-    **Why.** An ament_cmake package runs only the tests that it registers: ``colcon test`` passes
-    and this test never runs.
+    **Why.** An ament_cmake package runs only registered tests: ``colcon test`` passes, but this
+    test never runs.
 
     **Fix.** Add ``ament_add_pytest_test`` for the file.
 
@@ -43,10 +43,10 @@ class PytestFileUnregistered(Rule):
             },
         ),
         Example(
-            "forgotten",
+            "not registered",
             {"CMakeLists.txt": _LISTS.format(""), "test/test_talk.py": _TEST},
-            "CMakeLists.txt:3:1: test/test_talk.py is not registered with "
-            "ament_add_pytest_test(): it never runs",
+            "CMakeLists.txt:3:1: test/test_talk.py is not registered, so it never runs; add "
+            "ament_add_pytest_test()",
         ),
     )
 
@@ -63,7 +63,7 @@ class PytestFileUnregistered(Rule):
             stem = name.removesuffix(".py")
             if any(stem in value for value in arguments) or not self._has_tests(package, path):
                 continue
-            message = f"{path} is not registered with ament_add_pytest_test(): it never runs"
+            message = f"{path} is not registered, so it never runs; add ament_add_pytest_test()"
             yield self.report(calls[-1].name_location, message)
 
     def _has_tests(self, package: Package, path: str) -> bool:

@@ -27,7 +27,7 @@ INSTALLERS = (
 class PythonPackageNotInstalled(Rule):
     """A Python package that code imports is not installed.
 
-    **Why.** The build passes; the node ends with ``ModuleNotFoundError: No module named
+    **Why.** The build succeeds, but the node fails with ``ModuleNotFoundError: No module named
     'talker'``.
 
     **Fix.** Call ``ament_python_install_package(${PROJECT_NAME})``.
@@ -44,9 +44,10 @@ class PythonPackageNotInstalled(Rule):
             {**_FILES, "CMakeLists.txt": _LISTS.format("")},
             Report(
                 "CMakeLists.txt:3:1",
-                "talker/ is not installed, but talker/node.py:1 imports it; call "
+                "talker/ is not installed, but talker/node.py:1 imports it: "
+                "ModuleNotFoundError; call "
                 "ament_python_install_package(${PROJECT_NAME})",
-                fix="install the modules",
+                fix="Install the Python package",
             ),
             fixed={"CMakeLists.txt": _LISTS.format(f"{_CALL}\n")},
         ),
@@ -75,10 +76,10 @@ class PythonPackageNotInstalled(Rule):
         text = _CALL + "\n"
         fix = None
         if cmake.finds("ament_cmake_python"):
-            fix = Fix("install the modules", (Edit("CMakeLists.txt", start, start, text),))
+            fix = Fix("Install the Python package", (Edit("CMakeLists.txt", start, start, text),))
         message = (
-            f"{name}/ is not installed, but {user.path}:{user.line} imports it; "
-            "call ament_python_install_package(${PROJECT_NAME})"
+            f"{name}/ is not installed, but {user.path}:{user.line} imports it: "
+            f"ModuleNotFoundError; call ament_python_install_package(${{PROJECT_NAME}})"
         )
         yield self.report(calls[0].name_location, message, fix)
 

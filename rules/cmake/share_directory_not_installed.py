@@ -22,13 +22,12 @@ _FILES_PATHS = {"config/talker.yaml": ""}
 
 
 class ShareDirectoryNotInstalled(Rule):
-    """A directory of launch files, or of files read at run time, is not installed as it is.
+    """A directory with launch files or data is not installed, or under another name.
 
-    **Why.** ``ros2 launch`` does not find the file; a missing parameter file is a warning among
-    others, and nodes run with defaults. Patterns that match no file have the same effect, silently.
-    ``config/`` with a slash installs what is in it, without it the directory itself: files land in
-    ``share/<package>/`` or in ``share/<package>/config/config/``, where only ``ros2 launch`` finds
-    its files.
+    **Why.** ``ros2 launch`` does not find the launch file; if a parameter file is missing, nodes
+    run with their defaults. Patterns that match no file have the same effect, without an error.
+    ``config/`` with a trailing slash installs the contents, ``config`` the directory itself: with
+    the wrong one, files end up in ``share/<package>/`` or ``share/<package>/config/config/``.
 
     **Fix.** ``install(DIRECTORY launch DESTINATION share/${PROJECT_NAME})``.
 
@@ -39,7 +38,7 @@ class ShareDirectoryNotInstalled(Rule):
     code = "CM018"
     name = "share-directory-not-installed"
     other_severities = {
-        Severity.WARNING: "nothing in the package names the directory, or its files are "
+        Severity.WARNING: "nothing in the package refers to the directory, or its files are "
         "installed in another one"
     }
     examples = (
@@ -53,7 +52,7 @@ class ShareDirectoryNotInstalled(Rule):
             },
         ),
         Example(
-            "forgotten",
+            "not installed",
             {
                 "CMakeLists.txt": _LISTS.format(""),
                 "launch/talk.launch.py": _LAUNCH,
@@ -68,7 +67,7 @@ class ShareDirectoryNotInstalled(Rule):
             "at run time",
         ),
         Example(
-            "a file of that name, of this package and of another one",
+            "a file of that name in this package and in another one",
             {
                 "package.xml": "<package><name>talker</name></package>\n",
                 "CMakeLists.txt": _LISTS.format(
@@ -114,14 +113,14 @@ class ShareDirectoryNotInstalled(Rule):
             ),
         ),
         Example(
-            "patterns that leave a file",
+            "patterns that match a file",
             {
                 "CMakeLists.txt": _LISTS_PATTERNS.format(' FILES_MATCHING PATTERN "*.yaml"'),
                 **_FILES,
             },
         ),
         Example(
-            "a pattern of another ending, in ROS 1",
+            "a pattern for another extension, in a ROS 1 package",
             {
                 "CMakeLists.txt": "if($ENV{ROS_VERSION} EQUAL 1)\n"
                 + _LISTS_PATTERNS.format(' FILES_MATCHING PATTERN "*.launch"')
@@ -130,19 +129,19 @@ class ShareDirectoryNotInstalled(Rule):
             },
         ),
         Example(
-            "a pattern of another ending",
+            "a pattern for another extension",
             {"CMakeLists.txt": _LISTS_PATTERNS.format(' FILES_MATCHING PATTERN "*.yml"'), **_FILES},
-            "CMakeLists.txt:2:19: the patterns match no file of config/, for instance "
-            "config/talker.yaml",
+            "CMakeLists.txt:2:19: the patterns match no file in config/, such as "
+            "config/talker.yaml: nothing is installed",
         ),
         Example(
             "all files excluded",
             {"CMakeLists.txt": _LISTS_PATTERNS.format(' PATTERN "*.yaml" EXCLUDE'), **_FILES},
-            "CMakeLists.txt:2:19: the patterns match no file of config/, for instance "
-            "config/talker.yaml",
+            "CMakeLists.txt:2:19: the patterns match no file in config/, such as "
+            "config/talker.yaml: nothing is installed",
         ),
         Example(
-            "both ways that keep the name",
+            "both forms that keep the name",
             {
                 **_FILES_PATHS,
                 "CMakeLists.txt": _LISTS_PATHS.format("config", "")
@@ -150,7 +149,7 @@ class ShareDirectoryNotInstalled(Rule):
             },
         ),
         Example(
-            "launch files, which are found anywhere",
+            "launch files, which `ros2 launch` finds in any subdirectory",
             {"launch/talk.launch.py": "", "CMakeLists.txt": _LISTS_PATHS.format("launch/", "")},
         ),
         Example(
@@ -159,7 +158,7 @@ class ShareDirectoryNotInstalled(Rule):
             Report(
                 "CMakeLists.txt:2:19",
                 "the files of config/ are installed to share/talker/, not in share/talker/config/",
-                fix="keep config/ once",
+                fix="Install to config/",
                 severity=Severity.WARNING,
             ),
             fixed={"CMakeLists.txt": _LISTS_PATHS.format("config", "")},
@@ -171,7 +170,7 @@ class ShareDirectoryNotInstalled(Rule):
                 "CMakeLists.txt:2:19",
                 "the files of config/ are installed to share/talker/config/config/, "
                 "not in share/talker/config/",
-                fix="keep config/ once",
+                fix="Install to config/",
                 severity=Severity.WARNING,
             ),
             fixed={"CMakeLists.txt": _LISTS_PATHS.format("config/", "/config")},
@@ -213,7 +212,10 @@ class ShareDirectoryNotInstalled(Rule):
                 path = item.path or ""
                 files = [file for file in package.files if path and file.startswith(f"{path}/")]
                 if files and not any(_is_taken(install, file) for file in files):
-                    message = f"the patterns match no file of {path}/, for instance {files[0]}"
+                    message = (
+                        f"the patterns match no file in {path}/, such as {files[0]}: "
+                        f"nothing is installed"
+                    )
                     yield self.report(item, message)
 
     def _check_paths(self, package: Package) -> Iterator[Diagnostic]:
@@ -239,7 +241,7 @@ class ShareDirectoryNotInstalled(Rule):
                 else:
                     continue
                 message = f"the files of {directory}/ are installed to {lands}"
-                fix = Fix(f"keep {directory}/ once", (edit,))
+                fix = Fix(f"Install to {directory}/", (edit,))
                 yield self.report(item, message, fix, severity=Severity.WARNING)
 
 

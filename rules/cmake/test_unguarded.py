@@ -1,4 +1,4 @@
-"""CM024: tests, and the packages that only they need, stay out of release builds."""
+"""CM024: tests and their dependencies are guarded by ``if(BUILD_TESTING)``."""
 
 from __future__ import annotations
 
@@ -37,16 +37,16 @@ _TEST = "ament_add_pytest_test(talk test/test_talk.py)\n"
 
 
 class TestUnguarded(Rule):
-    """A test is registered, or a ``<test_depend>`` found, outside of ``if(BUILD_TESTING)``.
+    """A test is registered, or a test dependency found, outside of ``if(BUILD_TESTING)``.
 
-    **Why.** A build without tests (``-DBUILD_TESTING=OFF``, as on a build farm that skips them)
-    has no test dependencies: CMake stops at a package that is not installed, or at an unknown
-    command. Where they are installed, the package builds.
+    **Why.** A build without tests (``-DBUILD_TESTING=OFF``) does not install test dependencies:
+    CMake stops at the missing package or the unknown command. The build works only where they
+    happen to be installed.
 
     **Fix.** Move the call into ``if(BUILD_TESTING)``.
 
     **Source.** ROS 2 documentation, "ament_cmake user documentation", "Testing and linting";
-    ros_buildfarm #903, which leaves the test dependencies out where tests are skipped.
+    ros_buildfarm #903, which does not install test dependencies if tests are skipped.
     """
 
     code = "CM024"
@@ -65,8 +65,8 @@ class TestUnguarded(Rule):
         Example(
             "a package that is not guarded",
             {"package.xml": _MANIFEST, "CMakeLists.txt": f"project(talker)\n{_FIND}"},
-            "CMakeLists.txt:2:14: 'ament_lint_auto' is a test dependency, but found outside of "
-            "if(BUILD_TESTING)",
+            "CMakeLists.txt:2:14: test dependency 'ament_lint_auto' is found outside of "
+            "if(BUILD_TESTING): builds without tests stop",
         ),
         Example(
             "a guarded test",
@@ -75,7 +75,8 @@ class TestUnguarded(Rule):
         Example(
             "a test that is not guarded",
             {"CMakeLists.txt": f"project(talker)\n{_TEST}"},
-            "2:1: ament_add_pytest_test() is outside of if(BUILD_TESTING)",
+            "2:1: ament_add_pytest_test() is outside of if(BUILD_TESTING): builds without "
+            "tests stop",
         ),
     )
 
@@ -94,11 +95,16 @@ class TestUnguarded(Rule):
             ):
                 continue
             if not package.cmake.commands[found_package.command.index].blocks:
-                message = f"{name!r} is a test dependency, but found outside of if(BUILD_TESTING)"
+                message = (
+                    f"test dependency {name!r} is found outside of if(BUILD_TESTING): "
+                    f"builds without tests stop"
+                )
                 yield self.report(found_package, message)
 
     def _check_tests(self, package: Package) -> Iterator[Diagnostic]:
         for command in package.cmake.find(*COMMANDS):
             if not command.blocks and not package.cmake.guarded_by_testing(command):
-                message = f"{command.name}() is outside of if(BUILD_TESTING)"
+                message = (
+                    f"{command.name}() is outside of if(BUILD_TESTING): builds without tests stop"
+                )
                 yield self.report(command.name_location, message)

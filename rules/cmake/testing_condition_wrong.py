@@ -1,4 +1,4 @@
-"""CM098: tests alone are under a condition, which is true when tests are built."""
+"""CM098: tests, and only tests, depend on ``BUILD_TESTING``."""
 
 from __future__ import annotations
 
@@ -19,11 +19,10 @@ _LISTS_NODES = "project(talker)\n{}ament_package()\n"
 class TestingConditionWrong(Rule):
     """Tests depend on a variable that is never set, or a node is installed only with the tests.
 
-    **Why.** The block is never entered: ``colcon test`` runs no test, and says
-    nothing. Releases are built with ``BUILD_TESTING`` off: ``No executable found`` for everyone but
-    the author.
+    **Why.** The block is never executed: ``colcon test`` runs no tests and passes. Releases are
+    built with ``BUILD_TESTING`` off: users get ``No executable found``.
 
-    **Fix.** Write ``if(BUILD_TESTING)``, and move ``install`` of a node out of it.
+    **Fix.** Write ``if(BUILD_TESTING)``, and move the ``install`` of nodes out of it.
 
     **Source.** CMake documentation, ``CTest``; ROS 2 documentation, "ament_cmake user
     documentation", testing, "Migrating from ROS 1".
@@ -40,9 +39,9 @@ class TestingConditionWrong(Rule):
             {"CMakeLists.txt": _LISTS.format("CATKIN_ENABLE_TESTING")},
             Report(
                 "2:4",
-                "nothing sets CATKIN_ENABLE_TESTING, so the tests below never run; "
+                "CATKIN_ENABLE_TESTING is never set, so the tests below never run; "
                 "closest: BUILD_TESTING",
-                fix="write BUILD_TESTING",
+                fix="Replace CATKIN_ENABLE_TESTING with BUILD_TESTING",
             ),
             fixed={"CMakeLists.txt": _LISTS.format("BUILD_TESTING")},
         ),
@@ -56,7 +55,7 @@ class TestingConditionWrong(Rule):
                 "CMakeLists.txt": _LISTS_NODES.format(f"if(BUILD_TESTING)\n{_INSTALL}endif()\n"),
                 "talker/node.py": _NODE,
             },
-            "CMakeLists.txt:3:18: talker/node.py is installed only when tests are built: releases "
+            "CMakeLists.txt:3:18: talker/node.py is installed only if tests are built: releases "
             "do not contain it",
         ),
     )
@@ -84,8 +83,8 @@ class TestingConditionWrong(Rule):
             if any(name in item.values for item in cmake.commands if item is not condition):
                 continue
             edit = Edit("CMakeLists.txt", argument.start, argument.end, "BUILD_TESTING")
-            message = f"nothing sets {name}, so the tests below never run; closest: BUILD_TESTING"
-            yield self.report(argument, message, Fix("write BUILD_TESTING", (edit,)))
+            message = f"{name} is never set, so the tests below never run; closest: BUILD_TESTING"
+            yield self.report(argument, message, Fix(f"Replace {name} with BUILD_TESTING", (edit,)))
 
     def _check_nodes(self, package: Package) -> Iterator[Diagnostic]:
         cmake = package.cmake
@@ -99,6 +98,6 @@ class TestingConditionWrong(Rule):
                 module = package.module(path)
                 if "rclpy" in module.imports_by_root and not module.in_tests:
                     message = (
-                        f"{path} is installed only when tests are built: releases do not contain it"
+                        f"{path} is installed only if tests are built: releases do not contain it"
                     )
                     yield self.report(item, message)

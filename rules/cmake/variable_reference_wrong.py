@@ -21,13 +21,13 @@ _LISTS_CLOSED = (
 
 
 class VariableReferenceWrong(Rule):
-    """A reference to a variable has no ``}``, or names an undefined one instead of PROJECT_NAME.
+    """A variable reference has no closing brace, or misspells PROJECT_NAME.
 
     **Why.** CMake stops: ``There is an unterminated variable reference``. An undefined variable is
-    silently empty: files are installed in ``lib/`` or ``share/`` instead of the directory of the
-    package.
+    empty, without an error: files are installed to ``lib/`` or ``share/`` instead of the directory
+    of the package.
 
-    **Fix.** Close it; write ``${PROJECT_NAME}``: variables of CMake are case-sensitive.
+    **Fix.** Add the brace; write ``${PROJECT_NAME}``: CMake variables are case-sensitive.
 
     **Source.** CMake documentation, "cmake-language", variables and variable references.
     """
@@ -47,8 +47,8 @@ class VariableReferenceWrong(Rule):
             {"CMakeLists.txt": _LISTS.format("", "project_name"), "a.yaml": ""},
             Report(
                 "CMakeLists.txt:2:34",
-                "project_name is never set, so it is empty; did you mean ${PROJECT_NAME}?",
-                fix="write PROJECT_NAME",
+                "project_name is never set, so it is empty; closest: ${PROJECT_NAME}",
+                fix="Replace with PROJECT_NAME",
             ),
             fixed={"CMakeLists.txt": _LISTS.format("", "PROJECT_NAME")},
         ),
@@ -81,8 +81,8 @@ class VariableReferenceWrong(Rule):
         if at >= 0:
             start = argument.start + at + 2
             edit = Edit("CMakeLists.txt", start, start + len(name), _WANTED)
-            fix = Fix(f"write {_WANTED}", (edit,))
-        message = f"{name} is never set, so it is empty; did you mean ${{{_WANTED}}}?"
+            fix = Fix(f"Replace with {_WANTED}", (edit,))
+        message = f"{name} is never set, so it is empty; closest: ${{{_WANTED}}}"
         return self.report(argument, message, fix)
 
     def _check_closed(self, package: Package) -> Iterator[Diagnostic]:

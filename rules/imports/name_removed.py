@@ -77,9 +77,9 @@ class NameRemoved(PythonRule):
             {"talker.py": _NODE.format("", "warn")},
             Report(
                 "8:9",
-                "rclpy.impl.rcutils_logger.RcutilsLogger.warn was removed in "
-                "Lyrical: AttributeError; use warning (rclpy 1456)",
-                fix="write warning",
+                "rclpy.impl.rcutils_logger.RcutilsLogger.warn was removed in Lyrical: "
+                "AttributeError; use warning (rclpy 1456)",
+                fix="Replace with warning",
             ),
             fixed={"talker.py": _NODE.format("", "warning")},
             distro="lyrical",
@@ -121,9 +121,9 @@ class NameRemoved(PythonRule):
             },
             Report(
                 "10:9",
-                "rclpy.impl.rcutils_logger.RcutilsLogger.warn was removed in "
-                "Lyrical: AttributeError; use warning (rclpy 1456)",
-                fix="write warning",
+                "rclpy.impl.rcutils_logger.RcutilsLogger.warn was removed in Lyrical: "
+                "AttributeError; use warning (rclpy 1456)",
+                fix="Replace with warning",
             ),
             fixed={
                 "talker.py": _NODE.format("", "warning").replace(
@@ -138,9 +138,9 @@ class NameRemoved(PythonRule):
             {"talker.py": _ELSEWHERE.format("warn")},
             Report(
                 "14:17",
-                "rclpy.impl.rcutils_logger.RcutilsLogger.warn was removed in "
-                "Lyrical: AttributeError; use warning (rclpy 1456)",
-                fix="write warning",
+                "rclpy.impl.rcutils_logger.RcutilsLogger.warn was removed in Lyrical: "
+                "AttributeError; use warning (rclpy 1456)",
+                fix="Replace with warning",
             ),
             fixed={"talker.py": _ELSEWHERE.format("warning")},
             distro="lyrical",
@@ -154,12 +154,12 @@ class NameRemoved(PythonRule):
             Report(
                 "2:19",
                 "numpy.mat was removed in Lyrical: ImportError; use asmatrix (NumPy 2.0)",
-                fix="write asmatrix",
+                fix="Replace with asmatrix",
             ),
             Report(
                 "4:10",
                 "numpy.round_ was removed in Lyrical: AttributeError; use round (NumPy 2.0)",
-                fix="write round",
+                fix="Replace with round",
             ),
             fixed={
                 "area.py": "import numpy as np\nfrom numpy import asmatrix as mat\n\n"
@@ -215,13 +215,13 @@ class NameRemoved(PythonRule):
                 "6:12",
                 "numpy.ndarray.tostring was removed in Lyrical: AttributeError; use "
                 "tobytes (NumPy 2.3)",
-                fix="write tobytes",
+                fix="Replace with tobytes",
             ),
             Report(
                 "6:31",
                 "numpy.ndarray.tostring was removed in Lyrical: AttributeError; use "
                 "tobytes (NumPy 2.3)",
-                fix="write tobytes",
+                fix="Replace with tobytes",
             ),
             fixed={
                 "area.py": "import numpy as np\n\n\ndef area(values: np.ndarray, shape):\n"
@@ -241,17 +241,17 @@ class NameRemoved(PythonRule):
             Report(
                 "4:17",
                 "numpy.dtype('float_') was removed in Lyrical: TypeError; use float64 (NumPy 2.0)",
-                fix="write float64",
+                fix="Replace with float64",
             ),
             Report(
                 "5:25",
                 "numpy.dtype('int0') was removed in Lyrical: TypeError; use intp (NumPy 2.0)",
-                fix="write intp",
+                fix="Replace with intp",
             ),
             Report(
                 "6:14",
                 "numpy.dtype('bool8') was removed in Lyrical: TypeError; use bool_ (NumPy 2.0)",
-                fix="write bool_",
+                fix="Replace with bool_",
             ),
             fixed={
                 "area.py": "import numpy as np\nfrom pandas import Series\n\n"
@@ -329,7 +329,7 @@ class NameRemoved(PythonRule):
                 "3:10",
                 "rclpy.qos.QoSReliabilityPolicy.RMW_QOS_POLICY_RELIABILITY_BEST_EFFORT "
                 "was removed in Lyrical: AttributeError; use BEST_EFFORT (rclpy 1456)",
-                fix="write BEST_EFFORT",
+                fix="Replace with BEST_EFFORT",
             ),
             fixed={
                 "talker.py": "from rclpy.qos import QoSReliabilityPolicy\n\n"
@@ -345,15 +345,15 @@ class NameRemoved(PythonRule):
             },
             Report(
                 "1:6",
-                "rclpy.qos_event was removed in Lyrical: ModuleNotFoundError; "
-                "use event_handler (rclpy 1456)",
-                fix="write event_handler",
+                "rclpy.qos_event was removed in Lyrical: ModuleNotFoundError; use "
+                "event_handler (rclpy 1456)",
+                fix="Replace with event_handler",
             ),
             Report(
                 "2:6",
                 "rclpy.topic_endpoint_info was removed in Lyrical: "
                 "ModuleNotFoundError; use endpoint_info (rclpy 1371)",
-                fix="write endpoint_info",
+                fix="Replace with endpoint_info",
             ),
             fixed={
                 "talker.py": "from rclpy.event_handler import SubscriptionEventCallbacks\n"
@@ -368,7 +368,7 @@ class NameRemoved(PythonRule):
                 "8:9",
                 "rclpy.impl.rcutils_logger.RcutilsLogger.warn is deprecated since "
                 "Kilted, and Lyrical removes it; use warning (rclpy 1456)",
-                fix="write warning",
+                fix="Replace with warning",
                 severity=Severity.INFO,
             ),
             fixed={"talker.py": _NODE.format("", "warning")},
@@ -383,6 +383,6 @@ class NameRemoved(PythonRule):
             error = f": {use.error}" if is_gone else ""
             advice = f"{change.instead(use.replacement)} ({change.source})"
             message = f"{use.shown} {change.state}{error}; {advice}"
-            fix = Fix(f"write {use.replacement}", use.edits) if use.edits else None
+            fix = Fix(f"Replace with {use.replacement}", use.edits) if use.edits else None
             severity = Severity.ERROR if is_gone else Severity.INFO
             yield self.report(use.location, message, fix, severity=severity)

@@ -49,25 +49,29 @@ class ArgumentNotList(LaunchRule):
         Example(
             "parameters: a dictionary",
             _node("parameters={'rate': 2.0}"),
-            Report("8:62", "parameters is a dictionary; Node takes a list", fix="make it a list"),
+            Report(
+                "8:62", "parameters is a dictionary; Node takes a list", fix="Convert to a list"
+            ),
             fixed=_node("parameters=[{'rate': 2.0}]"),
         ),
         Example(
             "parameters: a tuple",
             _node("parameters=({'rate': 2.0},)"),
-            Report("8:62", "parameters is a tuple; Node takes a list", fix="make it a list"),
+            Report("8:62", "parameters is a tuple; Node takes a list", fix="Convert to a list"),
             fixed=_node("parameters=[*({'rate': 2.0},)]"),
         ),
         Example(
             "parameters: a path",
             _node("parameters='talker.yaml'"),
-            Report("8:62", "parameters is a single value; Node takes a list", fix="make it a list"),
+            Report(
+                "8:62", "parameters is a single value; Node takes a list", fix="Convert to a list"
+            ),
             fixed=_node("parameters=['talker.yaml']"),
         ),
         Example(
             "parameters: a path that is put together",
             _node("parameters='talker' + '.yaml'"),
-            Report("8:62", "parameters is a path; Node takes a list", fix="make it a list"),
+            Report("8:62", "parameters is a path; Node takes a list", fix="Convert to a list"),
             fixed=_node("parameters=['talker' + '.yaml']"),
         ),
         Example("arguments: a list", _node("arguments=['-v', '3']")),
@@ -75,7 +79,9 @@ class ArgumentNotList(LaunchRule):
             "arguments: a string",
             _node("arguments='--rate 3'"),
             Report(
-                "8:61", "arguments is one string, which launch splits into letters", fix="split it"
+                "8:61",
+                "arguments is one string, which launch splits into letters",
+                fix="Append .split()",
             ),
             fixed=_node("arguments='--rate 3'.split()"),
         ),
@@ -85,7 +91,7 @@ class ArgumentNotList(LaunchRule):
             Report(
                 "8:65",
                 "ros_arguments is one string, which launch splits into letters",
-                fix="split it",
+                fix="Append .split()",
             ),
             fixed=_node("ros_arguments='-p rate:=2.0'.split()"),
         ),
@@ -117,7 +123,7 @@ class ArgumentNotList(LaunchRule):
             Report(
                 "8:69",
                 "launch_arguments is a dictionary; launch takes pairs: add .items()",
-                fix="add .items()",
+                fix="Append .items()",
             ),
             fixed=_include("{'rate': '2'}.items()"),
         ),
@@ -134,7 +140,7 @@ class ArgumentNotList(LaunchRule):
             Report(
                 "6:60",
                 "launch_arguments is a dictionary; launch takes pairs: add .items()",
-                fix="add .items()",
+                fix="Append .items()",
             ),
             fixed={
                 "a.launch.py": "from launch import LaunchDescription\n"
@@ -171,7 +177,7 @@ def _parameters(launch: LaunchFile, call: LaunchCall, argument: str) -> _Judgeme
     start, end = launch.module.span(node)
     star = "*" if kind == "a tuple" else ""
     edits = (Edit(launch.path, start, start, f"[{star}"), Edit(launch.path, end, end, "]"))
-    return f"parameters is {kind}; {call.kind} takes a list", Fix("make it a list", edits)
+    return f"parameters is {kind}; {call.kind} takes a list", Fix("Convert to a list", edits)
 
 
 def _kind_of_parameters(launch: LaunchFile, node: ast.expr) -> str | None:
@@ -197,7 +203,7 @@ def _words(launch: LaunchFile, call: LaunchCall, argument: str) -> _Judgement:
     if not isinstance(launch.evaluator.evaluate(node), str):
         return _FITS
     _, end = launch.module.span(node)
-    fix = Fix("split it", (Edit(launch.path, end, end, ".split()"),))
+    fix = Fix("Append .split()", (Edit(launch.path, end, end, ".split()"),))
     return f"{argument} is one string, which launch splits into letters", fix
 
 
@@ -231,7 +237,7 @@ def _of_include(launch: LaunchFile, call: LaunchCall, argument: str) -> _Judgeme
     if not all(map(_makes_dictionary, values)):
         return _FITS
     _, end = launch.module.span(node)
-    fix = Fix("add .items()", (Edit(launch.path, end, end, ".items()"),))
+    fix = Fix("Append .items()", (Edit(launch.path, end, end, ".items()"),))
     return "launch_arguments is a dictionary; launch takes pairs: add .items()", fix
 
 

@@ -102,9 +102,11 @@ class ArgumentsDoNotFit(LaunchRule):
             Report(
                 "9:32",
                 "Node has no node_executable: it was renamed to executable",
-                fix="write executable",
+                fix="Replace with executable",
             ),
-            Report("9:56", "Node has no node_name: it was renamed to name", fix="write name"),
+            Report(
+                "9:56", "Node has no node_name: it was renamed to name", fix="Replace with name"
+            ),
             fixed={"launch/a.launch.py": _NODE.format("executable", "name")},
         ),
     )
@@ -132,7 +134,7 @@ class ArgumentsDoNotFit(LaunchRule):
             return self.report(at, message)
         fix = None
         if new not in call.words:
-            fix = Fix(f"write {new}", (Edit(launch.path, start, end, new),))
+            fix = Fix(f"Replace with {new}", (Edit(launch.path, start, end, new),))
         return self.report(at, message, fix, cause="keywords of an old release")
 
 

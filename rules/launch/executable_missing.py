@@ -116,24 +116,24 @@ class ExecutableMissing(Rule):
             },
             Report(
                 "launch/a.launch.py:7:22",
-                "unknown package 'talker_dmeo'; did you mean 'talker_demo' (it has "
-                "the program 'talk')?",
-                unsafe_fix="write talker_demo",
+                "unknown package 'talker_dmeo'; did you mean 'talker_demo' (it has the "
+                "program 'talk')?",
+                unsafe_fix="Replace with talker_demo",
             ),
             Report(
                 "launch/b.launch.py:7:22",
                 "unknown package 'demo'; did you mean 'talker_demo' (it has the program 'talk')?",
-                unsafe_fix="write talker_demo",
+                unsafe_fix="Replace with talker_demo",
             ),
             Report(
                 "launch/c.launch.xml:2:14",
                 "unknown package 'rivz2'; did you mean 'rviz2' (a package of ROS)?",
-                unsafe_fix="write rviz2",
+                unsafe_fix="Replace with rviz2",
             ),
             Report(
                 "launch/c.launch.xml:3:14",
                 "unknown package 'talker_dmeo'; did you mean 'talker_demo' (this package)?",
-                unsafe_fix="write talker_demo",
+                unsafe_fix="Replace with talker_demo",
             ),
             fixed={
                 "launch/a.launch.py": _LAUNCH_PACKAGES.format("talker_demo", "talk"),
@@ -196,4 +196,4 @@ class ExecutableMissing(Rule):
         if offset < 0:
             return None
         edit = Edit(at.path, offset, offset + len(use.name), name)
-        return Fix(f"write {name}", (edit,), Safety.UNSAFE)
+        return Fix(f"Replace with {name}", (edit,), Safety.UNSAFE)

@@ -61,7 +61,7 @@ class LaunchFunctionMissing(LaunchRule):
             Report(
                 "4:5",
                 "`ros2 launch` calls generate_launch_description, not generate_launch_descriptions",
-                fix="write generate_launch_description",
+                fix="Replace with generate_launch_description",
             ),
             fixed={"launch/a.launch.py": _LAUNCH.format(FUNCTION)},
         ),
@@ -89,7 +89,7 @@ class LaunchFunctionMissing(LaunchRule):
             Report(
                 "7:5",
                 "the LaunchDescription is created, but generate_launch_description returns None",
-                fix="return it",
+                fix="Return the launch description",
             ),
             fixed={"launch/a.launch.py": _LAUNCH_RESULT + "    return LaunchDescription([node])\n"},
         ),
@@ -130,7 +130,7 @@ class LaunchFunctionMissing(LaunchRule):
             start = module.source.offset(at.line, at.column)
             edit = Edit(launch.path, start, start + len(closest[0]), FUNCTION)
             message = f"`ros2 launch` calls {FUNCTION}, not {closest[0]}"
-            yield self.report(at, message, Fix(f"write {FUNCTION}", (edit,)))
+            yield self.report(at, message, Fix(f"Replace with {FUNCTION}", (edit,)))
         else:
             message = f"`ros2 launch` calls {FUNCTION}, which this file does not define"
             yield self.report(package.start_of(launch.path), message)
@@ -159,7 +159,9 @@ class LaunchFunctionMissing(LaunchRule):
         made = launch.call_of(last.value) if isinstance(last, ast.Expr) else None
         if made is not None and made.kind == "LaunchDescription" and not statements:
             start, _ = launch.module.span(last)
-            fix = Fix("return it", (Edit(launch.path, start, start, "return "),))
+            fix = Fix(
+                "Return the launch description", (Edit(launch.path, start, start, "return "),)
+            )
             message = (
                 "the LaunchDescription is created, but generate_launch_description returns None"
             )

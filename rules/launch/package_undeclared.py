@@ -56,7 +56,7 @@ class PackageUndeclared(Rule):
                 "launch/a.launch.py:8:22",
                 "starts a node of 'rviz2', which no dependency in package.xml "
                 "provides; add <exec_depend>rviz2</exec_depend>",
-                fix="declare rviz2",
+                fix="Declare rviz2",
             ),
             fixed={
                 "package.xml": _MANIFEST.format(
@@ -120,9 +120,9 @@ class PackageUndeclared(Rule):
             },
             Report(
                 "launch/a.launch.py:8:22",
-                "starts a node of 'arm', which no dependency in package.xml "
-                "provides; add <exec_depend>arm</exec_depend>",
-                fix="declare arm",
+                "starts a node of 'arm', which no dependency in package.xml provides; "
+                "add <exec_depend>arm</exec_depend>",
+                fix="Declare arm",
                 severity=Severity.WARNING,
             ),
             neighbours={
@@ -150,15 +150,15 @@ class PackageUndeclared(Rule):
             },
             Report(
                 "launch/a.launch.py:8:41",
-                "runs 'xacro' of 'xacro', which no dependency in package.xml "
-                "provides; add <exec_depend>xacro</exec_depend>",
-                fix="declare xacro",
+                "runs 'xacro' of 'xacro', which no dependency in package.xml provides; "
+                "add <exec_depend>xacro</exec_depend>",
+                fix="Declare xacro",
             ),
             Report(
                 "launch/a.launch.py:11:29",
                 "runs 'ros2 bag' of 'ros2bag', which no dependency in package.xml "
                 "provides; add <exec_depend>ros2bag</exec_depend>",
-                fix="declare ros2bag",
+                fix="Declare ros2bag",
                 severity=Severity.WARNING,
             ),
             fixed={
@@ -178,7 +178,7 @@ class PackageUndeclared(Rule):
                 "launch/a.launch.py:8:22",
                 "starts a node of 'velodyne_driver', which no dependency in "
                 "package.xml provides; add <exec_depend>velodyne_driver</exec_depend>",
-                fix="declare velodyne_driver",
+                fix="Declare velodyne_driver",
             ),
             fixed={
                 "package.xml": _MANIFEST.format(
@@ -206,7 +206,7 @@ class PackageUndeclared(Rule):
                 "launch/b.launch.py:8:22",
                 "starts a node of 'gazebo_ros', which no dependency in package.xml "
                 "provides; add <exec_depend>gazebo_ros</exec_depend>",
-                fix="declare gazebo_ros",
+                fix="Declare gazebo_ros",
             ),
             fixed={
                 "package.xml": _MANIFEST.format(

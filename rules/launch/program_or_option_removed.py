@@ -99,19 +99,19 @@ class ProgramOrOptionRemoved(Rule):
                 "launch/a.launch.py:3:63",
                 "--exclude of ros2 bag record was removed in Jazzy: it ends at once; "
                 "use --exclude-regex (rosbag2 1480)",
-                fix="write --exclude-regex",
+                fix="Replace with --exclude-regex",
             ),
             Report(
                 "launch/b.launch.py:3:63",
-                "-x of ros2 bag record was removed in Jazzy: it ends at once; "
-                "use --exclude-regex (rosbag2 1480)",
-                fix="write --exclude-regex",
+                "-x of ros2 bag record was removed in Jazzy: it ends at once; use "
+                "--exclude-regex (rosbag2 1480)",
+                fix="Replace with --exclude-regex",
             ),
             Report(
                 "launch/c.launch.xml:2:20",
                 "--exclude of ros2 bag record was removed in Jazzy: it ends at once; "
                 "use --exclude-regex (rosbag2 1480)",
-                fix="write --exclude-regex",
+                fix="Replace with --exclude-regex",
             ),
             fixed={
                 "launch/a.launch.py": _LAUNCH.format("'--exclude-regex', '/tf'"),
@@ -189,7 +189,7 @@ class ProgramOrOptionRemoved(Rule):
                     message += f"{change.instead(change.use)} ({change.source})"
                     edit = _edit(package, line, word, option, change.use)
                     is_fixed = edit is not None and change.has_replacement
-                    fix = Fix(f"write {change.use}", (edit,)) if edit and is_fixed else None
+                    fix = Fix(f"Replace with {change.use}", (edit,)) if edit and is_fixed else None
                     yield self.report(word.location, message, fix)
 
     def _check_programs(self, package: Package) -> Iterator[Diagnostic]:

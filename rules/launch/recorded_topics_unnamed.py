@@ -74,15 +74,15 @@ class RecordedTopicsUnnamed(Rule):
             },
             Report(
                 "launch/a.launch.py:7:54",
-                "'/scan' follows no option: ros2 bag record of Lyrical ends at "
-                "once; use --topics (rosbag2 2328)",
-                fix="write --topics",
+                "'/scan' follows no option: ros2 bag record of Lyrical ends at once; "
+                "use --topics (rosbag2 2328)",
+                fix="Replace with --topics",
             ),
             Report(
                 "launch/b.launch.xml:2:20",
-                "'/scan' follows no option: ros2 bag record of Lyrical ends at "
-                "once; use --topics (rosbag2 2328)",
-                fix="write --topics",
+                "'/scan' follows no option: ros2 bag record of Lyrical ends at once; "
+                "use --topics (rosbag2 2328)",
+                fix="Replace with --topics",
             ),
             fixed={
                 "launch/a.launch.py": _LAUNCH.format("'--topics', '/scan', '/tf', '-o', 'bag'"),
@@ -98,15 +98,15 @@ class RecordedTopicsUnnamed(Rule):
             },
             Report(
                 "launch/a.launch.py:5:54",
-                "'/tf' follows no option: ros2 bag record of Lyrical ends at once; "
-                "use --topics (rosbag2 2328)",
-                fix="write --topics",
+                "'/tf' follows no option: ros2 bag record of Lyrical ends at once; use "
+                "--topics (rosbag2 2328)",
+                fix="Replace with --topics",
             ),
             Report(
                 "launch/c.launch.xml:2:20",
-                "'/tf' follows no option: ros2 bag record of Lyrical ends at once; "
-                "use --topics (rosbag2 2328)",
-                fix="write --topics",
+                "'/tf' follows no option: ros2 bag record of Lyrical ends at once; use "
+                "--topics (rosbag2 2328)",
+                fix="Replace with --topics",
             ),
             fixed={
                 "launch/a.launch.py": _FOUND.format("[ROS, 'bag', 'record', '--topics', '/tf']"),
@@ -124,15 +124,15 @@ class RecordedTopicsUnnamed(Rule):
             },
             Report(
                 "launch/a.launch.yaml:3:10",
-                "'/tf' follows no option: ros2 bag record of Lyrical ends at once; "
-                "use --topics (rosbag2 2328)",
-                fix="write --topics",
+                "'/tf' follows no option: ros2 bag record of Lyrical ends at once; use "
+                "--topics (rosbag2 2328)",
+                fix="Replace with --topics",
             ),
             Report(
                 "launch/b.launch.yaml:3:10",
-                "'/tf' follows no option: ros2 bag record of Lyrical ends at once; "
-                "use --topics (rosbag2 2328)",
-                fix="write --topics",
+                "'/tf' follows no option: ros2 bag record of Lyrical ends at once; use "
+                "--topics (rosbag2 2328)",
+                fix="Replace with --topics",
             ),
             fixed={
                 "launch/a.launch.yaml": "launch:\n- executable:\n"
@@ -180,7 +180,7 @@ class RecordedTopicsUnnamed(Rule):
                     f"once; {change.instead(change.use)} ({change.source})"
                 )
                 edit = _edit(package, line, topics[0]) if change.has_replacement else None
-                fix = Fix(f"write {change.use}", (edit,)) if edit is not None else None
+                fix = Fix(f"Replace with {change.use}", (edit,)) if edit is not None else None
                 yield self.report(topics[0].location, message, fix)
 
 

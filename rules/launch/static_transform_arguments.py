@@ -95,13 +95,13 @@ class StaticTransformArguments(Rule):
                 "launch/a.launch.py:8:24",
                 "static_transform_publisher of Lyrical takes no positional arguments; "
                 "write --x, --y and so on",
-                fix="write the names",
+                fix="Use named arguments",
             ),
             Report(
                 "launch/b.launch.xml:2:63",
                 "static_transform_publisher of Lyrical takes no positional arguments; "
                 "write --x, --y and so on",
-                fix="write the names",
+                fix="Use named arguments",
             ),
             fixed={
                 "launch/a.launch.py": _LAUNCH.format(_LINES),
@@ -116,7 +116,7 @@ class StaticTransformArguments(Rule):
                 "8:24",
                 "static_transform_publisher of Lyrical takes no positional arguments; "
                 "write --x, --y and so on",
-                fix="write the names",
+                fix="Use named arguments",
             ),
             fixed={
                 "launch/a.launch.py": _LAUNCH.format(
@@ -135,31 +135,31 @@ class StaticTransformArguments(Rule):
                 "launch/a.launch.py:11:24",
                 "static_transform_publisher of Lyrical takes no positional arguments; "
                 "write --x, --y and so on",
-                fix="write the names",
+                fix="Use named arguments",
             ),
             Report(
                 "launch/a.launch.py:12:60",
                 "static_transform_publisher of Lyrical takes no positional arguments; "
                 "write --x, --y and so on",
-                fix="write the names",
+                fix="Use named arguments",
             ),
             Report(
                 "launch/a.launch.py:13:60",
                 "static_transform_publisher of Lyrical takes no positional arguments; "
                 "write --x, --y and so on",
-                fix="write the names",
+                fix="Use named arguments",
             ),
             Report(
                 "launch/a.launch.py:15:28",
                 "static_transform_publisher of Lyrical takes no positional arguments; "
                 "write --x, --y and so on",
-                fix="write the names",
+                fix="Use named arguments",
             ),
             Report(
                 "launch/b.launch.xml:2:20",
                 "static_transform_publisher of Lyrical takes no positional arguments; "
                 "write --x, --y and so on",
-                fix="write the names",
+                fix="Use named arguments",
             ),
             fixed={
                 "launch/a.launch.py": _PROGRAMS.replace(
@@ -246,7 +246,7 @@ class StaticTransformArguments(Rule):
                 edits = _in_markup(package, transform.attribute, words, flags)
             else:
                 edits = _in_python(transform, flags)
-            fix = Fix("write the names", edits) if edits else None
+            fix = Fix("Use named arguments", edits) if edits else None
             yield self.report(transform.given, message, fix)
 
 

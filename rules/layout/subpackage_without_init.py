@@ -68,7 +68,7 @@ class SubpackageWithoutInit(Rule):
                 "talker/text/__init__.py:1:1",
                 "missing: talker/node.py:1 imports from talker/text/, which is not "
                 "installed without it",
-                fix="create talker/text/__init__.py",
+                fix="Create talker/text/__init__.py",
             ),
             fixed={"talker/text/__init__.py": ""},
         ),
@@ -93,7 +93,7 @@ class SubpackageWithoutInit(Rule):
                         f"missing: {at.path}:{at.line} imports from {directory}/, which is not "
                         "installed without it"
                     )
-                    fix = Fix(f"create {init}", (CreateFile(init, ""),))
+                    fix = Fix(f"Create {init}", (CreateFile(init, ""),))
                     yield self.report(package.start_of(init), message, fix)
 
     def _is_listed(self, packages: object, directory: str) -> bool:

@@ -315,13 +315,13 @@ class FieldValueUnfit(MessageRule):
                 "8:32",
                 "stamp is a builtin_interfaces/msg/Time, but this is an rclpy Time: "
                 "AttributeError when published; append .to_msg()",
-                fix="append .to_msg()",
+                fix="Append .to_msg()",
             ),
             Report(
                 "9:30",
-                "header.stamp is a builtin_interfaces/msg/Time, but this is an "
-                "rclpy Time: AttributeError when published; append .to_msg()",
-                fix="append .to_msg()",
+                "header.stamp is a builtin_interfaces/msg/Time, but this is an rclpy "
+                "Time: AttributeError when published; append .to_msg()",
+                fix="Append .to_msg()",
             ),
             fixed={"talker.py": _CODE_TIMES.format(".to_msg()", ".to_msg()")},
         ),
@@ -351,7 +351,7 @@ class FieldValueUnfit(MessageRule):
             fix = None
             if isinstance(value, ast.Call | ast.Name | ast.Attribute):
                 edit = Edit(types.module.path, end, end, ".to_msg()")
-                fix = Fix("append .to_msg()", (edit,))
+                fix = Fix("Append .to_msg()", (edit,))
             given = kind.rpartition("/")[2]
             message = (
                 f"{field} is a {kind}, but this is an rclpy {given}: "

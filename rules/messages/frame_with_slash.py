@@ -86,18 +86,18 @@ class FrameWithSlash(MessageRule):
             Report(
                 "5:41",
                 "frame '/map' starts with '/': tf2 rejects it; remove the slash",
-                fix="remove the slash",
+                fix="Remove the slash",
             ),
             Report(
                 "6:44",
                 "frame '/base' starts with '/': tf2 knows the frame without it; remove the slash",
-                fix="remove the slash",
+                fix="Remove the slash",
                 severity=Severity.WARNING,
             ),
             Report(
                 "7:28",
                 "frame '/map' starts with '/': tf2 knows the frame without it; remove the slash",
-                fix="remove the slash",
+                fix="Remove the slash",
                 severity=Severity.WARNING,
             ),
             fixed={"node.py": _CODE.format("'map'", '"base"', "'map'")},
@@ -108,7 +108,7 @@ class FrameWithSlash(MessageRule):
             Report(
                 "5:49",
                 "frame '/map' starts with '/': tf2 rejects it; remove the slash",
-                fix="remove the slash",
+                fix="Remove the slash",
             ),
             fixed={"node.py": _LOOKUP.format("map")},
         ),
@@ -118,13 +118,13 @@ class FrameWithSlash(MessageRule):
             Report(
                 "7:28",
                 "frame '/laser' starts with '/': tf2 rejects it; remove the slash",
-                fix="remove the slash",
+                fix="Remove the slash",
             ),
             Report(
                 "9:28",
                 "frame '/world' starts with '/': tf2 rejects it where the frame is "
                 "looked up; remove the slash",
-                fix="remove the slash",
+                fix="Remove the slash",
                 severity=Severity.WARNING,
             ),
             neighbours={
@@ -142,7 +142,7 @@ class FrameWithSlash(MessageRule):
                 "6:30",
                 "frame '/world' starts with '/': tf2 rejects it where the frame is "
                 "looked up; remove the slash",
-                fix="remove the slash",
+                fix="Remove the slash",
                 severity=Severity.WARNING,
             ),
             fixed={"node.py": _MARKER.format("world")},
@@ -154,7 +154,7 @@ class FrameWithSlash(MessageRule):
                 "7:31",
                 "frame '/world' starts with '/': tf2 rejects it where the frame is "
                 "looked up; remove the slash",
-                fix="remove the slash",
+                fix="Remove the slash",
                 severity=Severity.WARNING,
             ),
             fixed={"node.py": "import rclpy\n" + _OF_UNKNOWN.format("world")},
@@ -176,7 +176,7 @@ class FrameWithSlash(MessageRule):
             text = types.module.text(node)
             if isinstance(node, ast.Constant) and text[:2] in {"'/", '"/'} and value != "/":
                 edit = Edit(types.module.path, start + 1, start + 2, "")
-                fix = Fix("remove the slash", (edit,))
+                fix = Fix("Remove the slash", (edit,))
             severity = Severity.ERROR
             effect = "tf2 rejects it"
             if owner == _TRANSFORM:

@@ -73,9 +73,9 @@ class BuildTypeWrong(Rule):
             },
             Report(
                 "package.xml:2:15",
-                "unknown build type 'ament_pyton': colcon skips the package; "
-                "closest: 'ament_python'",
-                fix="write ament_python",
+                "unknown build type 'ament_pyton': colcon skips the package; closest: "
+                "'ament_python'",
+                fix="Replace with ament_python",
             ),
             fixed={
                 "package.xml": "<package><export>\n"
@@ -116,7 +116,7 @@ class BuildTypeWrong(Rule):
                 "package.xml:1:2",
                 "no <build_type>: colcon treats the package as catkin; write "
                 "<build_type>ament_python</build_type> in <export>",
-                fix="declare ament_python",
+                fix="Declare ament_python",
             ),
             fixed={
                 "package.xml": "<package>\n"
@@ -138,7 +138,7 @@ class BuildTypeWrong(Rule):
                 "package.xml:3:4",
                 "no <build_type>: colcon treats the package as catkin; write "
                 "<build_type>ament_cmake</build_type> in <export>",
-                fix="declare ament_cmake",
+                fix="Declare ament_cmake",
             ),
             fixed={
                 "package.xml": "<package>\n"
@@ -156,9 +156,9 @@ class BuildTypeWrong(Rule):
             },
             Report(
                 "package.xml:2:15",
-                "build type ament_cmake needs a CMakeLists.txt, which the package "
-                "does not have; its setup.py belongs to ament_python",
-                fix="write ament_python",
+                "build type ament_cmake needs a CMakeLists.txt, which the package does "
+                "not have; its setup.py belongs to ament_python",
+                fix="Replace with ament_python",
             ),
             fixed={
                 "package.xml": "<package><export>\n"
@@ -176,7 +176,7 @@ class BuildTypeWrong(Rule):
             Report(
                 "package.xml:4:5",
                 "build type catkin, but the files are those of ament_python",
-                fix="write ament_python",
+                fix="Replace with ament_python",
             ),
             fixed={"package.xml": _MANIFEST_FILES.format("ament_python")},
         ),
@@ -186,7 +186,7 @@ class BuildTypeWrong(Rule):
             Report(
                 "package.xml:1:2",
                 "nothing declares ament_cmake, which CMakeLists.txt finds",
-                fix="declare it",
+                fix="Declare ament_cmake",
             ),
             fixed={"package.xml": _MANIFEST_TOOL.format(_DEPEND)},
         ),
@@ -196,8 +196,8 @@ class BuildTypeWrong(Rule):
             Report(
                 "package.xml:1:2",
                 "nothing declares ament_cmake, which CMakeLists.txt finds",
+                fix="Declare ament_cmake",
                 severity=Severity.WARNING,
-                fix="declare it",
             ),
             fixed={"package.xml": _MANIFEST_TOOL.format(_DEPEND + _RCLCPP)},
         ),
@@ -220,7 +220,9 @@ class BuildTypeWrong(Rule):
                 f"{closest[0]!r}"
             )
             edit = Edit("package.xml", *element.text_span, closest[0])
-            yield self.report(element.text_location, message, Fix(f"write {closest[0]}", (edit,)))
+            yield self.report(
+                element.text_location, message, Fix(f"Replace with {closest[0]}", (edit,))
+            )
 
     def _check_number(self, package: Package) -> Iterator[Diagnostic]:
         active = []
@@ -265,7 +267,7 @@ class BuildTypeWrong(Rule):
             at = export.name_location
             edit = Edit("package.xml", inside, inside, f"{newline}    {line}")
         message = f"no <build_type>: colcon treats the package as catkin; write {line} in <export>"
-        fix = Fix(f"declare {build_type}", (edit,)) if export is None or export.children else None
+        fix = Fix(f"Declare {build_type}", (edit,)) if export is None or export.children else None
         yield self.report(at, message, fix)
 
     def _check_files(self, package: Package) -> Iterator[Diagnostic]:
@@ -283,7 +285,7 @@ class BuildTypeWrong(Rule):
                 continue
             edit = Edit("package.xml", *element.text_span, other)
             message += f"; its {FILES[other]} belongs to {other}"
-            yield self.report(element.text_location, message, Fix(f"write {other}", (edit,)))
+            yield self.report(element.text_location, message, Fix(f"Replace with {other}", (edit,)))
 
     def _check_ros1(self, package: Package) -> Iterator[Diagnostic]:
         """Report ``catkin`` and ``cmake`` where the files are those of ament."""
@@ -298,7 +300,7 @@ class BuildTypeWrong(Rule):
             start = manifest.source.text.find(given, element.start)
             edit = Edit("package.xml", start, start + len(given), wanted)
             message = f"build type {given}, but the files are those of {wanted}"
-            yield self.report(element, message, Fix(f"write {wanted}", (edit,)))
+            yield self.report(element, message, Fix(f"Replace with {wanted}", (edit,)))
 
     def _check_tool(self, package: Package) -> Iterator[Diagnostic]:
         manifest = package.manifest
@@ -309,7 +311,7 @@ class BuildTypeWrong(Rule):
             return
         if any(dependency.kind == "buildtool_depend" for dependency in manifest.dependencies):
             return
-        fix = Fix("declare it", (manifest.insert("buildtool_depend", "ament_cmake"),))
+        fix = Fix("Declare ament_cmake", (manifest.insert("buildtool_depend", "ament_cmake"),))
         message = "nothing declares ament_cmake, which CMakeLists.txt finds"
         at = manifest.root.name_location
         is_brought = "ament_cmake" in transitive_dependencies(manifest.build_names)

@@ -72,9 +72,9 @@ class ConditionMalformed(Rule):
             {"package.xml": _MANIFEST.format("$ROS_VERSION == 2 and ROS_DISTRO == jazzy")},
             Report(
                 "2:22",
-                "condition '$ROS_VERSION == 2 and ROS_DISTRO == jazzy': 'ROS_DISTRO "
-                "== jazzy' compares two texts and is never true; write $ROS_DISTRO",
-                fix="write $ROS_DISTRO",
+                "condition '$ROS_VERSION == 2 and ROS_DISTRO == jazzy': 'ROS_DISTRO == "
+                "jazzy' compares two texts and is never true; write $ROS_DISTRO",
+                fix="Replace with $ROS_DISTRO",
                 severity=Severity.WARNING,
             ),
             fixed={"package.xml": _MANIFEST.format("$ROS_VERSION == 2 and $ROS_DISTRO == jazzy")},
@@ -157,4 +157,4 @@ def _with_sign(package: Package, at: Location, condition: str, constant: Constan
     if not constant.variable or not source.text.startswith(condition, start):
         return None
     place = start + constant.offset
-    return Fix(f"write ${constant.variable}", (Edit(at.path, place, place, "$"),))
+    return Fix(f"Replace with ${constant.variable}", (Edit(at.path, place, place, "$"),))

@@ -44,7 +44,9 @@ class DependencyCycle(Rule):
             "on itself",
             {"package.xml": _ITSELF.format("  <exec_depend>talker</exec_depend>\n")},
             Report(
-                "3:16", "<exec_depend> 'talker': a package cannot depend on itself", fix="remove it"
+                "3:16",
+                "<exec_depend> 'talker': a package cannot depend on itself",
+                fix="Remove the dependency",
             ),
             fixed={"package.xml": _ITSELF.format("")},
         ),
@@ -54,7 +56,7 @@ class DependencyCycle(Rule):
         manifest = package.manifest
         for dependency in manifest.dependencies:
             if dependency.name and dependency.name == manifest.name:
-                fix = Fix("remove it", (manifest.remove(dependency.element),))
+                fix = Fix("Remove the dependency", (manifest.remove(dependency.element),))
                 message = (
                     f"<{dependency.kind}> {dependency.name!r}: a package cannot depend on itself"
                 )

@@ -46,7 +46,9 @@ class DependencyMisspelled(Rule):
             "a letter is missing",
             {"package.xml": "<package>\n  <depend>std_msg</depend>\n</package>\n"},
             Report(
-                "2:11", "no package 'std_msg' is known; closest: 'std_msgs'", fix="write std_msgs"
+                "2:11",
+                "no package 'std_msg' is known; closest: 'std_msgs'",
+                fix="Replace with std_msgs",
             ),
             fixed={"package.xml": "<package>\n  <depend>std_msgs</depend>\n</package>\n"},
         ),
@@ -61,7 +63,7 @@ class DependencyMisspelled(Rule):
             Report(
                 "package.xml:3:11",
                 "no package 'our_arm_msgss' is known; closest: 'our_arm_msgs'",
-                fix="write our_arm_msgs",
+                fix="Replace with our_arm_msgs",
             ),
             neighbours={
                 name: {"package.xml": f"<package>\n  <name>{name}</name>\n</package>\n"}
@@ -82,7 +84,7 @@ class DependencyMisspelled(Rule):
             Report(
                 "package.xml:2:11",
                 "no package 'std_msg' is known; closest: 'std_msgs'",
-                fix="write std_msgs",
+                fix="Replace with std_msgs",
             ),
             fixed={"package.xml": "<package>\n  <depend>std_msgs</depend>\n</package>\n"},
         ),
@@ -104,7 +106,7 @@ class DependencyMisspelled(Rule):
             Report(
                 "3:41",
                 "no package 'builtin_interface' is known; closest: 'builtin_interfaces'",
-                fix="write builtin_interfaces",
+                fix="Replace with builtin_interfaces",
             ),
             fixed={
                 "package.xml": "<package>\n"
@@ -159,7 +161,7 @@ class DependencyMisspelled(Rule):
             if closest is not None and not _has_others(package, name, closest):
                 message = f"no package {name!r} is known; closest: {closest!r}"
                 edit = Edit("package.xml", *dependency.element.text_span, closest)
-                yield self.report(dependency, message, Fix(f"write {closest}", (edit,)))
+                yield self.report(dependency, message, Fix(f"Replace with {closest}", (edit,)))
 
 
 def _has_others(package: Package, name: str, closest: str) -> bool:

@@ -51,7 +51,7 @@ class DependencyRedundant(Rule):
             Report(
                 "3:16",
                 "<exec_depend> 'std_msgs' is covered by <depend> in line 2: colcon refuses both",
-                fix="remove it",
+                fix="Remove the dependency",
             ),
             fixed={
                 "package.xml": '<package format="3">\n  <depend>std_msgs</depend>\n</package>\n'
@@ -68,7 +68,7 @@ class DependencyRedundant(Rule):
             Report(
                 "3:16",
                 "<exec_depend> 'std_msgs' is already declared in line 2",
-                fix="remove it",
+                fix="Remove the dependency",
                 severity=Severity.WARNING,
             ),
             fixed={
@@ -108,7 +108,7 @@ class DependencyRedundant(Rule):
                 message = f"<{kind}> {name!r} is already declared in line {first}"
             else:
                 continue
-            fix = Fix("remove it", (manifest.remove(dependency.element),))
+            fix = Fix("Remove the dependency", (manifest.remove(dependency.element),))
             is_refused = kind == "depend" or other is not None
             severity = Severity.ERROR if is_refused else Severity.WARNING
             yield self.report(dependency, message, fix, severity=severity)

@@ -72,7 +72,7 @@ class DependencyWithoutKey(Rule):
         Example(
             "empty",
             {"package.xml": "<package>\n  <depend></depend>\n</package>\n"},
-            Report("2:3", "<depend> names no package", fix="remove it"),
+            Report("2:3", "<depend> names no package", fix="Remove the dependency"),
             fixed={"package.xml": "<package>\n</package>\n"},
         ),
         Example(
@@ -109,7 +109,7 @@ class DependencyWithoutKey(Rule):
             Report(
                 "2:16",
                 "rosdep has no key 'numpy'; its key is 'python3-numpy'",
-                fix="write python3-numpy",
+                fix="Replace with python3-numpy",
             ),
             fixed={
                 "package.xml": "<package>\n  <exec_depend>python3-numpy</exec_depend>\n</package>\n"
@@ -124,7 +124,7 @@ class DependencyWithoutKey(Rule):
             Report(
                 "package.xml:2:11",
                 "rosdep has no key 'opencv'; its key is 'libopencv-dev'",
-                fix="write libopencv-dev",
+                fix="Replace with libopencv-dev",
             ),
             fixed={"package.xml": "<package>\n  <depend>libopencv-dev</depend>\n</package>\n"},
         ),
@@ -135,7 +135,7 @@ class DependencyWithoutKey(Rule):
         manifest = package.manifest
         for dependency in manifest.dependencies:
             if not dependency.name and not dependency.element.children:
-                fix = Fix("remove it", (manifest.remove(dependency.element),))
+                fix = Fix("Remove the dependency", (manifest.remove(dependency.element),))
                 message = f"<{dependency.kind}> names no package"
                 yield self.report(dependency.element, message, fix)
                 continue
@@ -155,7 +155,7 @@ class DependencyWithoutKey(Rule):
             key = _key(package, module)
             message = f"rosdep has no key {dependency.name!r}; its key is {key!r}"
             edit = Edit("package.xml", *dependency.element.text_span, key)
-            fix = Fix(f"write {key}", (edit,))
+            fix = Fix(f"Replace with {key}", (edit,))
             yield self.report(dependency, message, fix, cause=f"dependency {key}")
 
 

@@ -36,9 +36,9 @@ class ImportDeclaredByOthers(Rule):
             {**_FILES, "package.xml": _MANIFEST.format(_LAUNCH)},
             Report(
                 "package.xml:3:4",
-                "talker/node.py:1 imports 'rclpy', which only launch_ros depends "
-                "on; add <exec_depend>rclpy</exec_depend>",
-                fix="declare rclpy",
+                "talker/node.py:1 imports 'rclpy', which only launch_ros depends on; "
+                "add <exec_depend>rclpy</exec_depend>",
+                fix="Declare rclpy",
             ),
             fixed={"package.xml": _MANIFEST.format(_LAUNCH + _RCLPY)},
         ),
@@ -73,5 +73,5 @@ class ImportDeclaredByOthers(Rule):
                 f"{by or 'another package'} depends on; add <{tag}>{along[0]}</{tag}>"
             )
             last = manifest.dependencies[-1].element
-            fix = Fix(f"declare {along[0]}", (manifest.insert(tag, along[0]),))
+            fix = Fix(f"Declare {along[0]}", (manifest.insert(tag, along[0]),))
             yield self.report(last.name_location, message, fix)

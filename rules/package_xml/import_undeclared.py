@@ -109,7 +109,7 @@ class ImportUndeclared(Rule):
                 "launch/test_arm.launch.py:2:1",
                 "imports 'xacro', which no dependency in package.xml provides; add "
                 "<exec_depend>xacro</exec_depend>",
-                fix="declare xacro",
+                fix="Declare xacro",
             ),
             fixed={
                 "package.xml": _manifest(
@@ -147,9 +147,9 @@ class ImportUndeclared(Rule):
             },
             Report(
                 "talker/node.py:13:9",
-                "imports 'trimesh', which no dependency in package.xml provides; "
-                "add <exec_depend>python3-trimesh-pip</exec_depend>",
-                fix="declare python3-trimesh-pip",
+                "imports 'trimesh', which no dependency in package.xml provides; add "
+                "<exec_depend>python3-trimesh-pip</exec_depend>",
+                fix="Declare python3-trimesh-pip",
             ),
             fixed={"package.xml": _manifest("python3-trimesh-pip", "rclpy")},
         ),
@@ -165,7 +165,7 @@ class ImportUndeclared(Rule):
                 "imports 'std_msgs', which line 3 of package.xml declares for the "
                 "build alone: <build_depend> does not install it where the package "
                 "runs; add <exec_depend>std_msgs</exec_depend>",
-                fix="declare std_msgs",
+                fix="Declare std_msgs",
             ),
             fixed={
                 "package.xml": _manifest(
@@ -206,9 +206,9 @@ class ImportUndeclared(Rule):
             },
             Report(
                 "scripts/tf_test.py:2:1",
-                "imports 'tf2_ros', which no dependency in package.xml provides; "
-                "add <exec_depend>tf2_ros_py</exec_depend>",
-                fix="declare tf2_ros_py",
+                "imports 'tf2_ros', which no dependency in package.xml provides; add "
+                "<exec_depend>tf2_ros_py</exec_depend>",
+                fix="Declare tf2_ros_py",
             ),
             fixed={
                 "package.xml": _manifest(
@@ -262,7 +262,7 @@ class ImportUndeclared(Rule):
                 "launch/a.launch.py:1:1",
                 "imports 'launch', which no dependency in package.xml provides; add "
                 "<exec_depend>launch</exec_depend>",
-                fix="declare launch",
+                fix="Declare launch",
                 severity=Severity.WARNING,
             ),
             fixed={"package.xml": _manifest("launch", "rclpy")},
@@ -278,7 +278,7 @@ class ImportUndeclared(Rule):
                 "talker/node.py:1:1",
                 "imports 'torch', which no dependency in package.xml provides; add "
                 "<exec_depend>python3-torch</exec_depend>",
-                fix="declare python3-torch",
+                fix="Declare python3-torch",
                 severity=Severity.WARNING,
             ),
             fixed={"package.xml": _manifest("python3-torch")},
@@ -293,14 +293,14 @@ class ImportUndeclared(Rule):
                 "launch/a.launch.py:1:1",
                 "imports 'ament_index_python', which no dependency in package.xml "
                 "provides; add <exec_depend>ament_index_python</exec_depend>",
-                fix="declare ament_index_python",
+                fix="Declare ament_index_python",
                 severity=Severity.WARNING,
             ),
             Report(
                 "launch/a.launch.py:2:1",
-                "imports 'launch_xml', which no dependency in package.xml provides; add "
-                "<exec_depend>launch_xml</exec_depend>",
-                fix="declare launch_xml",
+                "imports 'launch_xml', which no dependency in package.xml provides; "
+                "add <exec_depend>launch_xml</exec_depend>",
+                fix="Declare launch_xml",
                 severity=Severity.WARNING,
             ),
             fixed={"package.xml": _manifest("ament_index_python", "launch_xml")},
@@ -334,7 +334,7 @@ class ImportUndeclared(Rule):
                 "talker/node.py:1:1",
                 "imports 'serial', which no dependency in package.xml provides; add "
                 "<exec_depend>python3-serial</exec_depend>",
-                fix="declare python3-serial",
+                fix="Declare python3-serial",
                 severity=Severity.WARNING,
             ),
             fixed={"package.xml": _manifest("python3-serial")},
@@ -379,14 +379,14 @@ class ImportUndeclared(Rule):
                 "tools/draw.py:1:1",
                 "imports 'matplotlib', which no dependency in package.xml provides; "
                 "add <exec_depend>python3-matplotlib</exec_depend>",
-                fix="declare python3-matplotlib",
+                fix="Declare python3-matplotlib",
                 severity=Severity.WARNING,
             ),
             Report(
                 "tools/talk.py:1:1",
                 "imports 'yaml', which no dependency in package.xml provides; add "
                 "<exec_depend>python3-yaml</exec_depend>",
-                fix="declare python3-yaml",
+                fix="Declare python3-yaml",
             ),
             fixed={
                 "package.xml": _manifest(
@@ -405,9 +405,9 @@ class ImportUndeclared(Rule):
             },
             Report(
                 "talker/node.py:2:1",
-                "imports 'std_msgs', which no dependency in package.xml provides; "
-                "add <exec_depend>std_msgs</exec_depend>",
-                fix="declare std_msgs",
+                "imports 'std_msgs', which no dependency in package.xml provides; add "
+                "<exec_depend>std_msgs</exec_depend>",
+                fix="Declare std_msgs",
             ),
             fixed={"package.xml": _manifest("rclpy", "std_msgs")},
         ),

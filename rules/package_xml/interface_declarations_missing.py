@@ -60,7 +60,7 @@ class InterfaceDeclarationsMissing(Rule):
                 "package.xml:4:4",
                 "CMakeLists.txt:2 generates interfaces, but there is no "
                 "<member_of_group> rosidl_interface_packages: CMake stops",
-                fix="add <member_of_group>rosidl_interface_packages</member_of_group>",
+                fix="Add <member_of_group>rosidl_interface_packages</member_of_group>",
             ),
             fixed={"package.xml": _MANIFEST.format(_BUILD + _RUN + _MEMBER)},
         ),
@@ -74,7 +74,7 @@ class InterfaceDeclarationsMissing(Rule):
                 "package.xml:4:4",
                 "CMakeLists.txt:2 generates interfaces, but no <exec_depend> "
                 "rosidl_default_runtime",
-                fix="add <exec_depend>rosidl_default_runtime</exec_depend>",
+                fix="Add <exec_depend>rosidl_default_runtime</exec_depend>",
                 severity=Severity.WARNING,
             ),
             fixed={
@@ -90,19 +90,19 @@ class InterfaceDeclarationsMissing(Rule):
                 "package.xml:1:2",
                 "CMakeLists.txt:2 generates interfaces, but no <buildtool_depend> "
                 "rosidl_default_generators",
-                fix="add <buildtool_depend>rosidl_default_generators</buildtool_depend>",
+                fix="Add <buildtool_depend>rosidl_default_generators</buildtool_depend>",
             ),
             Report(
                 "package.xml:1:2",
                 "CMakeLists.txt:2 generates interfaces, but no <exec_depend> "
                 "rosidl_default_runtime",
-                fix="add <exec_depend>rosidl_default_runtime</exec_depend>",
+                fix="Add <exec_depend>rosidl_default_runtime</exec_depend>",
             ),
             Report(
                 "package.xml:1:2",
                 "CMakeLists.txt:2 generates interfaces, but there is no "
                 "<member_of_group> rosidl_interface_packages: CMake stops",
-                fix="add <member_of_group>rosidl_interface_packages</member_of_group>",
+                fix="Add <member_of_group>rosidl_interface_packages</member_of_group>",
             ),
             fixed={"package.xml": _MANIFEST.format(_BUILD + _RUN + _MEMBER)},
         ),
@@ -119,7 +119,7 @@ class InterfaceDeclarationsMissing(Rule):
                 "CMakeLists.txt:2 generates interfaces, but no <exec_depend> "
                 "rosidl_default_runtime; line 6 is inside <export>, where it has no "
                 "effect",
-                fix="add <exec_depend>rosidl_default_runtime</exec_depend>",
+                fix="Add <exec_depend>rosidl_default_runtime</exec_depend>",
             ),
             fixed={
                 "package.xml": _MANIFEST.format(
@@ -133,9 +133,9 @@ class InterfaceDeclarationsMissing(Rule):
             Report(
                 "package.xml:4:4",
                 "CMakeLists.txt:2 generates interfaces, but there is no "
-                "<member_of_group> rosidl_interface_packages: CMake stops; groups "
-                "need package format 3",
-                fix="add <member_of_group>rosidl_interface_packages</member_of_group>",
+                "<member_of_group> rosidl_interface_packages: CMake stops; groups need "
+                "package format 3",
+                fix="Add <member_of_group>rosidl_interface_packages</member_of_group>",
             ),
             fixed={"package.xml": _MANIFEST.format(_BUILD + _RUN + _MEMBER)},
         ),
@@ -152,7 +152,7 @@ class InterfaceDeclarationsMissing(Rule):
             message += manifest.note_on_export(text)
             changes = [manifest.insert(tag, text)]
             changes += _format_3(manifest) if tag == "member_of_group" else []
-            fix = Fix(f"add <{tag}>{text}</{tag}>", tuple(changes))
+            fix = Fix(f"Add <{tag}>{text}</{tag}>", tuple(changes))
             is_there = text in _RUNTIMES and any(n.endswith(_KINDS) for n in manifest.run_names)
             severity = Severity.WARNING if is_there else Severity.ERROR
             yield self.report(last.name_location, message, fix, severity=severity)

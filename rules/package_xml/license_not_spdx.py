@@ -32,7 +32,7 @@ class LicenseNotSpdx(Rule):
         Example(
             "another spelling",
             {"package.xml": "<package>\n  <license>MIT License</license>\n</package>\n"},
-            Report("2:12", "the SPDX identifier of 'MIT License' is MIT", fix="write MIT"),
+            Report("2:12", "the SPDX identifier of 'MIT License' is MIT", fix="Replace with MIT"),
             fixed={"package.xml": "<package>\n  <license>MIT</license>\n</package>\n"},
         ),
         Example(
@@ -41,7 +41,7 @@ class LicenseNotSpdx(Rule):
             Report(
                 "2:12",
                 "no license is called 'BBSD-3-Clause'; closest: 'BSD-3-Clause'",
-                fix="write BSD-3-Clause",
+                fix="Replace with BSD-3-Clause",
                 severity=Severity.WARNING,
             ),
             fixed={"package.xml": "<package>\n  <license>BSD-3-Clause</license>\n</package>\n"},
@@ -65,7 +65,7 @@ class LicenseNotSpdx(Rule):
             if closest:
                 message = f"no license is called {element.text!r}; closest: {closest!r}"
                 edit = Edit("package.xml", *element.text_span, closest)
-                fix = Fix(f"write {closest}", (edit,))
+                fix = Fix(f"Replace with {closest}", (edit,))
                 at = element.text_location
                 yield self.report(at, message, fix, severity=Severity.WARNING)
             if not identifiers or element.text in identifiers or identifiers == ("Apache-2.0",):
@@ -75,6 +75,6 @@ class LicenseNotSpdx(Rule):
                 yield self.report(element.text_location, message)
                 continue
             edit = Edit("package.xml", *element.text_span, identifiers[0])
-            fix = Fix(f"write {identifiers[0]}", (edit,))
+            fix = Fix(f"Replace with {identifiers[0]}", (edit,))
             message = f"the SPDX identifier of {element.text!r} is {identifiers[0]}"
             yield self.report(element.text_location, message, fix)

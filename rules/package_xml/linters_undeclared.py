@@ -59,9 +59,9 @@ class LintersUndeclared(Rule):
             {"CMakeLists.txt": _LISTS, "package.xml": _MANIFEST.format("")},
             Report(
                 "package.xml:3:4",
-                "CMakeLists.txt:5 runs the linters that <test_depend> names, but "
-                "none is named; add <test_depend>ament_lint_common</test_depend>",
-                fix="declare ament_lint_common",
+                "CMakeLists.txt:5 runs the linters that <test_depend> names, but none "
+                "is named; add <test_depend>ament_lint_common</test_depend>",
+                fix="Declare ament_lint_common",
             ),
             fixed={
                 "package.xml": _MANIFEST.format("  <test_depend>ament_lint_common</test_depend>\n")
@@ -86,4 +86,4 @@ class LintersUndeclared(Rule):
             "named; add <test_depend>ament_lint_common</test_depend>"
         )
         edit = manifest.insert("test_depend", "ament_lint_common")
-        yield self.report(last.name_location, message, Fix("declare ament_lint_common", (edit,)))
+        yield self.report(last.name_location, message, Fix("Declare ament_lint_common", (edit,)))

@@ -34,7 +34,7 @@ class NameDiffersFromFiles(Rule):
                 "package.xml:2:9",
                 "the name is 'robot_talker', but 'talker' in CMakeLists.txt and the "
                 "files around it",
-                unsafe_fix="write talker",
+                unsafe_fix="Replace with talker",
             ),
             fixed={"package.xml": _MANIFEST.format("talker")},
         ),
@@ -48,5 +48,5 @@ class NameDiffersFromFiles(Rule):
         where = "CMakeLists.txt" if package.has("CMakeLists.txt") else "setup.py"
         message = f"the name is {element.text!r}, but {other!r} in {where} and the files around it"
         edit = Edit("package.xml", *element.text_span, other)
-        fix = Fix(f"write {other}", (edit,), Safety.UNSAFE)
+        fix = Fix(f"Replace with {other}", (edit,), Safety.UNSAFE)
         yield self.report(element.text_location, message, fix)

@@ -37,7 +37,7 @@ class XmlModelMissing(Rule):
             Report(
                 "2:2",
                 "no <?xml-model ...?> line: no tool validates this manifest",
-                fix="name the schema",
+                fix="Add the xml-model line",
             ),
             fixed={
                 "package.xml": f'<?xml version="1.0"?>\n{LINE.format(3)}\n<package format="3"/>\n'
@@ -53,6 +53,6 @@ class XmlModelMissing(Rule):
         start = manifest.root.start
         if manifest.format in (1, 2, 3):
             text = LINE.format(manifest.format) + manifest.source.newline
-            fix = Fix("name the schema", (Edit("package.xml", start, start, text),))
+            fix = Fix("Add the xml-model line", (Edit("package.xml", start, start, text),))
         at = manifest.root.name_location
         yield self.report(at, "no <?xml-model ...?> line: no tool validates this manifest", fix)

@@ -84,13 +84,13 @@ class ParameterUnfit(Rule):
                 "a.yaml:3:11",
                 "'rate' (talker.py:7) is a double, but this is an integer: "
                 "InvalidParameterTypeException",
-                fix="write it as a double",
+                fix="Convert the value to a double",
             ),
             Report(
                 "a.yaml:4:11",
                 "'mode' (talker.py:8) is a string, but this is a bool: "
                 "InvalidParameterTypeException",
-                unsafe_fix="quote it",
+                unsafe_fix="Quote the value",
             ),
             fixed={"a.yaml": _FILE.format("2.0", "'on'")},
         ),
@@ -226,10 +226,10 @@ def _fix(path: str, entry: Entry, kind: str, given: str) -> Fix | None:
     if not isinstance(value, Scalar) or value.end - value.start != len(value.text):
         return None
     if kind == "double" and given == "integer" and value.text.lstrip("+-").isdecimal():
-        return Fix("write it as a double", (Edit(path, value.end, value.end, ".0"),))
+        return Fix("Convert the value to a double", (Edit(path, value.end, value.end, ".0"),))
     if kind == "string":
         edit = Edit(path, value.start, value.end, f"'{value.text}'")
-        return Fix("quote it", (edit,), Safety.UNSAFE)
+        return Fix("Quote the value", (edit,), Safety.UNSAFE)
     return None
 
 

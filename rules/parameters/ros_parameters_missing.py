@@ -42,13 +42,13 @@ class RosParametersMissing(Rule):
                 "config/a.yaml:2:3",
                 "unknown key 'ros_parameters': rcl rejects the file; did you mean "
                 "'ros__parameters'?",
-                fix="rename it to 'ros__parameters'",
+                fix="Rename the key to 'ros__parameters'",
             ),
             Report(
                 "config/b.yaml:2:3",
                 "unknown key 'ros__parameter': rcl rejects the file; did you mean "
                 "'ros__parameters'?",
-                fix="rename it to 'ros__parameters'",
+                fix="Rename the key to 'ros__parameters'",
             ),
             fixed={
                 "config/a.yaml": _FILE.format("ros__parameters"),
@@ -81,7 +81,7 @@ class RosParametersMissing(Rule):
                     message = f"unknown key {entry.node_key.text!r}: rcl rejects the file; "
                     message += f"did you mean {KEY!r}?"
                     yield self.report(
-                        entry.node_key, message, Fix(f"rename it to {KEY!r}", (edit,))
+                        entry.node_key, message, Fix(f"Rename the key to {KEY!r}", (edit,))
                     )
                 elif entry.node_key is None and is_read:
                     message = f"{entry.key.text!r} is not under {KEY!r}: rcl rejects the file"

@@ -76,7 +76,7 @@ class ValueRefused(Rule):
             Report(
                 "3:16",
                 "list 'gains' mixes integer (1) and double (2.5): rcl rejects the file",
-                fix="write all as doubles",
+                fix="Convert all values to doubles",
             ),
             fixed={"config/a.yaml": _FILE_LISTS.format("[1.0, 2.5, -3.0]")},
         ),
@@ -145,7 +145,7 @@ class ValueRefused(Rule):
         if not all(item.text.lstrip("+-").isdecimal() for item in whole):
             return None
         edits = tuple(Edit(path, item.end, item.end, ".0") for item in whole)
-        return Fix("write all as doubles", edits)
+        return Fix("Convert all values to doubles", edits)
 
     def _check_empty(self, package: Package) -> Iterator[Diagnostic]:
         for path in parameter_paths(package):

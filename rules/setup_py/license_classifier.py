@@ -50,7 +50,7 @@ class LicenseClassifier(Rule):
             Report(
                 "8:9",
                 "setuptools 78.1.1 of Lyrical warns of license classifiers; remove it",
-                fix="remove the classifier",
+                fix="Remove the classifier",
             ),
             fixed={"setup.py": _SETUP.format(_LICENSE, "")},
             distro="lyrical",
@@ -79,7 +79,7 @@ class LicenseClassifier(Rule):
             is_last = len(named) == len(classifiers.node.elts)
             edit = _removal(setup, item) if has_license and not is_last else None
             message = f"setuptools {setuptools} of {target().title} warns of license classifiers"
-            fix = Fix("remove the classifier", (edit,)) if edit else None
+            fix = Fix("Remove the classifier", (edit,)) if edit else None
             yield self.report(setup.module.location(item), f"{message}; {advice}", fix)
 
 

@@ -63,7 +63,7 @@ class MarkerOrManifestMissing(Rule):
             Report(
                 "setup.py:5:64",
                 "data_files names resource/talker, which does not exist: the build stops",
-                fix="create resource/talker",
+                fix="Create resource/talker",
             ),
             fixed={"resource/talker": ""},
         ),
@@ -125,7 +125,7 @@ class MarkerOrManifestMissing(Rule):
             Report(
                 "setup.py:5:16",
                 "data_files does not install package.xml to share/talker",
-                fix="install package.xml",
+                fix="Install package.xml",
                 severity=Severity.WARNING,
             ),
             fixed={"setup.py": _SETUP_MANIFEST.format(_LINE + _MARKER)},
@@ -144,7 +144,7 @@ class MarkerOrManifestMissing(Rule):
                 if not isinstance(source, str) or package.has(source):
                     continue
                 fix = (
-                    Fix(f"create {marker}", (CreateFile(marker, ""),)) if source == marker else None
+                    Fix(f"Create {marker}", (CreateFile(marker, ""),)) if source == marker else None
                 )
                 message = f"data_files names {source}, which does not exist: the build stops"
                 yield self.report(at, message, fix)
@@ -191,4 +191,4 @@ class MarkerOrManifestMissing(Rule):
             return None
         start = source.offset(at.line)
         text = f"{line[: at.column - 1]}('share/{package.name}', ['package.xml']),{source.newline}"
-        return Fix("install package.xml", (Edit("setup.py", start, start, text),))
+        return Fix("Install package.xml", (Edit("setup.py", start, start, text),))

@@ -121,7 +121,7 @@ class MetadataDiffers(Rule):
             Report(
                 "setup.py:3:12",
                 "the name is 'listener', but 'talker' in package.xml, line 1",
-                unsafe_fix="write talker",
+                unsafe_fix="Replace with talker",
                 severity=Severity.ERROR,
             ),
             fixed={"setup.py": "from setuptools import setup\n\nsetup(name='talker')\n"},
@@ -205,7 +205,7 @@ class MetadataDiffers(Rule):
         fix = None
         if setup.module.source.text[start + 1 : end - 1] == keyword.value:
             edit = Edit("setup.py", start + 1, end - 1, name)
-            fix = Fix(f"write {name}", (edit,), Safety.UNSAFE)
+            fix = Fix(f"Replace with {name}", (edit,), Safety.UNSAFE)
         at = setup.module.source.location(start, end)
         yield self.report(at, message, fix, severity=Severity.ERROR)
 

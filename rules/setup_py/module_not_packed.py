@@ -144,7 +144,7 @@ class ModuleNotPacked(Rule):
                 "setup.py:5:14",
                 "packages does not include talker.text: it is not installed; write "
                 "find_packages(exclude=['test'])",
-                fix="write find_packages(exclude=['test'])",
+                fix="Replace with find_packages(exclude=['test'])",
             ),
             fixed={"setup.py": _SETUP_SUBPACKAGES.format("find_packages, setup", _FIND)},
         ),
@@ -257,7 +257,7 @@ class ModuleNotPacked(Rule):
         fix = None
         if "find_packages" in setup.module.index.bindings(setup.module.tree):
             start, end = setup.module.span(keyword.node)
-            fix = Fix(f"write {_FIND}", (Edit("setup.py", start, end, _FIND),))
+            fix = Fix(f"Replace with {_FIND}", (Edit("setup.py", start, end, _FIND),))
         message = (
             f"packages does not include {', '.join(missing)}: it is not installed; write {_FIND}"
         )

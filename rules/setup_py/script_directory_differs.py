@@ -96,9 +96,9 @@ class ScriptDirectoryDiffers(Rule):
             {"package.xml": _MANIFEST, "setup.py": _SETUP.format(_ENTRY), **_NODE},
             Report(
                 "setup.cfg:1:1",
-                "no setup.cfg: 'talker' of setup.py is installed to bin/, where "
-                "`ros2 run` does not look",
-                fix="write setup.cfg",
+                "no setup.cfg: 'talker' of setup.py is installed to bin/, where `ros2 "
+                "run` does not look",
+                fix="Create setup.cfg",
             ),
             fixed={"setup.cfg": _CFG.format("talker")},
         ),
@@ -114,7 +114,7 @@ class ScriptDirectoryDiffers(Rule):
                 "setup.cfg:1:1",
                 "no setup.cfg: 'talker' of setup.py is installed to bin/, where `ros2 "
                 "run` does not look",
-                fix="write setup.cfg",
+                fix="Create setup.cfg",
                 severity=Severity.WARNING,
             ),
             fixed={"setup.cfg": _CFG.format("talker")},
@@ -129,7 +129,7 @@ class ScriptDirectoryDiffers(Rule):
             Report(
                 "setup.cfg:4:17",
                 "install_scripts is '$base/bin'; `ros2 run talker` looks in $base/lib/talker",
-                fix="write $base/lib/talker",
+                fix="Replace with $base/lib/talker",
                 severity=Severity.WARNING,
             ),
             fixed={"setup.cfg": _CFG_VALUE.format("$base/lib/talker", "$base/lib/talker")},
@@ -161,7 +161,7 @@ class ScriptDirectoryDiffers(Rule):
             Report(
                 "setup.cfg:4:17",
                 "install_scripts is '$base/lib/other'; `ros2 run talker` looks in $base/lib/talker",
-                fix="write $base/lib/talker",
+                fix="Replace with $base/lib/talker",
             ),
             fixed={"setup.cfg": _CFG_VALUE.format("$base/lib/talker", "$base/lib/talker")},
         ),
@@ -176,7 +176,7 @@ class ScriptDirectoryDiffers(Rule):
             Report(
                 "setup.cfg:1:1",
                 "[install] has no install_scripts=$base/lib/talker: `ros2 run` finds nothing",
-                fix="write $base/lib/talker",
+                fix="Replace with $base/lib/talker",
             ),
             fixed={"setup.cfg": _CFG_VALUE.format("$base/lib/talker", "$base/lib/talker")},
         ),
@@ -202,7 +202,7 @@ class ScriptDirectoryDiffers(Rule):
             return
         if package.has("pyproject.toml") and "script" in package.source("pyproject.toml").text:
             return
-        fix = Fix("write setup.cfg", (CreateFile("setup.cfg", _CFG.format(package.name)),))
+        fix = Fix("Create setup.cfg", (CreateFile("setup.cfg", _CFG.format(package.name)),))
         message = (
             f"no setup.cfg: {scripts[0].name!r} of setup.py is installed to bin/, where `ros2 run` "
             "does not look"
@@ -225,7 +225,7 @@ class ScriptDirectoryDiffers(Rule):
             if entry is None and node_scripts(package):
                 at = package.start_of("setup.cfg")
                 message = f"[{section}] has no {key}={wanted}: `ros2 run` finds nothing"
-                fix = Fix(f"write {wanted}", (cfg.set(section, key, wanted),))
+                fix = Fix(f"Replace with {wanted}", (cfg.set(section, key, wanted),))
                 yield self.report(at, message, fix, cause="directory of scripts")
             elif entry is not None and entry.value.rstrip("/") not in {
                 wanted,
@@ -233,7 +233,7 @@ class ScriptDirectoryDiffers(Rule):
             }:
                 message = f"{key} is {entry.value!r}; `ros2 run {package.name}` looks in {wanted}"
                 edit = Edit("setup.cfg", entry.value_start, entry.value_end, wanted)
-                fix = Fix(f"write {wanted}", (edit,))
+                fix = Fix(f"Replace with {wanted}", (edit,))
                 is_bin = entry.value.rstrip("/").endswith("/bin")
                 severity = Severity.WARNING if is_bin else Severity.ERROR
                 yield self.report(

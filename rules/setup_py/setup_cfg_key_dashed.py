@@ -34,12 +34,14 @@ class SetupCfgKeyDashed(Rule):
             "dashes",
             {"setup.py": "", "setup.cfg": _CFG.format("-")},
             Report(
-                "setup.cfg:2:1", "use 'script_dir' instead of 'script-dir'", fix="write script_dir"
+                "setup.cfg:2:1",
+                "use 'script_dir' instead of 'script-dir'",
+                fix="Replace with script_dir",
             ),
             Report(
                 "setup.cfg:4:1",
                 "use 'install_scripts' instead of 'install-scripts'",
-                fix="write install_scripts",
+                fix="Replace with install_scripts",
             ),
             fixed={"setup.cfg": _CFG.format("_")},
         ),
@@ -50,7 +52,7 @@ class SetupCfgKeyDashed(Rule):
                 "setup.cfg:2:1",
                 "setuptools 78.1.1 of Lyrical is about to stop at 'script-dir': use "
                 "'script_dir' instead of 'script-dir'",
-                fix="write script_dir",
+                fix="Replace with script_dir",
             ),
             fixed={"setup.cfg": "[develop]\nscript_dir=$base/lib/talker\n"},
             distro="lyrical",
@@ -73,5 +75,5 @@ class SetupCfgKeyDashed(Rule):
                         f"setuptools {setuptools} of {target().title} is about to stop at "
                         f"{option.key!r}: {message}"
                     )
-                fix = Fix(f"write {right}", (cfg.rename(option, right),))
+                fix = Fix(f"Replace with {right}", (cfg.rename(option, right),))
                 yield self.report(option.key_location, message, fix)

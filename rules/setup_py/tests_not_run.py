@@ -86,7 +86,7 @@ class TestsNotRun(Rule):
                 "setup.py:3:1",
                 "no extra requires pytest for test/: colcon runs 0 tests; add "
                 "extras_require={'test': ['pytest']}",
-                fix="add extras_require={'test': ['pytest']}",
+                fix="Add extras_require={'test': ['pytest']}",
                 severity=Severity.WARNING,
             ),
             fixed={"setup.py": _SETUP.format(_EXTRA)},
@@ -98,7 +98,7 @@ class TestsNotRun(Rule):
                 "setup.py:3:1",
                 "no extra requires pytest for test/: colcon runs 0 tests; add "
                 "extras_require={'test': ['pytest']}",
-                fix="add extras_require={'test': ['pytest']}",
+                fix="Add extras_require={'test': ['pytest']}",
             ),
             fixed={"setup.py": _SETUP.format(_EXTRA)},
         ),
@@ -108,9 +108,9 @@ class TestsNotRun(Rule):
             Report(
                 "5:19",
                 "setuptools 72 and later, which Jazzy does not have, ignore "
-                "tests_require: colcon will run 0 tests; write "
-                "extras_require={'test': ['pytest']}",
-                fix="write extras_require={'test': ['pytest']}",
+                "tests_require: colcon will run 0 tests; write extras_require={'test': "
+                "['pytest']}",
+                fix="Replace with extras_require={'test': ['pytest']}",
                 severity=Severity.INFO,
             ),
             fixed={"setup.py": _SETUP.format(_EXTRA)},
@@ -120,9 +120,9 @@ class TestsNotRun(Rule):
             {"setup.py": _SETUP.format("    tests_require=['pytest'],\n")},
             Report(
                 "5:19",
-                "setuptools of Lyrical ignores tests_require: colcon runs 0 "
-                "tests; write extras_require={'test': ['pytest']}",
-                fix="write extras_require={'test': ['pytest']}",
+                "setuptools of Lyrical ignores tests_require: colcon runs 0 tests; "
+                "write extras_require={'test': ['pytest']}",
+                fix="Replace with extras_require={'test': ['pytest']}",
             ),
             fixed={"setup.py": _SETUP.format(_EXTRA)},
             distro="lyrical",
@@ -132,9 +132,9 @@ class TestsNotRun(Rule):
             {"setup.py": _SETUP.format("    tests_require=['pytest', 'numpy>=1.2'],\n")},
             Report(
                 "5:19",
-                "setuptools of Lyrical ignores tests_require: colcon runs 0 tests; write "
-                "extras_require={'test': ['pytest', 'numpy>=1.2']}",
-                fix="write extras_require={'test': ['pytest', 'numpy>=1.2']}",
+                "setuptools of Lyrical ignores tests_require: colcon runs 0 tests; "
+                "write extras_require={'test': ['pytest', 'numpy>=1.2']}",
+                fix="Replace with extras_require={'test': ['pytest', 'numpy>=1.2']}",
             ),
             fixed={
                 "setup.py": _SETUP.format(
@@ -148,9 +148,9 @@ class TestsNotRun(Rule):
             {"setup.py": _SETUP.format('    tests_require=["pytest"],\n')},
             Report(
                 "5:19",
-                "setuptools of Lyrical ignores tests_require: colcon runs 0 tests; write "
-                'extras_require={"test": ["pytest"]}',
-                fix='write extras_require={"test": ["pytest"]}',
+                "setuptools of Lyrical ignores tests_require: colcon runs 0 tests; "
+                'write extras_require={"test": ["pytest"]}',
+                fix='Replace with extras_require={"test": ["pytest"]}',
             ),
             fixed={"setup.py": _SETUP.format('    extras_require={"test": ["pytest"]},\n')},
             distro="lyrical",
@@ -171,9 +171,9 @@ class TestsNotRun(Rule):
             {"setup.py": "from setuptools import setup\n\nsetup()\n", "setup.cfg": _OLD_CFG},
             Report(
                 "setup.cfg:3:1",
-                "setuptools of Lyrical ignores tests_require: colcon runs 0 tests; "
-                "add `test` to [options.extras_require]",
-                fix="move it to [options.extras_require]",
+                "setuptools of Lyrical ignores tests_require: colcon runs 0 tests; add "
+                "`test` to [options.extras_require]",
+                fix="Move the option to [options.extras_require]",
             ),
             fixed={"setup.cfg": _NEW_CFG},
             distro="lyrical",
@@ -186,9 +186,9 @@ class TestsNotRun(Rule):
             },
             Report(
                 "setup.cfg:3:1",
-                "setuptools of Lyrical ignores tests_require: colcon runs 0 tests; "
-                "add `test` to [options.extras_require]",
-                fix="move it to [options.extras_require]",
+                "setuptools of Lyrical ignores tests_require: colcon runs 0 tests; add "
+                "`test` to [options.extras_require]",
+                fix="Move the option to [options.extras_require]",
             ),
             fixed={"setup.cfg": _CFG.format("[options.extras_require]\ntest = pytest\n")},
             distro="lyrical",
@@ -214,7 +214,7 @@ class TestsNotRun(Rule):
                 "setuptools 72 and later, which Jazzy does not have, ignore "
                 "tests_require: colcon will run 0 tests; add `test` to "
                 "[options.extras_require]",
-                fix="move it to [options.extras_require]",
+                fix="Move the option to [options.extras_require]",
                 severity=Severity.INFO,
             ),
             fixed={"setup.cfg": _CFG.format("[options.extras_require]\ntest = pytest\n")},
@@ -241,7 +241,7 @@ class TestsNotRun(Rule):
         can_fix = edit is not None and setup.keyword("extras_require") is None
         directory = tests[0].partition("/")[0]
         message = f"no extra requires pytest for {directory}/: colcon runs 0 tests; add {_NEW}"
-        fix = Fix(f"add {_NEW}", (edit,)) if edit and can_fix else None
+        fix = Fix(f"Add {_NEW}", (edit,)) if edit and can_fix else None
         is_generated = all(_is_of_linter(package, path) for path in tests)
         yield self.report(setup, message, fix, severity=Severity.WARNING if is_generated else None)
 
@@ -261,7 +261,7 @@ class TestsNotRun(Rule):
         if setup.keyword("extras_require") is not None:
             advice = f"add {' '.join(extra.split())} to extras_require"
         elif span is not None:
-            fix = Fix(advice, (Edit("setup.py", *span, written),))
+            fix = Fix(f"Replace with {shown}", (Edit("setup.py", *span, written),))
         yield self.report(old, f"{_ignored()}; {advice}", fix, severity=_severity())
 
     def _check_option(
@@ -273,7 +273,7 @@ class TestsNotRun(Rule):
         fix, advice = None, f"add `test` to [{_SECTION}]"
         extras = cfg.sections.get(_SECTION)
         if extras is None or not set(EXTRAS) & {*extras.options}:
-            fix = Fix(f"move it to [{_SECTION}]", (*_moved(cfg, option),))
+            fix = Fix(f"Move the option to [{_SECTION}]", (*_moved(cfg, option),))
         yield self.report(option.key_location, f"{_ignored()}; {advice}", fix, severity=_severity())
 
     def _has_extra(self, package: Package) -> bool:

@@ -62,7 +62,7 @@ class AssertMethodMisused(TestRule):
             Report(
                 "6:9",
                 "assertEquals was removed in Python 3.12: AttributeError; use assertEqual",
-                fix="write assertEqual",
+                fix="Replace with assertEqual",
             ),
             fixed={"test/test_text.py": _TEST.format("assertEqual")},
         ),
@@ -72,8 +72,8 @@ class AssertMethodMisused(TestRule):
             Report(
                 "6:9",
                 "failUnlessEqual is deprecated, and Python 3.12 removes it; use assertEqual",
+                fix="Replace with assertEqual",
                 severity=Severity.INFO,
-                fix="write assertEqual",
             ),
             fixed={"test/test_text.py": _TEST.format("assertEqual")},
             distro="humble",
@@ -90,7 +90,7 @@ class AssertMethodMisused(TestRule):
             Report(
                 "6:9",
                 "Python 3 has no assertItemsEqual: AttributeError; use assertCountEqual",
-                fix="write assertCountEqual",
+                fix="Replace with assertCountEqual",
             ),
             fixed={"test/test_text.py": _TEST.format("assertCountEqual")},
             distro="humble",
@@ -160,7 +160,7 @@ class AssertMethodMisused(TestRule):
         if name not in _WITHOUT_NAME:
             _, end = module.span(method)
             edit = Edit(module.source.path, end - len(name), end, use)
-            fix = Fix(f"write {use}", (edit,))
+            fix = Fix(f"Replace with {use}", (edit,))
         return self.report(module.location(method), f"{message}; use {use}", fix, severity=severity)
 
 

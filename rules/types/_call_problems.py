@@ -168,7 +168,7 @@ def call_fix(finding: TypeFinding) -> Fix | None:
         return None
     start, _ = finding.module.span(depth)
     edit = Edit(finding.path, start, start + len(_OF_ROS1), "qos_profile")
-    return Fix("write qos_profile=", (edit,))
+    return Fix("Replace the keyword with qos_profile=", (edit,))
 
 
 def _as_keyword(finding: TypeFinding, names: Sequence[str], bound: int) -> Fix | None:
@@ -181,7 +181,7 @@ def _as_keyword(finding: TypeFinding, names: Sequence[str], bound: int) -> Fix |
     if not name or any(word.arg in {name, None} for word in call.keywords):
         return None
     start, _ = finding.module.span(call.args[-1])
-    return Fix(f"pass it as {name}=", (Edit(finding.path, start, start, f"{name}="),))
+    return Fix(f"Pass the argument as {name}=", (Edit(finding.path, start, start, f"{name}="),))
 
 
 def _intended_parameter(finding: TypeFinding, node: ast.expr, names: Sequence[str]) -> str:

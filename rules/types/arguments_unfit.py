@@ -229,13 +229,13 @@ class ArgumentsUnfit(TypeRule):
                 "8:16",
                 "init() takes no positional argument, not 1 (as keywords: args, "
                 "context, domain_id, signal_handler_options): TypeError",
-                fix="pass it as args=",
+                fix="Pass the argument as args=",
             ),
             Report(
                 "10:27",
-                "spin_once() takes 1 positional argument at most, not 2 (as "
-                "keywords: executor, timeout_sec): TypeError",
-                fix="pass it as timeout_sec=",
+                "spin_once() takes 1 positional argument at most, not 2 (as keywords: "
+                "executor, timeout_sec): TypeError",
+                fix="Pass the argument as timeout_sec=",
             ),
             fixed={"server.py": _SERVER.format("args=", ", timeout_sec=0.1")},
         ),
@@ -246,7 +246,7 @@ class ArgumentsUnfit(TypeRule):
                 "7:61",
                 "create_publisher() has no argument 'queue_size', which is "
                 "qos_profile= in ROS 2: TypeError",
-                fix="write qos_profile=",
+                fix="Replace the keyword with qos_profile=",
             ),
             fixed={"talker.py": _TALKER.format("qos_profile")},
         ),

@@ -296,7 +296,7 @@ class AttributeMissing(TypeRule):
             Report(
                 "12:16",
                 "rclpy.parameter.Parameter has no 'type': AttributeError; did you mean 'type_'?",
-                fix="write 'type_'",
+                fix="Replace with 'type_'",
             ),
             fixed={"limit.py": _LIMIT.format("type_")},
         ),
@@ -503,7 +503,7 @@ class AttributeMissing(TypeRule):
             Report(
                 "rover/drive.py:12:9",
                 "Odometry has no 'restart': AttributeError; did you mean 'reset'?",
-                unsafe_fix="write 'reset'",
+                unsafe_fix="Replace with 'reset'",
             ),
         ),
         Example(
@@ -650,9 +650,9 @@ class AttributeMissing(TypeRule):
             {"hint.py": _HINT.format("warn")},
             Report(
                 "7:13",
-                "rclpy.impl.rcutils_logger.RcutilsLogger.warn was removed in "
-                "Lyrical: AttributeError; use warning (rclpy 1456)",
-                fix="write 'warning'",
+                "rclpy.impl.rcutils_logger.RcutilsLogger.warn was removed in Lyrical: "
+                "AttributeError; use warning (rclpy 1456)",
+                fix="Replace with 'warning'",
             ),
             fixed={"hint.py": _HINT.format("warning")},
             distro="lyrical",
@@ -756,4 +756,4 @@ def _fix(finding: TypeFinding, node: ast.Attribute, closest: str, *, is_sure: bo
     is_sure = is_sure or SequenceMatcher(None, node.attr, closest).ratio() >= _CERTAIN
     edit = Edit(finding.path, end - len(node.attr), end, closest)
     safety = Safety.SAFE if is_sure else Safety.UNSAFE
-    return Fix(f"write {closest!r}", (edit,), safety)
+    return Fix(f"Replace with {closest!r}", (edit,), safety)

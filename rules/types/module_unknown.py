@@ -81,9 +81,9 @@ class ModuleUnknown(TypeRule):
             {"talker.py": _NODE.format("std_msgs.msg.String")},
             Report(
                 "2:8",
-                "'String' is a class, not a module: ModuleNotFoundError; write "
-                "`from std_msgs.msg import String`",
-                fix="import 'std_msgs.msg'",
+                "'String' is a class, not a module: ModuleNotFoundError; write `from "
+                "std_msgs.msg import String`",
+                fix="Import 'std_msgs.msg'",
             ),
             fixed={"talker.py": _NODE.format("std_msgs.msg")},
         ),
@@ -214,7 +214,7 @@ class ModuleUnknown(TypeRule):
             start, end = finding.module.span(alias)
             if finding.module.source.location(start, end) == finding.location:
                 edit = Edit(finding.path, start + len(above), start + len(module), "")
-                return Fix(f"import {above!r}", (edit,))
+                return Fix(f"Import {above!r}", (edit,))
         return None
 
 

@@ -66,7 +66,7 @@ class NameNotInModule(TypeRule):
             Report(
                 "1:25",
                 "'collections' has no 'Iterable': ImportError; it is in 'collections.abc'",
-                fix="import from 'collections.abc'",
+                fix="Import from 'collections.abc'",
             ),
             fixed={"talker.py": "from collections.abc import Iterable\n"},
         ),
@@ -141,7 +141,7 @@ class NameNotInModule(TypeRule):
                 start, _ = finding.module.span(node)
                 start = finding.module.source.text.index("collections", start)
                 edit = Edit(finding.path, start, start + len("collections"), "collections.abc")
-                return Fix("import from 'collections.abc'", (edit,))
+                return Fix("Import from 'collections.abc'", (edit,))
         return None
 
 

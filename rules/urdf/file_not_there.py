@@ -215,7 +215,7 @@ class FileNotThere(Rule):
                 "a.xacro:2:28",
                 "needs 'realsense2_description', which no dependency in package.xml "
                 "provides; add <exec_depend>realsense2_description</exec_depend>",
-                fix="declare realsense2_description",
+                fix="Declare realsense2_description",
                 severity=Severity.WARNING,
             ),
             fixed={

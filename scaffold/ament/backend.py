@@ -292,7 +292,7 @@ def _fix(package: Package, path: str, finding: Finding) -> Fix | None:
     shift = 1 if source.text.startswith("\ufeff") else 0
     changes = tuple(_edits(source, path, finding, shift))
     safety = Safety.UNSAFE if finding.fix_is_unsafe else Safety.SAFE
-    return Fix(finding.fix_title or "apply ruff's fix", changes, safety)
+    return Fix(finding.fix_title or "Apply the fix of ruff", changes, safety)
 
 
 def _edits(source: Source, path: str, finding: Finding, shift: int) -> Iterator[Edit]:

@@ -38,13 +38,13 @@ def _line_length(_: Package, finding: Finding) -> _Explained:
 
 def _extra_whitespace(package: Package, finding: Finding) -> _Explained:
     message = f"space between `{finding.detail}` and `(`"
-    return message, _removal(package, finding, "remove the space")
+    return message, _removal(package, finding, "Remove the space")
 
 
 def _mismatch(package: Package, finding: Finding) -> _Explained:
     last, fix = finding.end - 1, None
     if not outline(package, finding.source).touches_literal(last, finding.end):
-        fix = Fix("make the spaces equal", _padding_edits(finding))
+        fix = Fix("Use equal spaces", _padding_edits(finding))
     line, _ = finding.source.position(last)
     return f'spaces after the "(" of {finding.detail} and before the ")" in line {line} differ', fix
 
@@ -77,12 +77,12 @@ def _tab(package: Package, finding: Finding) -> _Explained:
         rest = text.lstrip(" \t")
         indentation = text[: len(text) - len(rest)].replace("\t", "  ")
         edit = Edit(finding.source.path, start, end, indentation + rest.replace("\t", " "))
-        fix = Fix("replace the tab with spaces", (edit,))
+        fix = Fix("Replace the tab with spaces", (edit,))
     return "tab in the line: ament_lint_cmake requires spaces", fix
 
 
 def _line_end(package: Package, finding: Finding) -> _Explained:
-    return "trailing whitespace", _removal(package, finding, "remove the trailing whitespace")
+    return "trailing whitespace", _removal(package, finding, "Remove the trailing whitespace")
 
 
 def _removal(package: Package, finding: Finding, title: str) -> Fix | None:
@@ -114,13 +114,13 @@ def _lower(package: Package, source: Source) -> Fix | None:
             if start not in commands:
                 return None
             edits.append(Edit(source.path, start, end, line.command.lower()))
-    return Fix("write the commands in lower case", tuple(edits)) if edits else None
+    return Fix("Convert the commands to lower case", tuple(edits)) if edits else None
 
 
 def _wonky_case(package: Package, finding: Finding) -> _Explained:
     source, lower, fix = finding.source, finding.detail.lower(), None
     if finding.start in outline(package, source).commands:
-        fix = Fix(f"write {lower}", (Edit(source.path, finding.start, finding.end, lower),))
+        fix = Fix(f"Replace with {lower}", (Edit(source.path, finding.start, finding.end, lower),))
     return f'"{finding.detail}" mixes cases: write "{lower}"', fix
 
 
@@ -132,7 +132,7 @@ def _repeated_condition(_: Package, finding: Finding) -> _Explained:
     if any(character in arguments[:-1] for character in '()"['):
         return message, None
     edit = Edit(finding.source.path, finding.start + len(name) + 1, finding.end - 1, "")
-    return message, Fix("leave the parentheses empty", (edit,))
+    return message, Fix("Remove the argument", (edit,))
 
 
 def _file_name(_: Package, finding: Finding) -> _Explained:

@@ -118,7 +118,7 @@ def _fix(package: Package, name: str) -> Fix | None:
     text = texts.pop() if len(texts) == 1 else None
     if text is None or identify_file(name, text.encode()) is None:
         return None
-    return Fix(f"write the {name} of the license", (CreateFile(name, text),))
+    return Fix(f"Create the {name} of the license", (CreateFile(name, text),))
 
 
 def _is_repository(package: Package) -> bool:

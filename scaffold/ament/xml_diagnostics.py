@@ -135,7 +135,7 @@ def _reorder(package: Package, structure: Structure) -> Fix | None:
     moved = range(edit.start, edit.end)
     has_comments = any(comment.start in moved for comment in manifest.comments)
     safety = Safety.UNSAFE if has_comments else Safety.SAFE
-    return Fix("put the elements in order", (edit,), safety)
+    return Fix("Reorder the elements", (edit,), safety)
 
 
 def _place(misplaced: Misplaced) -> str:
@@ -161,7 +161,7 @@ def _rename(package: Package, unknown: Unknown, tag: str) -> Fix:
     from scaffold.model.manifest import edit as manifest_edit
 
     edits = manifest_edit.rename(package.manifest.document, unknown.element, tag)
-    return Fix(f"write <{tag}>", edits, Safety.UNSAFE)
+    return Fix(f"Replace the element with <{tag}>", edits, Safety.UNSAFE)
 
 
 def _explain_element(structure: Structure, unknown: Unknown) -> tuple[str, str | None]:
@@ -198,7 +198,7 @@ def _repeated(package: Package, structure: Structure) -> Iterator[_Problem]:
     for again, first in structure.repeated:
         fix = None
         if again.raw == first.raw:
-            fix = Fix("remove the second one", (package.manifest.remove(again),))
+            fix = Fix("Remove the duplicate", (package.manifest.remove(again),))
         message = f"a second <{again.tag}>: the first is in line {first.location.line}"
         yield again.name_location, message, fix
 
@@ -249,7 +249,7 @@ def _name_schema(package: Package, model: XmlModel, declared: str) -> Fix:
     source, instruction = package.manifest.source, model.instruction
     start = source.text.index("package_format", instruction.start) + len("package_format")
     end = source.text.index(".xsd", start)
-    return Fix(f"name the schema of format {declared}", (Edit(source.path, start, end, declared),))
+    return Fix(f"Use the schema of format {declared}", (Edit(source.path, start, end, declared),))
 
 
 def _texts(_: Package, structure: Structure) -> Iterator[_Problem]:

@@ -205,7 +205,7 @@ CASES: Mapping[str, tuple[Example, ...]] = {
             Report(
                 "CONTRIBUTING.md:1:1",
                 "the repository has no CONTRIBUTING.md: ament_copyright fails",
-                fix="write the CONTRIBUTING.md of the license",
+                fix="Create the CONTRIBUTING.md of the license",
             ),
             fixed={"CONTRIBUTING.md": CONTRIBUTING},
         ),

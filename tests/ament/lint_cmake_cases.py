@@ -40,7 +40,7 @@ CASES: Mapping[str, tuple[Example, ...]] = {
             Report(
                 "CMakeLists.txt:1:3",
                 "space between `if` and `(`",
-                fix="remove the space",
+                fix="Remove the space",
             ),
             fixed={"CMakeLists.txt": "if(A)\nendif()\n"},
         ),
@@ -56,12 +56,12 @@ CASES: Mapping[str, tuple[Example, ...]] = {
             Report(
                 "CMakeLists.txt:2:6",
                 'spaces after the "(" of set and before the ")" in line 2 differ',
-                fix="make the spaces equal",
+                fix="Use equal spaces",
             ),
             Report(
                 "CMakeLists.txt:4:4",
                 'spaces after the "(" of set and before the ")" in line 4 differ',
-                fix="make the spaces equal",
+                fix="Use equal spaces",
             ),
             fixed={"CMakeLists.txt": "if(A)\n  set(B 1)\nendif()\nset(C 1)\n"},
         ),
@@ -71,7 +71,7 @@ CASES: Mapping[str, tuple[Example, ...]] = {
             Report(
                 "CMakeLists.txt:1:4",
                 'spaces after the "(" of set and before the ")" in line 4 differ',
-                fix="make the spaces equal",
+                fix="Use equal spaces",
             ),
             fixed={"CMakeLists.txt": "set(\n  B\n  1\n)\n"},
         ),
@@ -92,7 +92,7 @@ CASES: Mapping[str, tuple[Example, ...]] = {
             Report(
                 "CMakeLists.txt:2:1",
                 "tab in the line: ament_lint_cmake requires spaces",
-                fix="replace the tab with spaces",
+                fix="Replace the tab with spaces",
             ),
             fixed={"CMakeLists.txt": "if(A)\n  set(B 1)\nendif()\n"},
         ),
@@ -110,17 +110,17 @@ CASES: Mapping[str, tuple[Example, ...]] = {
             Report(
                 "CMakeLists.txt:1:16",
                 "trailing whitespace",
-                fix="remove the trailing whitespace",
+                fix="Remove the trailing whitespace",
             ),
             Report(
                 "CMakeLists.txt:2:1",
                 "trailing whitespace",
-                fix="remove the trailing whitespace",
+                fix="Remove the trailing whitespace",
             ),
             Report(
                 "CMakeLists.txt:3:12",
                 "trailing whitespace",
-                fix="remove the trailing whitespace",
+                fix="Remove the trailing whitespace",
             ),
             fixed={"CMakeLists.txt": "project(talker)\n\n# A talker.\n"},
         ),
@@ -153,7 +153,7 @@ CASES: Mapping[str, tuple[Example, ...]] = {
             Report(
                 "CMakeLists.txt:2:1",
                 '"IF" in a file whose first command is in lower case',
-                fix="write the commands in lower case",
+                fix="Convert the commands to lower case",
             ),
             fixed={"CMakeLists.txt": "project(talker)\nif(A)\nendif()\n"},
         ),
@@ -163,7 +163,7 @@ CASES: Mapping[str, tuple[Example, ...]] = {
             Report(
                 "CMakeLists.txt:2:1",
                 '"if" in a file whose first command is in upper case',
-                fix="write the commands in lower case",
+                fix="Convert the commands to lower case",
             ),
             fixed={"CMakeLists.txt": "project(talker)\nif(A)\n"},
         ),
@@ -176,7 +176,7 @@ CASES: Mapping[str, tuple[Example, ...]] = {
             Report(
                 "CMakeLists.txt:1:1",
                 '"FetchContent_Declare" mixes cases: write "fetchcontent_declare"',
-                fix="write fetchcontent_declare",
+                fix="Replace with fetchcontent_declare",
             ),
             fixed={"CMakeLists.txt": "fetchcontent_declare(json)\n"},
         ),
@@ -194,12 +194,12 @@ CASES: Mapping[str, tuple[Example, ...]] = {
             Report(
                 "CMakeLists.txt:2:1",
                 "else() repeats what opens its block; CMake ignores the words",
-                fix="leave the parentheses empty",
+                fix="Remove the argument",
             ),
             Report(
                 "CMakeLists.txt:3:1",
                 "endif() repeats what opens its block; CMake ignores the words",
-                fix="leave the parentheses empty",
+                fix="Remove the argument",
             ),
             fixed={"CMakeLists.txt": "if(TALKER)\nelse()\nendif()\n"},
         ),

@@ -180,7 +180,7 @@ CASES: Mapping[str, tuple[Example, ...]] = {
             Report(
                 "package.xml:6:4",
                 "<author> must come after <license> in line 7 and before <depend> in line 8",
-                fix="put the elements in order",
+                fix="Reorder the elements",
             ),
             fixed={"package.xml": RIGHT},
         ),
@@ -190,7 +190,7 @@ CASES: Mapping[str, tuple[Example, ...]] = {
             Report(
                 "package.xml:9:4",
                 "<export> must come after <exec_depend> in line 10",
-                fix="put the elements in order",
+                fix="Reorder the elements",
             ),
             fixed={
                 "package.xml": RIGHT.replace(
@@ -216,7 +216,7 @@ CASES: Mapping[str, tuple[Example, ...]] = {
             Report(
                 "package.xml:3:4",
                 "<run_depend> is of format 1: in format 3 it is <exec_depend>",
-                unsafe_fix="write <exec_depend>",
+                unsafe_fix="Replace the element with <exec_depend>",
             ),
             fixed={
                 "package.xml": MANIFEST_HEAD.format(3)
@@ -240,7 +240,7 @@ CASES: Mapping[str, tuple[Example, ...]] = {
             Report(
                 "package.xml:3:4",
                 "<licence> is not known in format 2: <license> is",
-                unsafe_fix="write <license>",
+                unsafe_fix="Replace the element with <license>",
             ),
             fixed={
                 "package.xml": MANIFEST_HEAD.format(2) + "  <license>MIT</license>\n</package>\n"
@@ -277,7 +277,7 @@ CASES: Mapping[str, tuple[Example, ...]] = {
             Report(
                 "package.xml:3:4",
                 "a second <name>: the first is in line 2",
-                fix="remove the second one",
+                fix="Remove the duplicate",
             ),
             fixed={"package.xml": f"{ONE}</package>\n"},
         ),
@@ -326,7 +326,7 @@ CASES: Mapping[str, tuple[Example, ...]] = {
             Report(
                 "package.xml:1:1",
                 "names the schema of format 2, but <package> has 3",
-                fix="name the schema of format 3",
+                fix="Use the schema of format 3",
                 severity=Severity.WARNING,
             ),
             fixed={"package.xml": LINE.format(3) + '<package format="3"/>\n'},
@@ -351,7 +351,7 @@ CASES: Mapping[str, tuple[Example, ...]] = {
             Report(
                 "package.xml:1:1",
                 "names the schema of format 2, but <package> has 3",
-                fix="name the schema of format 3",
+                fix="Use the schema of format 3",
             ),
             fixed={
                 "package.xml": LINE.format(3)

@@ -68,8 +68,8 @@ def test_findings_are_reported_with_exit_code_1(capsys: pytest.CaptureFixture[st
     assert main(["check"]) == 1
     assert capsys.readouterr().out.splitlines() == [
         (
-            "talker/CMakeLists.txt:2:9: error CM001 the project is 'listener', the package "
-            "'talker' (package.xml, line 4) [project-name-differs]"
+            "talker/CMakeLists.txt:2:9: error CM001 project name 'listener' differs from package "
+            "name 'talker' (package.xml, line 4): CMake stops [project-name-differs]"
         ),
         (
             "talker/package.xml:6:3: warning PX001 the description is a placeholder, "
@@ -91,13 +91,14 @@ def test_json_report(flawed: Path, capsys: pytest.CaptureFixture[str]) -> None:
         "column": 9,
         "end_line": 2,
         "end_column": 17,
-        "message": "the project is 'listener', the package 'talker' (package.xml, line 4)",
+        "message": "project name 'listener' differs from package name 'talker' "
+        "(package.xml, line 4): CMake stops",
         "fixable": True,
         "cause": None,
         "distributions": ["jazzy"],
         "url": None,
         "fix": {
-            "title": "name the project talker",
+            "title": "Rename the project to talker",
             "safety": "safe",
             "edits": [
                 {

@@ -68,7 +68,9 @@ class LoggerMisused(RclpyRule):
         Example(
             "a number as message",
             {"talker.py": _NODE.format("42")},
-            Report("6:32", "log message is not a str: TypeError", fix="convert it to a str"),
+            Report(
+                "6:32", "log message is not a str: TypeError", fix="Convert the message to a str"
+            ),
             fixed={"talker.py": _NODE.format("str(42)")},
         ),
         Example(
@@ -77,7 +79,7 @@ class LoggerMisused(RclpyRule):
             Report(
                 "6:33",
                 "log message is not a str: TypeError where debugging is switched on",
-                fix="convert it to a str",
+                fix="Convert the message to a str",
                 severity=Severity.WARNING,
             ),
             fixed={"talker.py": _NODE.format("str(42)").replace(".info(", ".debug(")},
@@ -162,7 +164,7 @@ class LoggerMisused(RclpyRule):
                 yield self.report(
                     at,
                     f"log message is not a str: TypeError{when}",
-                    Fix("convert it to a str", edits),
+                    Fix("Convert the message to a str", edits),
                     severity=Severity.WARNING if is_rare else None,
                 )
 

@@ -70,7 +70,7 @@ class ParameterObjectUsed(RclpyRule):
             Report(
                 "8:16",
                 "this is the Parameter (used in line 9), not its value; append .value",
-                fix="append .value",
+                fix="Append .value",
             ),
             fixed={"talker.py": _NODE.format(".value")},
         ),
@@ -80,13 +80,13 @@ class ParameterObjectUsed(RclpyRule):
             Report(
                 "7:17",
                 "this is the Parameter (used in line 10), not its value; append .value",
-                fix="append .value",
+                fix="Append .value",
             ),
             Report(
-                "8:12", "this is the Parameter, not its value; append .value", fix="append .value"
+                "8:12", "this is the Parameter, not its value; append .value", fix="Append .value"
             ),
             Report(
-                "9:27", "this is the Parameter, not its value; append .value", fix="append .value"
+                "9:27", "this is the Parameter, not its value; append .value", fix="Append .value"
             ),
             fixed={"talker.py": _OTHERS.format(".value", ".value", ".value")},
         ),
@@ -129,7 +129,7 @@ class ParameterObjectUsed(RclpyRule):
     def _check_object(self, file: RclpyFile) -> Iterator[Diagnostic]:
         for read, use in objects_used(file):
             _, end = file.module.span(read.call)
-            fix = Fix("append .value", (Edit(file.module.path, end, end, ".value"),))
+            fix = Fix("Append .value", (Edit(file.module.path, end, end, ".value"),))
             line = file.module.location(use).line
             where = "" if line == read.location.line else f" (used in line {line})"
             message = f"this is the Parameter{where}, not its value; append .value"

@@ -149,7 +149,7 @@ class ParameterValueUnfit(RclpyRule):
             Report(
                 "8:23",
                 "'period' is declared as double: integer_value is always empty; use double_value",
-                unsafe_fix="read the field of the declared type",
+                unsafe_fix="Read the field of the declared type",
             ),
             fixed={"talker.py": _NODE_FIELDS.format("double_value")},
         ),
@@ -159,7 +159,7 @@ class ParameterValueUnfit(RclpyRule):
             Report(
                 "9:23",
                 "'period' is declared as double: string_value is always empty; use double_value",
-                unsafe_fix="read the field of the declared type",
+                unsafe_fix="Read the field of the declared type",
             ),
             fixed={"talker.py": _VARIABLES.format("double_value")},
         ),
@@ -211,7 +211,7 @@ class ParameterValueUnfit(RclpyRule):
                 edit = Edit(file.module.path, end - len(field.attr), end, f"{declared}_value")
                 message = f"{read!r} is declared as {declared}: {field.attr} is always empty; "
                 message += f"use {declared}_value"
-                fix = Fix("read the field of the declared type", (edit,), Safety.UNSAFE)
+                fix = Fix("Read the field of the declared type", (edit,), Safety.UNSAFE)
                 yield self.report(file.module.location(field), message, fix)
 
 

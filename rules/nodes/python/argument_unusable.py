@@ -144,12 +144,12 @@ class ArgumentUnusable(RclpyRule):
             Report(
                 "8:31",
                 "swapped arguments: the type comes first, then the name 'chatter'",
-                fix="swap the arguments",
+                fix="Swap the arguments",
             ),
             Report(
                 "9:27",
                 "swapped arguments: create_timer() takes the period first, then the callback",
-                fix="swap the arguments",
+                fix="Swap the arguments",
             ),
             fixed={"talker.py": _NODE_ORDER.format("String, 'chatter'", "0.5, self.tick")},
         ),
@@ -199,7 +199,7 @@ class ArgumentUnusable(RclpyRule):
                     Edit(path, *file.module.span(second), file.module.text(first)),
                 )
                 at = file.module.location(first)
-                yield self.report(at, wanted, Fix("swap the arguments", edits))
+                yield self.report(at, wanted, Fix("Swap the arguments", edits))
 
     def _swapped_arguments(self, file: RclpyFile, entity: Entity) -> str | None:
         """Return the message if the first two arguments are certainly swapped."""

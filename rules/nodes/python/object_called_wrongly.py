@@ -91,7 +91,7 @@ class ObjectCalledWrongly(RclpyRule):
             Report(
                 "7:32",
                 "self.tick() is called here: its return value becomes the callback",
-                fix="remove the parentheses",
+                fix="Remove the parentheses",
             ),
             fixed={"talker.py": _NODE_CALLBACKS.format("self.tick")},
         ),
@@ -116,7 +116,7 @@ class ObjectCalledWrongly(RclpyRule):
             if text.endswith("()"):
                 _, end = file.module.span(callback.node)
                 edit = Edit(file.module.path, end - 2, end, "")
-                fix = Fix("remove the parentheses", (edit,))
+                fix = Fix("Remove the parentheses", (edit,))
             message = f"{text} is called here: its return value becomes the callback"
             yield self.report(callback, message, fix)
 

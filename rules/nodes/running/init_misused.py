@@ -79,7 +79,7 @@ class InitMisused(RclpyRule):
             Report(
                 "5:21",
                 "an empty list replaces the command line: --ros-args have no effect",
-                fix="pass the arguments on",
+                fix="Pass the arguments",
             ),
             fixed={"talker.py": _MAIN_ARGUMENTS.format("args=args")},
         ),
@@ -169,7 +169,7 @@ class InitMisused(RclpyRule):
             fix = None
             if any(argument.arg == "args" for argument in own):
                 edit = Edit(file.module.path, *file.module.span(given[0]), "args")
-                fix = Fix("pass the arguments on", (edit,))
+                fix = Fix("Pass the arguments", (edit,))
             message = "an empty list replaces the command line: --ros-args have no effect"
             is_meant = any(
                 item.module.partition(".")[0] in _PARSERS for item in file.module.imports

@@ -35,7 +35,7 @@ class MainGuardMissing(Rule):
             Report(
                 "talker/node.py:5:5",
                 "installed as a program, but main() is never called",
-                fix="call main()",
+                fix="Add a call of main()",
             ),
             fixed={"talker/node.py": _MAIN + _GUARD},
         ),
@@ -67,7 +67,7 @@ class MainGuardMissing(Rule):
                 continue
             end = len(module.source.text)
             text = _GUARD if module.source.text.endswith("\n") else f"\n{_GUARD}"
-            fix = Fix("call main()", (Edit(path, end, end, text),))
+            fix = Fix("Add a call of main()", (Edit(path, end, end, text),))
             yield self.report(main, "installed as a program, but main() is never called", fix)
 
     def _guard_problem(self, module: PythonModule) -> tuple[Location, str] | None:

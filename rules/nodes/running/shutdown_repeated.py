@@ -39,7 +39,7 @@ class ShutdownRepeated(RclpyRule):
             Report(
                 "12:9",
                 "rclpy is already shut down after Ctrl-C: RCLError; use try_shutdown()",
-                fix="use try_shutdown()",
+                fix="Replace with try_shutdown()",
             ),
             fixed={"talker.py": _MAIN.format("try_shutdown")},
         ),
@@ -49,7 +49,7 @@ class ShutdownRepeated(RclpyRule):
             Report(
                 "11:5",
                 "rclpy is already shut down after Ctrl-C: RCLError; use try_shutdown()",
-                fix="use try_shutdown()",
+                fix="Replace with try_shutdown()",
             ),
             fixed={"talker.py": _AFTER.format("pass", "try_shutdown")},
         ),
@@ -60,7 +60,7 @@ class ShutdownRepeated(RclpyRule):
             Report(
                 "10:9",
                 "rclpy is already shut down after Ctrl-C: RCLError; use try_shutdown()",
-                fix="use try_shutdown()",
+                fix="Replace with try_shutdown()",
             ),
             fixed={"talker.py": _AFTER.format("rclpy.try_shutdown()", "try_shutdown")},
         ),
@@ -84,7 +84,7 @@ class ShutdownRepeated(RclpyRule):
             edit = Edit(file.module.path, start, end, "try_shutdown")
             fix = None
             if file.module.source.text[start:end] == "shutdown":
-                fix = Fix("use try_shutdown()", (edit,))
+                fix = Fix("Replace with try_shutdown()", (edit,))
             message = "rclpy is already shut down after Ctrl-C: RCLError; use try_shutdown()"
             yield self.report(call, message, fix, cause="unclean shutdown")
 

@@ -65,7 +65,7 @@ def _fix(package: Package, path: str, row: int, codes: Sequence[str]) -> Fix:
         at, text = start + len(line), f"  # noqa: {words}"
         if path.endswith(_XML):
             text = f"  <!-- noqa: {words} -->"
-    return Fix(f"silence {words}", (Edit(path, at, at, text),))
+    return Fix(f"Suppress {words}", (Edit(path, at, at, text),))
 
 
 def _row(package: Package, diagnostic: Diagnostic) -> int | None:

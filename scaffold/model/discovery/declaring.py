@@ -34,7 +34,7 @@ def declaring(package: Package, tag: str, name: str) -> Declaring:
         cycle = " needs ".join([package.name, *way])
         advice = f"declaring it would close a cycle, {cycle}: move what both need into a third"
         return Declaring(f"{advice} package", None)
-    fix = Fix(f"declare {name}", (package.manifest.insert(tag, name),))
+    fix = Fix(f"Declare {name}", (package.manifest.insert(tag, name),))
     note = package.manifest.note_on_export(name)
     return Declaring(f"add <{tag}>{name}</{tag}>{note}", fix)
 

@@ -38,7 +38,7 @@ def attach(text: PythonText, tree: ast.Module, findings: Sequence[Finding]) -> l
             # The code before the block is not moved, so a finding on its first line may remain.
             gains = finding.line > first or finding.code == "I101"
             if finding.code in CODES and gains and first <= finding.line <= last:
-                fixed[at] = finding._replace(fix=fix, fix_title="sort the imports")
+                fixed[at] = finding._replace(fix=fix, fix_title="Sort the imports")
     return fixed
 
 

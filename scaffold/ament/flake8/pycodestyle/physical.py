@@ -72,7 +72,7 @@ def _end(text: PythonText) -> Iterator[Finding]:
             1,
             "blank line at the end of the file",
             fix=((first, 1, number + 1, 1, ""),),
-            fix_title="remove the blank lines",
+            fix_title="Remove the blank lines",
         )
     elif not last.endswith("\n"):
         at = len(last) + 1

@@ -101,10 +101,10 @@ def _with_fix(logical: LogicalLine, brackets: _Brackets, finding: Finding) -> Fi
     if finding.code in ("E201", "E202", "E203"):
         place = finding.line, finding.column - 1
         fix = _without_spaces(logical, place, brackets.around(place))
-        return finding._replace(fix=fix, fix_title="remove the whitespace")
+        return finding._replace(fix=fix, fix_title="Remove the whitespace")
     if finding.code in ("E701", "E702"):
         fix = _on_new_line(logical, finding)
-        return finding._replace(fix=fix, fix_title="put the statement on a line of its own")
+        return finding._replace(fix=fix, fix_title="Move the statement to a separate line")
     return finding
 
 
