@@ -102,7 +102,8 @@ async def run(
             break
         again = f"{label}-{attempt + 2}"
         other = NodeRun()
-        await _run_once(plan, executable, expectation, again, number, other, brief=True)
+        # As long as the first one: what a node does after a while may be why it does not stop.
+        await _run_once(plan, executable, expectation, again, number, other, brief=brief)
         if other.stopped_cleanly:
             first.problems.remove(first.doubtful)
             doubt = first.doubtful.message
