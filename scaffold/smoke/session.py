@@ -38,6 +38,7 @@ from scaffold.smoke.scenario.reader import scenarios
 from scaffold.smoke.scenario.verdicts import overridden
 from scaffold.smoke.together import of_executables, run_together
 from scaffold.smoke.unavailable import unavailable
+from scaffold.source import ParseError
 
 _INTERFACES = (".msg", ".srv", ".action", ".idl")
 _EARLY_STATIONS = 4
@@ -192,7 +193,7 @@ class _Session:
         """Run the session; ``results`` holds the progress."""
         try:
             await self._provide_interfaces(sources)
-            sources = self._without_hopeless(sources)
+            sources = self._without_unreadable(self._without_hopeless(sources))
             if sources:
                 await self._build(sources)
             built = [
@@ -225,6 +226,24 @@ class _Session:
             names = ", ".join(sorted(self._left_out))
             self._announce(f"not built, because they cannot be built here and are not run: {names}")
         return [source for source in sources if source.name not in self._left_out]
+
+    def _without_unreadable(self, sources: Sequence[Source]) -> list[Source]:
+        """Report packages whose package.xml cannot be parsed; return the others.
+
+        Colcon would ignore the file, build the package as something else, or fail for all of them.
+        """
+        readable: list[Source] = []
+        for source in sources:
+            try:
+                _ = source.manifest
+            except ParseError as error:
+                place = f"{MANIFEST}:{error.location.line}:{error.location.column}"
+                self._builds[source.name] = Build(
+                    ok=False, errors=(f"not built: {place}: {error.message}",)
+                )
+            else:
+                readable.append(source)
+        return readable
 
     def results(self, sources: Sequence[Source]) -> tuple[PackageResult, ...]:
         """Return the results of packages, also after an interruption."""

@@ -281,6 +281,16 @@ def test_package_that_colcon_ignores(tmp_path: Path) -> None:
     assert result.packages[0].build.errors == ("not built: colcon does not find the package",)
 
 
+def test_package_with_a_broken_manifest(tmp_path: Path) -> None:
+    package = python_package(tmp_path, "broken", {"once": ONCE})
+    (package / "package.xml").write_text("<package>\n  <name>broken</name>\n")
+    result = smoke(packages_of(targets.find([str(package)])), Options())
+    assert not result.ok
+    (error,) = result.packages[0].build.errors
+    assert error.startswith("not built: package.xml:")
+    assert "<package> opened at line 1 is not closed" in error
+
+
 def test_build_timeout(sources: Path) -> None:
     found = packages_of(targets.find([str(sources / "good_py")]))
     result = smoke(found, Options(build_timeout=0.1))
