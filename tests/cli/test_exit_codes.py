@@ -216,6 +216,7 @@ def test_read_only_file_system_is_reported(
 
     (line,) = [line for line in run.stderr.splitlines() if "error: " in line]
     assert line.endswith(" cannot be written: Read-only file system; nothing was written")
+    assert "no findings" not in run.stdout
     assert "Traceback" not in run.stderr
     assert run.returncode == exit_codes.USAGE_ERROR
 

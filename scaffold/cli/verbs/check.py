@@ -275,6 +275,8 @@ def _fix(options: argparse.Namespace, session: Session, targets: Sequence[Target
         return [item for item in targets if item.package.directory not in options.refused]
 
     written, has_failed = fixing.write(options, session, targets, find_again)
+    if has_failed and not written:
+        return USAGE_ERROR  # the errors say why nothing was fixed, and nothing was checked
     results = [Result(item.package, len(item.package.files), item.diagnostics) for item in written]
     limits = {target.package.directory: target.only for target in targets}
     checked = [Target(result.package, limits.get(result.package.directory)) for result in results]
