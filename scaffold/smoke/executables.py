@@ -17,6 +17,7 @@ from scaffold.smoke import lifecycle
 from scaffold.smoke import run as trial
 from scaffold.smoke.expectation import Expectation, compare, wrong_rates
 from scaffold.smoke.options import Options
+from scaffold.smoke.processes.uninterrupted import uninterrupted
 from scaffold.smoke.result import Executable, Problem
 from scaffold.smoke.run import NodeRun, RunSettings
 from scaffold.smoke.scenario import verdicts
@@ -155,7 +156,7 @@ async def _gather(runs: Sequence[Coroutine[Any, Any, None]]) -> None:
     finally:
         for task in tasks:
             task.cancel()
-        await asyncio.wait(tasks)
+        await uninterrupted(asyncio.wait(tasks))
     for task in tasks:
         task.result()
 

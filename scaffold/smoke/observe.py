@@ -104,10 +104,12 @@ async def observing(
         yield observer
     finally:
         observer.dismiss()
-        if observer.is_ready:
-            await probe.ended_within(END_TIMEOUT)
-        await probe.close()
-        reader.cancel()
+        try:
+            if observer.is_ready:
+                await probe.ended_within(END_TIMEOUT)
+        finally:
+            await probe.close()
+            reader.cancel()
 
 
 class Observer:

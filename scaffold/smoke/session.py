@@ -31,6 +31,7 @@ from scaffold.smoke.expectation import Expectation
 from scaffold.smoke.isolation.station import Stations
 from scaffold.smoke.options import Options, Progress
 from scaffold.smoke.processes import process, supervisor
+from scaffold.smoke.processes.uninterrupted import uninterrupted
 from scaffold.smoke.result import Build, Executable, PackageResult, Smoke, Tests
 from scaffold.smoke.run import RunSettings
 from scaffold.smoke.scenario.model import FILE, NOTHING, Scenario
@@ -204,7 +205,7 @@ class _Session:
             if built:
                 await self._run(built)
         finally:
-            await self._stations.close()
+            await uninterrupted(self._stations.close())
 
     def _without_hopeless(self, sources: Sequence[Source]) -> list[Source]:
         """Report missing dependencies; return the packages that can be built.

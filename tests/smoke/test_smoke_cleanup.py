@@ -113,6 +113,19 @@ def test_detached_process_is_killed(tmp_path: Path) -> None:
     assert run_supervised(DETACHED, tmp_path, use) == ["sleep 612"]
 
 
+def test_cancellation_does_not_cut_the_end_of_a_process_short(tmp_path: Path) -> None:
+    async def use(running: process.Running) -> int | None:
+        closing = asyncio.create_task(running.close())
+        for _ in range(3):
+            await asyncio.sleep(0.01)
+            closing.cancel()
+        with pytest.raises(asyncio.CancelledError):
+            await closing
+        return running.exit_code
+
+    assert run_supervised(STUBBORN, tmp_path, use) == -signal.SIGKILL
+
+
 def test_fork_bomb_is_killed(tmp_path: Path) -> None:
     children: list[Path] = []
 

@@ -18,6 +18,7 @@ from typing import IO, Any, BinaryIO
 
 from scaffold.smoke.processes import table as process_table
 from scaffold.smoke.processes.marks import GRACE_OF_KILL, MARK
+from scaffold.smoke.processes.uninterrupted import uninterrupted
 
 GRACE_OF_SUPERVISOR = 60.0
 """Seconds for a supervisor to end its processes and itself."""
@@ -147,7 +148,7 @@ class Running:
         self._is_closing = True
         with suppress(OSError):
             self._requests.close()
-        await self._await_supervisor(0.0)
+        await uninterrupted(self._await_supervisor(0.0))
 
     async def _await_supervisor(self, grace: float) -> None:
         try:
