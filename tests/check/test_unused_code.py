@@ -319,6 +319,29 @@ def test_script_not_installed_by_cmake(package: Path, capsys: pytest.CaptureFixt
     assert severities(capsys, "MS002") == {"scripts/relay.py": "error"}
 
 
+@pytest.mark.parametrize(
+    ("command", "severity"),
+    [
+        ("install(PROGRAMS talker/talk.py DESTINATION lib/${PROJECT_NAME})", "warning"),
+        ("install(PROGRAMS talker/node.py DESTINATION lib/${PROJECT_NAME})", "error"),
+        ("install(DIRECTORY talker DESTINATION lib/${PROJECT_NAME})", "error"),
+        ("install(DIRECTORY ${PROJECT_NAME}/ DESTINATION lib/${PROJECT_NAME})", "error"),
+        ("ament_python_install_package(${PROJECT_NAME})", "error"),
+        ("ament_python_install_package(talker)", "error"),
+    ],
+)
+def test_module_of_a_package_that_cmake_does_not_install(
+    package: Path, capsys: pytest.CaptureFixture[str], command: str, severity: str
+) -> None:
+    (package / "setup.py").unlink()
+    manifest = MANIFEST.format("").replace("ament_python", "ament_cmake")
+    write(package / "package.xml", manifest)
+    write(package / "CMakeLists.txt", f"project(talker)\n{command}\nament_package()\n")
+    write(package / "talker" / "talk.py", "")
+    write(package / "talker" / "node.py", "import cv2\n" + MISTAKE)
+    assert severities(capsys, "MS002,PX020") == {"talker/node.py": severity}
+
+
 LAUNCH = """from launch import LaunchDescription
 from launch_ros.actions import Node
 

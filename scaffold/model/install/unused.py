@@ -33,6 +33,11 @@ _KEPT = (".py", ".xacro", ".urdf", ".launch", ".xml", ".yaml", ".yml")
 _RUNS_PYTHON = re.compile(rb"pytest|launch_test|nose|python|PYTHON|ament_lint_auto|\.py\b")
 """Matches commands of CMakeLists.txt that run or check Python."""
 _ADDS_DIRECTORY = re.compile(rb"\badd_subdirectory\s*\([^)]{0,200}\)")
+_INSTALLS_PYTHON = re.compile(
+    rb"ament_python_install|python_setup|setup\.py|(?<![/\w])\$\{PROJECT_NAME\}/?(?=[\s\")])"
+)
+"""Matches commands that may install a whole Python package, or a directory with its name."""
+_PROJECT = re.compile(rb"\bproject\s*\([^)]{0,200}\)")
 _TAKES_ALL = (
     rb"GLOB_RECURSE|\bDIRECTORY\s+\./?\s|\brglob|os\.walk\(\s*(?:[\"']\.?/?[\"']|os\.)|[\"']\*\*/"
 )
@@ -87,13 +92,24 @@ def _is_out_of_reach(package: Package, path: str, texts: tuple[str, ...]) -> boo
     if not any(package.has(item) for item in _BUILDING[:2]):
         return False
     parts = directory.split("/") if directory else []
-    if any(package.has("/".join([*parts[:at], "__init__.py"])) for at in range(1, len(parts) + 1)):
-        return False
     installing = [without_comments(package.data(item)) for item in _building(package)]
+    if is_in_python_package(package, path):
+        if not _is_built_by_cmake(package) or any(map(_INSTALLS_PYTHON.search, installing)):
+            return False
+        installing = [_PROJECT.sub(b"", data) for data in installing]
     is_mentioned = any(_mentions_directory(data, part) for part in parts for data in installing)
     takes_all = re.compile(rb"\*\.py" if not parts else _TAKES_ALL)
     is_taken_whole = any(map(takes_all.search, installing))
     return not (is_mentioned or is_taken_whole or is_named(package, path, stem, texts))
+
+
+def is_in_python_package(package: Package, path: str) -> bool:
+    """Tell whether a directory around a file has ``__init__.py``."""
+    directories = path.split("/")[:-1]
+    return any(
+        package.has("/".join([*directories[:at], "__init__.py"]))
+        for at in range(1, len(directories) + 1)
+    )
 
 
 def _building(package: Package) -> list[str]:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from scaffold.formats.hash_comments import without_comments
 from scaffold.model.cmake.ament import programs
-from scaffold.model.install.unused import TEXTS, is_named
+from scaffold.model.install.unused import TEXTS, is_in_python_package, is_named
 from scaffold.model.python.module import is_in_tests
 from scaffold.model.rclpy.api import NODE, has
 from scaffold.model.setup_py.package_data import installed_data
@@ -119,8 +119,7 @@ def is_unused_module(package: Package, path: str) -> bool:
 
 def _is_only_importable(package: Package, path: str) -> bool:
     """Tell whether setup.py installs a module in a Python package alone, not as a program."""
-    is_in_package = package.has(f"{path.rpartition('/')[0]}/__init__.py")
-    if package.build_type != "ament_python" or not is_in_package:
+    if package.build_type != "ament_python" or not is_in_python_package(package, path):
         return False
     data = installed_data(package)
     return data is not None and path not in data and package.setup_py.entry_points_complete
