@@ -456,6 +456,26 @@ def test_module_that_nothing_imports_or_starts(
 
 
 @pytest.mark.parametrize(
+    ("text", "severity"),
+    [
+        ("plan = [1]\nprint(plan[0], f(plan).plan)\n", "warning"),
+        ("from talker import plan\n", "error"),
+        ("from talker import (\n    node,\n    plan as made,\n)\n", "error"),
+        ("import importlib\n\nimportlib.import_module('talker.plan')\n", "error"),
+        ("import runpy\n\nrunpy.run_path(f'{HERE}/plan.py')\n", "error"),
+        ("NAMES = ['plan']\n", "error"),
+    ],
+)
+def test_variable_with_the_name_of_a_module(
+    package: Path, capsys: pytest.CaptureFixture[str], text: str, severity: str
+) -> None:
+    write(package / "setup.py", CONSOLE_SCRIPT)
+    write(package / "talker" / "node.py", text)
+    write(package / "talker" / "plan.py", UNDEFINED)
+    assert severities(capsys, "F821")["talker/plan.py"] == severity
+
+
+@pytest.mark.parametrize(
     ("path", "text"),
     [
         ("README.md", "Start it: `python3 talker/plan.py`\n"),

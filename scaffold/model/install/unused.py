@@ -38,6 +38,8 @@ _INSTALLS_PYTHON = re.compile(
 )
 """Matches commands that may install a whole Python package, or a directory with its name."""
 _PROJECT = re.compile(rb"\bproject\s*\([^)]{0,200}\)")
+_LIST_OF_NAMES = re.compile(rb"[\s\w,()]{0,400}")
+"""Matches a line that may belong to an import of several lines."""
 _TAKES_ALL = (
     rb"GLOB_RECURSE|\bDIRECTORY\s+\./?\s|\brglob|os\.walk\(\s*(?:[\"']\.?/?[\"']|os\.)|[\"']\*\*/"
 )
@@ -187,7 +189,25 @@ def _is_in_code(package: Package, path: str, name: str, directory: str) -> bool:
         data = package.data(path)
     except ViewError:
         return not path.endswith((".xml", ".yaml", ".yml", ".urdf"))
-    return _mentions(data, name, directory) and _mentions(without_comments(data), name, directory)
+    if not _mentions(data, name, directory):
+        return False
+    code = without_comments(data)
+    is_python = path.endswith(".py")
+    return _mentions(code, name, directory) and names_file(code, name, is_python=is_python)
+
+
+def names_file(code: bytes, stem: str, *, is_python: bool) -> bool:
+    """Tell whether code may import or start a file; Python may use its name for a variable."""
+    word = rb"(?<![\w-])%b(?![\w-])" % re.escape(stem.encode("utf-8", "surrogateescape"))
+    if not is_python:
+        return re.search(word, code) is not None
+    if re.search(rb"[\"'/]%b|%b(?:\.py\b|[\"'/:])" % (word, word), code):
+        return True
+    return any(
+        b"import" in line or _LIST_OF_NAMES.fullmatch(line)
+        for line in code.splitlines()
+        if re.search(word, line)
+    )
 
 
 def _mentions_directory(data: bytes, name: str) -> bool:

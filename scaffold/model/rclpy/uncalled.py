@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from scaffold.formats.hash_comments import without_comments
 from scaffold.model.cmake.ament import programs
-from scaffold.model.install.unused import TEXTS, is_in_python_package, is_named
+from scaffold.model.install.unused import TEXTS, is_in_python_package, is_named, names_file
 from scaffold.model.python.module import is_in_tests
 from scaffold.model.rclpy.api import NODE, has
 from scaffold.model.setup_py.package_data import installed_data
@@ -112,7 +112,7 @@ def is_unused_module(package: Package, path: str) -> bool:
             or is_named(package, path, stem, TEXTS if is_startable else ())
         ):
             return False
-        return not any(_is_named_in(user, path, (stem,)) for user in package.workspace)
+        return not any(_is_file_named_in(user, path, stem) for user in package.workspace)
 
     return package.remember(("unused module", path), find)
 
@@ -173,6 +173,22 @@ def _is_called_by_name(module: PythonModule, function: FunctionNode) -> bool:
         return False
     bases = {module.qualified_name(base) for base in class_.bases}
     return bases <= {NODE, "rclpy.Node", "object"} or bool(_CALLBACK.search(function.name))
+
+
+def _is_file_named_in(package: Package, module_path: str, stem: str) -> bool:
+    """Tell whether another file of a package may import or start a module."""
+    for path in package.files:
+        if not path.endswith(_NAMING) or path == module_path:
+            continue
+        try:
+            data = package.data(path)
+        except ViewError:
+            return True
+        if stem.encode("utf-8", "surrogateescape") in data and names_file(
+            without_comments(data), stem, is_python=path.endswith(".py")
+        ):
+            return True
+    return False
 
 
 def _is_named_in(package: Package, module_path: str, names: tuple[str, ...]) -> bool:
