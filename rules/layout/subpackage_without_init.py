@@ -4,7 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import CreateFile, Diagnostic, Effect, Example, Fix, Package, Report, Rule
+from scaffold.api import (
+    CreateFile,
+    Diagnostic,
+    Effect,
+    Example,
+    Fix,
+    Package,
+    Report,
+    Rule,
+    Severity,
+)
+from scaffold.api.install import is_never_run, is_unused_module
 from scaffold.api.python import UNKNOWN, Import, imports_by_path
 from scaffold.api.setup_py import FindPackages, matches, package_data
 
@@ -31,6 +42,7 @@ class SubpackageWithoutInit(Rule):
     code = "LY004"
     name = "subpackage-without-init"
     effect = Effect.STOPS_BUILD
+    other_severities = {Severity.WARNING: "only modules that nothing imports or starts import it"}
     examples = (
         Example("with", {**_FILES, "talker/text/__init__.py": ""}),
         Example(
@@ -62,6 +74,25 @@ class SubpackageWithoutInit(Rule):
             },
         ),
         Example(
+            "without, in a module that nothing imports or starts",
+            {
+                **_FILES,
+                "setup.py": "from setuptools import find_packages, setup\n\n"
+                "setup(packages=find_packages(),\n"
+                "      entry_points={'console_scripts': ['node = talker.node:main']})\n",
+                "talker/node.py": "def main():\n    pass\n",
+                "talker/past.py": "from talker.text.hello import hello\n",
+            },
+            Report(
+                "talker/text/__init__.py:1:1",
+                "missing: talker/past.py:1 imports from talker/text/, which is not "
+                "installed without it",
+                fix="Create talker/text/__init__.py",
+                severity=Severity.WARNING,
+            ),
+            fixed={"talker/text/__init__.py": ""},
+        ),
+        Example(
             "without",
             _FILES,
             Report(
@@ -78,23 +109,28 @@ class SubpackageWithoutInit(Rule):
         packages = package.setup_py.packages
         if package.build_type != "ament_python" or packages is UNKNOWN:
             return
-        reported: set[str] = set()
+        missing: dict[str, tuple[Import, str, bool]] = {}
         for path, imports in imports_by_path(package):
             for item in (one for one in imports if not one.in_tests):
                 for directory in _directories(package, path, item):
                     init = f"{directory}/__init__.py"
-                    if init in reported or package.has(init):
+                    earlier = missing.get(init)
+                    if package.has(init) or (earlier and earlier[2]):
                         continue
                     if self._is_listed(packages, directory) or _is_data(package, directory):
                         continue
-                    reported.add(init)
-                    at = item.location
-                    message = (
-                        f"missing: {at.path}:{at.line} imports from {directory}/, which is not "
-                        "installed without it"
-                    )
-                    fix = Fix(f"Create {init}", (CreateFile(init, ""),))
-                    yield self.report(package.start_of(init), message, fix)
+                    is_used = not (is_never_run(package, path) or is_unused_module(package, path))
+                    if is_used or earlier is None:
+                        missing[init] = (item, directory, is_used)
+        for init, (item, directory, is_used) in missing.items():
+            at = item.location
+            message = (
+                f"missing: {at.path}:{at.line} imports from {directory}/, which is not "
+                "installed without it"
+            )
+            fix = Fix(f"Create {init}", (CreateFile(init, ""),))
+            severity = None if is_used else Severity.WARNING
+            yield self.report(package.start_of(init), message, fix, severity=severity)
 
     def _is_listed(self, packages: object, directory: str) -> bool:
         if isinstance(packages, FindPackages):

@@ -26,6 +26,9 @@ SETUP = """from setuptools import find_packages, setup
 
 setup(name='talker', version='0.1.0', packages=find_packages(exclude=['test']))
 """
+CONSOLE_SCRIPT = SETUP.replace(
+    ", packages", ", entry_points={'console_scripts': ['talk = talker.node:main']}, packages"
+)
 MISTAKE = "from std_msgs.msg import String\n\nString().text\n"
 UNDEFINED = "print(undefined)\n"
 NODE = """import rclpy
@@ -250,6 +253,29 @@ def test_method_called_by_another_module(package: Path, capsys: pytest.CaptureFi
     assert severities(capsys, "MS002") == {"talker/talk.py": "error"}
 
 
+@pytest.mark.parametrize(
+    ("path", "text", "severity"),
+    [
+        ("talker/other.py", "", "warning"),
+        ("talker/other.py", "from talker.talk import Teller\n", "error"),
+        ("plugin.xml", "<class type='talker.talk.Teller'/>\n", "error"),
+        ("setup.py", CONSOLE_SCRIPT.replace("node:main", "talk:Teller"), "error"),
+    ],
+)
+def test_class_that_is_never_used(
+    package: Path, capsys: pytest.CaptureFixture[str], path: str, text: str, severity: str
+) -> None:
+    teller = "class Teller:\n    def __init__(self):\n        undefined(self)\n\n\n"
+    write(package / "talker" / "talk.py", teller + "def main():\n    pass\n")
+    write(package / path, text)
+    assert severities(capsys, "F821") == {"talker/talk.py": severity}
+    write(package / "talker" / "talk.py", teller + "def main():\n    Teller()\n")
+    assert severities(capsys, "F821") == {"talker/talk.py": "error"}
+    early = "class Teller(undefined):\n    name = undefined\n\n\ndef main():\n    pass\n"
+    write(package / "talker" / "talk.py", early)
+    assert severities(capsys, "F821") == {"talker/talk.py": "error"}
+
+
 def test_code_after_spin(package: Path, capsys: pytest.CaptureFixture[str]) -> None:
     node = "import rclpy\n\n\ndef main():\n    rclpy.init()\n{}\n    rclpy.spin(node)\n{}\n"
     write(package / "talker" / "late.py", node.format("    node = 1", "    made.destroy()"))
@@ -425,11 +451,6 @@ def test_script_not_installed_by_setup_py(
     }
     write(package / "setup.py", SETUP.replace(")\n", ", scripts=['scripts/relay.py'])\n"))
     assert severities(capsys, "MS002")["scripts/relay.py"] == "error"
-
-
-CONSOLE_SCRIPT = SETUP.replace(
-    ", packages", ", entry_points={'console_scripts': ['talk = talker.node:main']}, packages"
-)
 
 
 @pytest.mark.parametrize(

@@ -26,7 +26,7 @@ _COMPUTED = re.compile(r"\bgetattr\([^,\n]{0,200},\s{0,9}(?![\"'\s])")
 """Matches the computation of the name of an attribute."""
 _IMPORTS_RELATIVELY = re.compile(rb"(?m)^[ \t]*from[ \t]+\.")
 _WORD = re.compile(r"\w+")
-_DEFINITION = re.compile(r"\bdef\s+(\w+)")
+_DEFINITION = re.compile(r"\b(?:class|def)\s+(\w+)")
 _ENTRIES = frozenset({"main", "generate_launch_description"})
 _NAMING = (".py", ".cfg", ".toml", ".cpp", ".hpp")
 """The endings of files that may call a function of Python, or tell who does."""
@@ -61,7 +61,7 @@ def may_be_in_uncalled_function(package: Package, path: str, line: int) -> bool:
 
 
 def is_in_uncalled_function(package: Package, module: PythonModule, line: int) -> bool:
-    """Tell whether a line is in a function of a program or launch file that is never mentioned.
+    """Tell whether a line is in a function or class that a program or launch file never mentions.
 
     A library is used from elsewhere, but for what helps the programs of its package, or launch
     files; a class may be called by an unknown base.
@@ -73,18 +73,50 @@ def is_in_uncalled_function(package: Package, module: PythonModule, line: int) -
     is_helper = not (is_program or is_launch_file)
     if module.in_tests or (is_helper and not _helps_programs(package, module)):
         return False
+    if _is_in_unused_class(package, module, line):
+        return True
     function = _outermost_function(module, line)
     if function is None or _is_decorated(function) or not _is_called_by_name(module, function):
         return False
-    if is_helper and module.enclosing_class(function) is not None:
-        return False
-    if module.mentions(*_LOOKUPS) or _COMPUTED.search(module.source.text):
+    is_method_of_helper = is_helper and module.enclosing_class(function) is not None
+    looks_up = module.mentions(*_LOOKUPS) or _COMPUTED.search(module.source.text)
+    if is_method_of_helper or looks_up:
         return False
     named = _named_in(without_comments(module.source.text), function.name)
     stem = module.path.rpartition("/")[2].removesuffix(".py")
     names = (function.name,) if is_helper else (stem, function.name)
     users = package.workspace if is_helper else [package]
     return named == 1 and not any(_is_named_in(user, module.path, names) for user in users)
+
+
+def _is_in_unused_class(package: Package, module: PythonModule, line: int) -> bool:
+    """Tell whether a line is in a method of a class that no file of the workspace mentions."""
+    for class_ in module.tree.body:
+        if not isinstance(class_, ast.ClassDef) or not _covers(class_, line):
+            continue
+        functions = (item for item in class_.body if isinstance(item, ast.FunctionDef))
+        is_run_later = line == class_.lineno or any(
+            item.body[0].lineno <= line and _covers(item, line) for item in functions
+        )
+        if not is_run_later or class_.decorator_list or class_.keywords:
+            return False
+        if not _has_known_bases(module, class_) or module.mentions(*_LOOKUPS):
+            return False
+        named = _named_in(without_comments(module.source.text), class_.name)
+        return named == 1 and not any(
+            _is_named_in(user, module.path, (class_.name,), (*_NAMING, ".xml"))
+            for user in package.workspace
+        )
+    return False
+
+
+def _covers(node: ast.stmt, line: int) -> bool:
+    return node.lineno <= line <= (node.end_lineno or node.lineno)
+
+
+def _has_known_bases(module: PythonModule, class_: ast.ClassDef) -> bool:
+    bases = {module.qualified_name(base) for base in class_.bases}
+    return bases <= {NODE, "rclpy.Node", "object"}
 
 
 def is_unused_module(package: Package, path: str) -> bool:
@@ -171,8 +203,7 @@ def _is_called_by_name(module: PythonModule, function: FunctionNode) -> bool:
         return True
     if class_.decorator_list or class_.keywords or has(NODE, function.name):
         return False
-    bases = {module.qualified_name(base) for base in class_.bases}
-    return bases <= {NODE, "rclpy.Node", "object"} or bool(_CALLBACK.search(function.name))
+    return _has_known_bases(module, class_) or bool(_CALLBACK.search(function.name))
 
 
 def _is_file_named_in(package: Package, module_path: str, stem: str) -> bool:
@@ -191,10 +222,12 @@ def _is_file_named_in(package: Package, module_path: str, stem: str) -> bool:
     return False
 
 
-def _is_named_in(package: Package, module_path: str, names: tuple[str, ...]) -> bool:
+def _is_named_in(
+    package: Package, module_path: str, names: tuple[str, ...], endings: tuple[str, ...] = _NAMING
+) -> bool:
     """Tell whether another module of a package mentions all of some names."""
     for path in package.files:
-        if not path.endswith(_NAMING) or path == module_path:
+        if not path.endswith(endings) or path == module_path:
             continue
         try:
             text = package.data(path).decode(errors="replace")
