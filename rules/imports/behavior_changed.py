@@ -1,4 +1,4 @@
-"""IM052: calls that mean something else after a move to another distribution."""
+"""IM052: calls behave the same after a migration to another distribution."""
 
 from __future__ import annotations
 
@@ -71,13 +71,14 @@ _LATER = "from Kilted on, a timeout raises TimeoutError, and returned None befor
 
 
 class BehaviorChanged(PythonRule):
-    """A call behaves differently on the target than on the distribution that the code comes from.
+    """A call behaves differently on the target distribution than on the previous one.
 
-    Only ``migrate`` reports it: it knows where the code comes from.
+    Only ``migrate`` reports it, because it knows the previous distribution.
 
-    **Why.** Nothing fails at start: a default, or the way to report a failure, has changed.
+    **Why.** The program starts without an error, but a default, or the way that a failure is
+    reported, has changed.
 
-    **Fix.** Pass the value that the program relies on, or handle both behaviors.
+    **Fix.** Pass the value explicitly, or handle both behaviors.
 
     **Source.** The pull requests that ``scaffold/data/changes.toml`` names.
     """
@@ -88,7 +89,7 @@ class BehaviorChanged(PythonRule):
     effect = Effect.WRONG_BEHAVIOR
     is_about_moves = True
     examples = (
-        Example("not moved", {"counter.py": _SERVER.format("")}, distro="lyrical"),
+        Example("no migration", {"counter.py": _SERVER.format("")}, distro="lyrical"),
         Example(
             "an explicit value",
             {"counter.py": _SERVER.format(", result_timeout=900")},
@@ -104,7 +105,7 @@ class BehaviorChanged(PythonRule):
             moved_from="jazzy",
         ),
         Example(
-            "a default, of the class above",
+            "a default of the base class",
             {"counter.py": _SUBCLASS.format("")},
             "8:9: from Kilted on, a result is kept for 10 s, not for 900: a client that asks "
             "later gets none; pass result_timeout=900 to keep it as long (rclpy 1171)",
@@ -112,7 +113,7 @@ class BehaviorChanged(PythonRule):
             moved_from="jazzy",
         ),
         Example(
-            "an explicit value for the class above",
+            "an explicit value for the base class",
             {"counter.py": _SUBCLASS.format(", result_timeout=900")},
             distro="lyrical",
             moved_from="jazzy",
@@ -152,7 +153,7 @@ class BehaviorChanged(PythonRule):
             moved_from="jazzy",
         ),
         Example(
-            "a timeout that a handler of any exception takes: nothing is lost",
+            "a timeout that a handler for any exception handles",
             {
                 "asker.py": _CLIENT.format(_ANY.format("return None")),
                 "other.py": _CLIENT.format("        answer = None\n" + _ANY.format("pass")),
@@ -161,7 +162,7 @@ class BehaviorChanged(PythonRule):
             moved_from="jazzy",
         ),
         Example(
-            "a timeout that a handler of any exception raises again, or leaves without an answer",
+            "a timeout that a handler for any exception raises again or ignores",
             {
                 "asker.py": _CLIENT.format(_ANY.format("raise")),
                 "other.py": _CLIENT.format(_ANY.format("print('none')")),
@@ -172,7 +173,7 @@ class BehaviorChanged(PythonRule):
             moved_from="jazzy",
         ),
         Example(
-            "an array that is not to be copied",
+            "an array that must not be copied",
             {
                 "area.py": "import numpy as np\n\n\ndef area(values):\n"
                 "    first = np.array(values, copy=False)\n"
@@ -184,7 +185,7 @@ class BehaviorChanged(PythonRule):
             moved_from="jazzy",
         ),
         Example(
-            "a process that is given a node",
+            "a process that gets a node",
             {
                 "work.py": _WORKER.format("self.work"),
                 "function.py": _WORKER.format("work"),
@@ -199,13 +200,13 @@ class BehaviorChanged(PythonRule):
             moved_from="jazzy",
         ),
         Example(
-            "from where there is no such argument",
+            "migration from a distribution without the argument",
             {"asker.py": _CLIENT.format(_CALL.format("timeout_sec=1.0"))},
             distro="lyrical",
             moved_from="humble",
         ),
         Example(
-            "accepted, and not moved any more",
+            "accepted, and no longer migrated",
             {"counter.py": _SERVER.format("").replace("run)", "run)  # noqa: IM052")},
             distro="lyrical",
         ),

@@ -1,4 +1,4 @@
-"""IM043: two modules do not import names of each other."""
+"""IM043: two modules do not import names from each other."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ _FILES = {"talker/__init__.py": "", "talker/text.py": "TEXT = ''\n"}
 
 
 class CircularImport(Rule):
-    """Two modules import names from each other at their top.
+    """Two modules import names from each other at module level.
 
     **Why.** The second one is not complete when the first imports from it: ``ImportError: cannot
     import name 'Talker' from partially initialized module``.
@@ -25,18 +25,18 @@ class CircularImport(Rule):
     code = "IM043"
     name = "circular-import"
     examples = (
-        Example("one way", {**_FILES, "talker/node.py": "from talker.text import TEXT\n"}),
+        Example("one direction", {**_FILES, "talker/node.py": "from talker.text import TEXT\n"}),
         Example(
-            "both ways",
+            "both directions",
             {
                 "talker/__init__.py": "",
                 "talker/text.py": "from talker.node import NODE\n\nTEXT = ''\n",
                 "talker/node.py": "from talker.text import TEXT\n\nNODE = 1\n",
             },
-            "talker/node.py:1:1: circular import: talker/text.py:1 imports from this module as "
-            "well, so one of them fails with ImportError",
-            "talker/text.py:1:1: circular import: talker/node.py:1 imports from this module as "
-            "well, so one of them fails with ImportError",
+            "talker/node.py:1:1: circular import: talker/text.py:1 imports from this module, too: "
+            "ImportError; move the common names to a third module",
+            "talker/text.py:1:1: circular import: talker/node.py:1 imports from this module, too: "
+            "ImportError; move the common names to a third module",
         ),
     )
 
@@ -54,8 +54,8 @@ class CircularImport(Rule):
                 continue
             if _takes_names(package, back, path):
                 message = (
-                    f"circular import: {other}:{back.location.line} imports from this module as "
-                    "well, so one of them fails with ImportError"
+                    f"circular import: {other}:{back.location.line} imports from this module, "
+                    f"too: ImportError; move the common names to a third module"
                 )
                 yield self.report(item, message)
 

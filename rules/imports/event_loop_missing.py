@@ -1,4 +1,4 @@
-"""IM054: an event loop is made before it is asked for."""
+"""IM054: an event loop is created before it is requested."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ _OLD = "asyncio.get_event_loop()"
 
 
 class EventLoopMissing(PythonRule):
-    """A program asks asyncio for the current event loop when there is none.
+    """A program requests the current event loop of asyncio when there is none.
 
     Reported in ``main``, in a function that it calls, in the constructor or a timer of its node,
     and at the top of a module, if no loop is running and the file sets none.
@@ -35,7 +35,7 @@ class EventLoopMissing(PythonRule):
     **Why.** Python 3.14, which Lyrical uses, does not create one: ``RuntimeError: There is no
     current event loop in thread 'MainThread'``.
 
-    **Fix.** Run the coroutine with ``asyncio.run()``, or make the loop with
+    **Fix.** Run the coroutine with ``asyncio.run()``, or create the loop with
     ``asyncio.new_event_loop()`` and set it with ``asyncio.set_event_loop()``.
 
     **Source.** Python 3.14, "What's new", asyncio; ClusterLabs/crmsh issue 2032.
@@ -52,12 +52,12 @@ class EventLoopMissing(PythonRule):
             distro="lyrical",
         ),
         Example(
-            "one that the file sets",
+            "a loop that the file sets",
             {"talker.py": _MAIN.format("asyncio.set_event_loop(asyncio.new_event_loop())", _OLD)},
             distro="lyrical",
         ),
         Example(
-            "a program that is prepared, and one that a loop may call",
+            "a program that handles the error, and a function that a loop may call",
             {
                 "talker.py": "import asyncio\nimport sys\n\n\ndef main():\n    try:\n"
                 f"        loop = {_OLD}\n    except RuntimeError:\n"
@@ -69,7 +69,8 @@ class EventLoopMissing(PythonRule):
             distro="lyrical",
         ),
         Example(
-            "functions that something else calls, that may not ask, or whose caller is prepared",
+            "functions that other code calls, that may not request a loop, or whose caller "
+            "handles the error",
             {
                 "talker.py": "import asyncio\n\n\n"
                 f"def later():\n    return {_OLD}\n\n\n"
@@ -84,7 +85,7 @@ class EventLoopMissing(PythonRule):
             distro="lyrical",
         ),
         Example(
-            "a policy of asyncio's own, which sets no loop",
+            "the default policy of asyncio, which sets no loop",
             {
                 "talker.py": _MAIN.format(
                     "asyncio.set_event_loop_policy(asyncio.DefaultEventLoopPolicy())", _OLD
@@ -94,7 +95,7 @@ class EventLoopMissing(PythonRule):
                 ),
             },
             "talker.py:10:12: Python 3.14 creates no event loop here: RuntimeError; use "
-            "asyncio.run(), or set one that asyncio.new_event_loop() makes",
+            "asyncio.run(), or set one with asyncio.new_event_loop()",
             distro="lyrical",
         ),
         Example(
@@ -103,12 +104,12 @@ class EventLoopMissing(PythonRule):
                 "talker.py": f"import asyncio\n\n\ndef loop():\n    return {_OLD}\n\n\n"
                 "def main():\n    loop().run_forever()\n",
             },
-            "talker.py:5:12: Python 3.14 creates no event loop here: RuntimeError; use "
-            "asyncio.run(), or set one that asyncio.new_event_loop() makes",
+            "5:12: Python 3.14 creates no event loop here: RuntimeError; use asyncio.run(), or "
+            "set one with asyncio.new_event_loop()",
             distro="lyrical",
         ),
         Example(
-            "in the constructor and a timer of a node that main makes, and in others",
+            "in the constructor and a timer of a node that main creates, and in other places",
             {
                 "talker.py": "import asyncio\n\nimport rclpy\nfrom rclpy.node import Node\n\n\n"
                 "class Talker(Node):\n    def __init__(self):\n"
@@ -122,22 +123,22 @@ class EventLoopMissing(PythonRule):
                 "def main():\n    rclpy.init()\n    rclpy.spin(Talker())\n",
             },
             "10:21: Python 3.14 creates no event loop here: RuntimeError; use asyncio.run(), or "
-            "set one that asyncio.new_event_loop() makes",
+            "set one with asyncio.new_event_loop()",
             "14:9: Python 3.14 creates no event loop here: RuntimeError; use asyncio.run(), or "
-            "set one that asyncio.new_event_loop() makes",
+            "set one with asyncio.new_event_loop()",
             distro="lyrical",
         ),
         Example(
-            "in main, and where the module starts",
+            "in main, and at module level",
             {
                 "talker.py": _MAIN.format("", _OLD),
                 "listener.py": "import asyncio\n\n"
                 f"if __name__ == '__main__':\n    {_OLD}.close()\n",
             },
             "listener.py:4:5: Python 3.14 creates no event loop here: RuntimeError; use "
-            "asyncio.run(), or set one that asyncio.new_event_loop() makes",
+            "asyncio.run(), or set one with asyncio.new_event_loop()",
             "talker.py:10:12: Python 3.14 creates no event loop here: RuntimeError; use "
-            "asyncio.run(), or set one that asyncio.new_event_loop() makes",
+            "asyncio.run(), or set one with asyncio.new_event_loop()",
             distro="lyrical",
         ),
     )
@@ -154,7 +155,7 @@ class EventLoopMissing(PythonRule):
                 continue
             message = (
                 f"Python {target().python_version} creates no event loop here: RuntimeError; use "
-                "asyncio.run(), or set one that asyncio.new_event_loop() makes"
+                f"asyncio.run(), or set one with asyncio.new_event_loop()"
             )
             yield self.report(module.location(call), message)
 

@@ -1,4 +1,4 @@
-"""IM053: annotations are asked of classes, not of their objects."""
+"""IM053: annotations are read from classes, not from instances."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _CLASS = (
 class InstanceAnnotations(PythonRule):
     """Code reads the annotations of a class from an instance.
 
-    **Why.** From Python 3.14 on, which Lyrical uses, an object does not have them:
+    **Why.** Since Python 3.14, which Lyrical uses, instances do not have them:
     ``self.__annotations__`` raises ``AttributeError``, and ``getattr`` returns its default, as if
     nothing were annotated.
 
@@ -37,7 +37,7 @@ class InstanceAnnotations(PythonRule):
     since = "0.2"
     examples = (
         Example(
-            "the class",
+            "annotations of the class",
             {"arguments.py": _CLASS.format("", "type(self).__annotations__")},
             distro="lyrical",
         ),
@@ -46,7 +46,7 @@ class InstanceAnnotations(PythonRule):
             {"arguments.py": _CLASS.format("", "self.__annotations__")},
         ),
         Example(
-            "annotations that stay text",
+            "annotations that remain strings",
             {
                 "arguments.py": _CLASS.format(
                     "from __future__ import annotations\n\n", "self.__annotations__"
@@ -55,19 +55,19 @@ class InstanceAnnotations(PythonRule):
             distro="lyrical",
         ),
         Example(
-            "an object",
+            "annotations of an instance",
             {"arguments.py": _CLASS.format("", "self.__annotations__")},
             "9:21: instances have no '__annotations__' in Python 3.14: AttributeError; use "
             "type(self).__annotations__ or dataclasses.fields(self)",
             distro="lyrical",
         ),
         Example(
-            "an object, with a default",
+            "annotations of an instance, with a default",
             {"arguments.py": _CLASS.format("", "getattr(self, '__annotations__', {})")},
             Report(
                 "9:21",
-                "instances have no '__annotations__' in Python 3.14: this is the "
-                "default, whatever is annotated; use type(self).__annotations__ or "
+                "instances have no '__annotations__' in Python 3.14: this is always "
+                "the default; use type(self).__annotations__ or "
                 "dataclasses.fields(self)",
                 severity=Severity.WARNING,
             ),
@@ -98,5 +98,5 @@ class InstanceAnnotations(PythonRule):
                     func=ast.Name(id="getattr"),
                     args=[ast.Name(id="self"), ast.Constant(value="__annotations__"), _],
                 ):
-                    message = f"{python}: this is the default, whatever is annotated; {advice}"
+                    message = f"{python}: this is always the default; {advice}"
                     yield self.report(module.location(call), message, severity=Severity.WARNING)

@@ -18,7 +18,7 @@ _MODULES = {
 
 
 class ModuleCalled(PythonRule):
-    """A module is called as if it were the function of the same name in it.
+    """A module is called instead of its function of the same name.
 
     **Why.** ``TypeError: 'module' object is not callable``; in setup.py the build stops.
 
@@ -30,11 +30,13 @@ class ModuleCalled(PythonRule):
     code = "IM045"
     name = "module-called"
     examples = (
-        Example("its function", {"setup.py": "import glob\n\nFILES = glob.glob('launch/*')\n"}),
         Example(
-            "the module",
+            "the function called", {"setup.py": "import glob\n\nFILES = glob.glob('launch/*')\n"}
+        ),
+        Example(
+            "the module called",
             {"setup.py": "import glob\n\nFILES = glob('launch/*')\n"},
-            "3:9: 'glob' is a module here: TypeError; use glob.glob()",
+            "3:9: 'glob' is a module, not a function: TypeError; use glob.glob()",
         ),
     )
 
@@ -43,5 +45,5 @@ class ModuleCalled(PythonRule):
             return
         for name, function in _MODULES.items():
             for call in module.calls_of(name):
-                message = f"{name!r} is a module here: TypeError; use {function}()"
+                message = f"{name!r} is a module, not a function: TypeError; use {function}()"
                 yield self.report(module.location(call.func), message)

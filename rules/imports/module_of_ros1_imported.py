@@ -17,7 +17,7 @@ _NEW = {
     "tf": "tf2_ros",
 }
 _WITHOUT_PYTHON = {"rclcpp": "rclpy", "rclcpp_action": "rclpy.action", "tf2": "tf2_ros"}
-"""Libraries of ROS 2 for C++ alone."""
+"""Libraries of ROS 2 for C++ only."""
 _MANIFEST = (
     "<package format='3'><name>talker</name><export><build_type>ament_cmake</build_type></export>"
     "</package>\n"
@@ -28,7 +28,7 @@ class ModuleOfRos1Imported(Rule):
     """A module of ROS 1 is imported, or a ROS 2 module that exists only for C++.
 
     **Why.** ``ModuleNotFoundError: No module named 'rospy'`` when the node is started. ``rospkg``
-    can be installed, but looks in ``ROS_PACKAGE_PATH``, which ROS 2 does not set:
+    can be installed, but searches ``ROS_PACKAGE_PATH``, which ROS 2 does not set:
     ``ResourceNotFound``.
 
     **Fix.** Use its successor.
@@ -39,19 +39,19 @@ class ModuleOfRos1Imported(Rule):
     code = "IM044"
     name = "module-of-ros1-imported"
     examples = (
-        Example("of ROS 2", {"package.xml": _MANIFEST, "talker/node.py": "import rclpy\n"}),
+        Example("modules of ROS 2", {"package.xml": _MANIFEST, "talker/node.py": "import rclpy\n"}),
         Example(
-            "of C++",
+            "a package for C++",
             {
                 "package.xml": _MANIFEST,
                 "talker/node.py": "import rclpy\nfrom tf2 import LookupException\n",
             },
-            "talker/node.py:2:1: 'tf2' has no Python module; use tf2_ros",
+            "talker/node.py:2:1: 'tf2' has no Python module: ModuleNotFoundError; use tf2_ros",
         ),
         Example(
-            "of ROS 1",
+            "modules of ROS 1",
             {"package.xml": _MANIFEST, "talker/node.py": "import rclpy\nimport rospy\n"},
-            "talker/node.py:2:1: 'rospy' belongs to ROS 1; use rclpy",
+            "talker/node.py:2:1: 'rospy' is a module of ROS 1: ModuleNotFoundError; use rclpy",
         ),
         Example(
             "of ROS 1, in a program",
@@ -65,7 +65,7 @@ class ModuleOfRos1Imported(Rule):
                 "    rospy.init_node('talker')\n",
                 "talker/past.py": "import rospy\n",
             },
-            "talker/node.py:1:1: 'rospy' belongs to ROS 1; use rclpy",
+            "talker/node.py:1:1: 'rospy' is a module of ROS 1: ModuleNotFoundError; use rclpy",
         ),
         Example(
             "of ROS 1, in a program that is only installed for ROS 1",
@@ -79,21 +79,21 @@ class ModuleOfRos1Imported(Rule):
             },
         ),
         Example(
-            "rospkg, of which nothing is asked that ROS 2 does not know",
+            "rospkg, used only for what works in ROS 2",
             {
                 "package.xml": _MANIFEST,
                 "talker/node.py": "import rclpy\nimport rospkg\n\nprint(rospkg.__version__)\n",
             },
         ),
         Example(
-            "rospkg, asked for a package",
+            "rospkg, used to find a package",
             {
                 "package.xml": _MANIFEST,
                 "talker/node.py": "import rclpy\nfrom rospkg import RosPack\n\n"
                 "print(RosPack().get_path('talker'))\n",
             },
-            "talker/node.py:4:7: rospkg only finds packages of ROS 1: ResourceNotFound; use "
-            "get_package_share_directory() of ament_index_python",
+            "talker/node.py:4:7: rospkg only finds ROS 1 packages: ResourceNotFound; use "
+            "get_package_share_directory() from ament_index_python",
         ),
     )
 
@@ -113,15 +113,16 @@ class ModuleOfRos1Imported(Rule):
                 if not is_known or item.guarded or item.conditional or package.has_directory(root):
                     continue
                 message = (
-                    f"{root!r} belongs to ROS 1; use {_NEW[root]}"
+                    f"{root!r} is a module of ROS 1: ModuleNotFoundError; use {_NEW[root]}"
                     if root in _NEW
-                    else f"{root!r} has no Python module; use {_WITHOUT_PYTHON[root]}"
+                    else f"{root!r} has no Python module: ModuleNotFoundError; use "
+                    f"{_WITHOUT_PYTHON[root]}"
                 )
                 yield self.report(item, message)
             for at in rospack_lookups(package, path):
                 message = (
-                    "rospkg only finds packages of ROS 1: ResourceNotFound; use "
-                    "get_package_share_directory() of ament_index_python"
+                    "rospkg only finds ROS 1 packages: ResourceNotFound; use "
+                    "get_package_share_directory() from ament_index_python"
                 )
                 yield self.report(at, message)
 

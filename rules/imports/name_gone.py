@@ -64,10 +64,10 @@ _SECOND = (2,)
 class NameGone(PythonRule):
     """Code uses a name that NumPy, Pillow, SciPy or OpenCV on Ubuntu 24.04 does not have.
 
-    **Why.** ``AttributeError: module 'numpy' has no attribute 'float'`` as soon as the line runs.
-    Names of NumPy 2 work on a machine with a newer NumPy from pip, and nowhere else.
+    **Why.** ``AttributeError: module 'numpy' has no attribute 'float'`` when the line is executed.
+    Names of NumPy 2 only work on machines with a newer NumPy from pip.
 
-    **Fix.** Use the name in the message.
+    **Fix.** Use the replacement in the message.
 
     **Source.** Release notes of NumPy 1.24 and 2.0, Pillow 10 and SciPy; Ubuntu 24.04 has NumPy
     1.26, Pillow 10.2 and SciPy 1.11.
@@ -79,7 +79,7 @@ class NameGone(PythonRule):
     examples = (
         Example("a name that exists", {"area.py": _NODE.format("np.trapz(values)")}),
         Example(
-            "asked for first, or put there",
+            "tested first, or set by the code",
             {
                 "area.py": _NODE.format("np.trapezoid(values)").replace(
                     "    return",
@@ -93,9 +93,10 @@ class NameGone(PythonRule):
             },
         ),
         Example(
-            "a name that is gone",
+            "a removed name",
             {"area.py": _NODE.format("np.array(values, np.float)")},
-            "5:29: numpy.float is gone since NumPy 1.24: AttributeError; use float or np.float64",
+            "5:29: numpy.float was removed since NumPy 1.24: AttributeError; use float or "
+            "np.float64",
         ),
         Example(
             "a name of NumPy 2",
@@ -104,26 +105,26 @@ class NameGone(PythonRule):
                 "package.xml": '<package format="3">\n  <name>area</name>\n'
                 "  <exec_depend>python3-numpy</exec_depend>\n</package>\n",
             },
-            "area.py:5:12: numpy.trapezoid came with NumPy 2, Jazzy has 1.26: AttributeError; use "
-            "np.trapz()",
+            "area.py:5:12: numpy.trapezoid is new in NumPy 2, but Jazzy has 1.26: AttributeError; "
+            "use np.trapz()",
         ),
         Example(
-            "a name of NumPy 2, and no package",
+            "a name of NumPy 2, without a package",
             {"area.py": _NODE.format("np.concat(values)")},
             Report(
                 "5:12",
-                "numpy.concat came with NumPy 2, Jazzy has 1.26: "
-                "AttributeError; use np.concatenate()",
+                "numpy.concat is new in NumPy 2, but Jazzy has 1.26: AttributeError; "
+                "use np.concatenate()",
                 severity=Severity.WARNING,
             ),
         ),
         Example(
-            "what NumPy 2 has",
+            "names that exist in NumPy 2",
             {"a.py": _NODE.format("np.trapezoid(np.asarray(values, np.bool))")},
             distro="lyrical",
         ),
         Example(
-            "of the system, and without a loader",
+            "yaml.load() without a loader",
             {
                 "a.py": "import yaml\n\n\ndef read(path):\n    with open(path) as file:\n"
                 "        return yaml.load(file)\n"
@@ -131,7 +132,7 @@ class NameGone(PythonRule):
             "6:16: yaml.load() needs a Loader since PyYAML 6: TypeError; use safe_load()",
         ),
         Example(
-            "with a loader",
+            "yaml.load() with a loader",
             {
                 "a.py": "import yaml\n\n\ndef read(path):\n    with open(path) as file:\n"
                 "        return yaml.load(file, Loader=yaml.SafeLoader)\n"
@@ -154,13 +155,13 @@ class NameGone(PythonRule):
                 continue
             if is_gone:
                 since, instead = _GONE[name]
-                message = f"{name} is gone {since}: AttributeError; use {instead}"
+                message = f"{name} was removed {since}: AttributeError; use {instead}"
                 yield self.report(module.location(node), message)
             else:
                 has = target().fact("numpy").rpartition(".")[0]
                 message = (
-                    f"{name} came with NumPy 2, {target().title} has {has}: AttributeError; use "
-                    f"{_LATER[short]}"
+                    f"{name} is new in NumPy 2, but {target().title} has {has}: AttributeError; "
+                    f"use {_LATER[short]}"
                 )
                 severity = None if _has_numpy_of_system(package) else Severity.WARNING
                 yield self.report(module.location(node), message, severity=severity)

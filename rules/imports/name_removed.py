@@ -1,4 +1,4 @@
-"""IM050: names are used that the distribution has, and that will stay."""
+"""IM050: code uses names that the distribution has and does not deprecate."""
 
 from __future__ import annotations
 
@@ -32,14 +32,14 @@ _ELSEWHERE = (
 
 
 class NameRemoved(PythonRule):
-    """Code uses a name that the distribution removed, or that it deprecates.
+    """Code uses a name that the distribution has removed or deprecated.
 
-    **Why.** ``AttributeError``, ``ImportError`` or ``ModuleNotFoundError``: Lyrical removed what
-    rclpy had deprecated, such as ``get_logger().warn`` and the long names of the policies. Names
-    and arguments of its NumPy and Python were removed, too: ``TypeError`` or ``ValueError``. What
-    is deprecated works until then, with a warning at most.
+    **Why.** ``AttributeError``, ``ImportError`` or ``ModuleNotFoundError``: Lyrical removed
+    deprecated names of rclpy, such as ``get_logger().warn`` and the long names of the policies. Its
+    NumPy and Python lack names and arguments, too: ``TypeError`` or ``ValueError``. Deprecated
+    names still work, some with a warning.
 
-    **Fix.** Use its replacement. If not all distributions of the package have it, test for it
+    **Fix.** Use the replacement. If not all distributions of the package have it, test for it
     first.
 
     **Source.** The pull requests that ``scaffold/data/changes.toml`` names.
@@ -49,12 +49,12 @@ class NameRemoved(PythonRule):
     name = "name-removed"
     is_fixed_for_all = True
     is_deprecation = True
-    other_severities = {Severity.INFO: "the distribution still has it, and a later one will not"}
+    other_severities = {Severity.INFO: "the distribution still has it, but a later one does not"}
     examples = (
-        Example("still there", {"talker.py": _NODE.format("", "warn")}),
+        Example("the old name where it exists", {"talker.py": _NODE.format("", "warn")}),
         Example("the new name", {"talker.py": _NODE.format("", "warning")}, distro="lyrical"),
         Example(
-            "for where its successor fails",
+            "a fallback for when the new name fails",
             {
                 "talker.py": "from rclpy.node import Node\n\n\nclass Talker(Node):\n"
                 "    def talk(self):\n        try:\n"
@@ -65,7 +65,7 @@ class NameRemoved(PythonRule):
             distro="lyrical",
         ),
         Example(
-            "asked for",
+            "tested for",
             {
                 "talker.py": "try:\n    from rclpy.qos_event import QoSEventHandler\n"
                 "except ImportError:\n    from rclpy.event_handler import EventHandler\n"
@@ -85,7 +85,7 @@ class NameRemoved(PythonRule):
             distro="lyrical",
         ),
         Example(
-            "asked for on the logger itself",
+            "tested for on the logger",
             {
                 "talker.py": _NODE.format("", "warn").replace(
                     "        self.get",
@@ -95,7 +95,7 @@ class NameRemoved(PythonRule):
             distro="lyrical",
         ),
         Example(
-            "where it is missing, the method ends",
+            "a method that returns if the name is missing",
             {
                 "talker.py": _NODE.format("", "warn").replace(
                     "        self.get",
@@ -112,7 +112,7 @@ class NameRemoved(PythonRule):
             distro="lyrical",
         ),
         Example(
-            "the method ends where something else is missing",
+            "a method that returns if another name is missing",
             {
                 "talker.py": _NODE.format("", "warn").replace(
                     "        self.get",
@@ -134,7 +134,7 @@ class NameRemoved(PythonRule):
             distro="lyrical",
         ),
         Example(
-            "below conditions and a handler that are about something else",
+            "in unrelated conditions and a handler",
             {"talker.py": _ELSEWHERE.format("warn")},
             Report(
                 "14:17",
@@ -146,7 +146,7 @@ class NameRemoved(PythonRule):
             distro="lyrical",
         ),
         Example(
-            "what NumPy 2 removed",
+            "names that NumPy 2 removed",
             {
                 "area.py": "import numpy as np\nfrom numpy import mat\n\n"
                 "values = np.round_(mat('1 2'))\n"
@@ -168,7 +168,7 @@ class NameRemoved(PythonRule):
             distro="lyrical",
         ),
         Example(
-            "got by other means where anything fails, and not",
+            "with and without a fallback for any error",
             {
                 "area.py": "import numpy as np\n\n\ndef area(values, widths):\n    try:\n"
                 "        return np.product(values)\n    except Exception:\n"
@@ -182,7 +182,7 @@ class NameRemoved(PythonRule):
             distro="lyrical",
         ),
         Example(
-            "what NumPy 2 removed, and no name replaces",
+            "names that NumPy 2 removed without a replacement",
             {"area.py": "import numpy as np\n\nleast = np.NINF\n"},
             "3:9: numpy.NINF was removed in Lyrical: AttributeError; use -numpy.inf (NumPy 2.0)",
             distro="lyrical",
@@ -205,7 +205,7 @@ class NameRemoved(PythonRule):
             distro="lyrical",
         ),
         Example(
-            "arrays with their names, as parameters and from methods",
+            "arrays in attributes, from parameters and from methods",
             {
                 "area.py": "import numpy as np\n\n\ndef area(values: np.ndarray, shape):\n"
                 "    first = np.zeros(3).astype(np.uint8).reshape(1, 3)\n"
@@ -231,7 +231,7 @@ class NameRemoved(PythonRule):
             distro="lyrical",
         ),
         Example(
-            "types by their names, and strings of others",
+            "types given as strings, and other strings",
             {
                 "area.py": "import numpy as np\nfrom pandas import Series\n\n"
                 "a = np.zeros(3, 'float_')\nb = np.full(3, 1, dtype=\"int0\")\n"
@@ -262,7 +262,7 @@ class NameRemoved(PythonRule):
             distro="lyrical",
         ),
         Example(
-            "what is internal in NumPy 2, and what is not",
+            "internal and public names of NumPy 2",
             {
                 "area.py": "import numpy as np\nfrom numpy.lib.arraysetops import unique\n"
                 "from numpy.lib.stride_tricks import as_strided\n\n"
@@ -278,7 +278,7 @@ class NameRemoved(PythonRule):
             distro="lyrical",
         ),
         Example(
-            "arguments that are gone, and one that is needed",
+            "removed arguments, and one that is required",
             {
                 "area.py": "from argparse import ArgumentParser, BooleanOptionalAction\n"
                 "from email.utils import localtime\n\nfrom numpy import fromstring\n\n\n"
@@ -303,7 +303,7 @@ class NameRemoved(PythonRule):
             distro="lyrical",
         ),
         Example(
-            "what only later releases of NumPy remove",
+            "names that only later releases of NumPy remove",
             {"area.py": "import numpy as np\n\nfound = np.in1d([1], np.array([1, 2]))\n"},
             Report(
                 "3:9",

@@ -1,4 +1,4 @@
-"""IM041: what a package imports of itself is there."""
+"""IM041: modules and names that a package imports from itself exist."""
 
 from __future__ import annotations
 
@@ -35,14 +35,14 @@ _PROGRAM = {
 
 
 class OwnImportMissing(Rule):
-    """A module imports another one of its package by a wrong name, or one that is not installed.
+    """A module imports a module of its own package by a wrong name, or one that is not installed.
 
     **Why.** ``ModuleNotFoundError: No module named 'text'`` or ``ImportError: cannot import name``
-    when the node is started; only the package itself is on Python's path, not its directory. A
-    program that CMake installs finds what is installed next to it, in ``lib/<package>``.
+    when the node is started: the Python package is on the path, but not its modules. A program that
+    CMake installs also finds modules that are installed next to it, in ``lib/<package>``.
 
-    **Fix.** Write the full name: ``from talker.text import make``. Install what programs share as a
-    Python package, with ``ament_python_install_package``.
+    **Fix.** Write the full name: ``from talker.text import make``. Install modules that programs
+    share as a Python package, with ``ament_python_install_package``.
 
     **Source.** Python documentation, "The import system"; ROS 2 documentation, "Writing a simple
     publisher and subscriber (Python)".
@@ -53,7 +53,7 @@ class OwnImportMissing(Rule):
     examples = (
         Example("full name", {**_FILES, "talker/node.py": "from talker.text import make\n"}),
         Example(
-            "a test wants it to be missing",
+            "a test that expects the module to be missing",
             {
                 **_FILES,
                 "test/test_text.py": "import pytest\n\n\ndef test_nothing():\n"
@@ -61,7 +61,7 @@ class OwnImportMissing(Rule):
             },
         ),
         Example(
-            "a module that protoc makes",
+            "a module that protoc generates",
             {
                 **_FILES,
                 "CMakeLists.txt": "add_custom_command(TARGET made COMMAND protoc team.proto)\n",
@@ -69,7 +69,7 @@ class OwnImportMissing(Rule):
             },
         ),
         Example(
-            "a module in C++, whose name CMake puts together",
+            "a module in C++, whose name CMake builds",
             {
                 **_FILES,
                 "CMakeLists.txt": "project(talker)\n"
@@ -78,7 +78,7 @@ class OwnImportMissing(Rule):
             },
         ),
         Example(
-            "a client that git ignores, because each machine makes its own",
+            "a generated module that git ignores",
             {
                 **_FILES,
                 ".gitignore": "**/*_client\n",
@@ -111,12 +111,13 @@ class OwnImportMissing(Rule):
             },
         ),
         Example(
-            "no such module",
+            "an unknown module",
             {**_FILES, "talker/node.py": "from talker.texts import make\n"},
-            "talker/node.py:1:1: the package has no module 'talker.texts'; closest: 'talker.text'",
+            "talker/node.py:1:1: the package has no module 'talker.texts': ModuleNotFoundError; "
+            "closest: 'talker.text'",
         ),
         Example(
-            "modules that were moved one directory down, which is one cause",
+            "modules moved to a subdirectory, which is reported once",
             {
                 **_FILES,
                 "talker/junk/__init__.py": "",
@@ -124,28 +125,28 @@ class OwnImportMissing(Rule):
                 "talker/junk/old.py": "",
                 "talker/other.py": "from talker.old import run\n",
             },
-            "talker/junk/node.py:1:1: the package has no module 'talker.junk.text'; closest: "
-            "'talker.text'",
-            "talker/other.py:1:1: the package has no module 'talker.old'; closest: "
-            "'talker.junk.old'",
+            "talker/junk/node.py:1:1: the package has no module 'talker.junk.text': "
+            "ModuleNotFoundError; closest: 'talker.text'",
+            "talker/other.py:1:1: the package has no module 'talker.old': ModuleNotFoundError; "
+            "closest: 'talker.junk.old'",
         ),
         Example(
-            "the module of a program, with the name of its package twice",
+            "a module whose package name is repeated",
             {
                 **_FILES,
                 "talker/node.py": "",
                 "test/test_node.py": "def test_node():\n    from talker.talker.node import main\n",
             },
-            "test/test_node.py:2:5: the package has no module 'talker.talker.node'; closest: "
-            "'talker.node'",
+            "test/test_node.py:2:5: the package has no module 'talker.talker.node': "
+            "ModuleNotFoundError; closest: 'talker.node'",
         ),
         Example(
-            "no such function",
+            "an unknown function",
             {**_FILES, "talker/node.py": "from .text import makes\n"},
             "talker/node.py:1:19: talker/text.py has no 'makes': ImportError; closest: 'make'",
         ),
         Example(
-            "without the package, with its directory",
+            "without the package name, and with the directory",
             {
                 **_FILES,
                 "talker/node.py": "from text import make\nfrom src.talker.text import make\n",
@@ -156,23 +157,23 @@ class OwnImportMissing(Rule):
             "closest: 'talker.text'",
         ),
         Example(
-            "a file next to a program is installed with it",
+            "a file that is installed next to the program",
             {**_PROGRAM, "CMakeLists.txt": _LISTS.format("scripts/node.py scripts/text.py")},
         ),
         Example(
-            "a directory of the package is not installed",
+            "a subpackage that is not installed",
             {
                 **_PROGRAM,
                 "CMakeLists.txt": _LISTS.format("scripts/node.py"),
                 "scripts/node.py": "from scripts.text import make\n",
             },
-            "scripts/node.py:1:1: scripts/text.py is not installed with this program: "
+            "scripts/node.py:1:1: scripts/text.py is not installed next to this program: "
             "ModuleNotFoundError",
         ),
         Example(
-            "a file next to a program is not installed",
+            "a file that is not installed next to the program",
             {**_PROGRAM, "CMakeLists.txt": _LISTS.format("scripts/node.py")},
-            "scripts/node.py:1:1: scripts/text.py is not installed with this program: "
+            "scripts/node.py:1:1: scripts/text.py is not installed next to this program: "
             "ModuleNotFoundError",
         ),
     )
@@ -195,7 +196,7 @@ class OwnImportMissing(Rule):
         path = file_of(package, name)
         missing = "" if node.level else uninstalled_import(package, where, name)
         if missing:
-            message = f"{missing} is not installed with this program: ModuleNotFoundError"
+            message = f"{missing} is not installed next to this program: ModuleNotFoundError"
             yield self.report(node, message)
         elif root in roots and path:
             yield from self._check_names(package, node, name, path)
@@ -204,7 +205,7 @@ class OwnImportMissing(Rule):
                 modules = [item for item in modules_of(package, root) if "__init__" not in item]
                 closest = closest_name(package, name, modules, 0.6)
                 hint = f"; closest: {closest!r}" if closest else ""
-                message = f"the package has no module {name!r}{hint}"
+                message = f"the package has no module {name!r}: ModuleNotFoundError{hint}"
                 yield self.report(node, message, cause=_cause(package, where, node, name))
         elif not node.level:
             intended = intended_module(package, where, name)

@@ -1,4 +1,4 @@
-"""IM042: programs of CMake packages import by full names."""
+"""IM042: programs of CMake packages use absolute imports."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ _FILES = {"CMakeLists.txt": _LISTS, "talker/__init__.py": "", "talker/text.py": 
 
 
 class RelativeImportInScript(Rule):
-    """A program that is started as a file uses a relative import.
+    """A program that is executed as a file uses a relative import.
 
-    **Why.** In ``lib/<package>`` it is not a part of a package: ``ImportError: attempted relative
-    import with no known parent package``.
+    **Why.** In ``lib/<package>`` it is not part of a Python package: ``ImportError: attempted
+    relative import with no known parent package``.
 
     **Fix.** Write the full name: ``from talker.text import TEXT``.
 
@@ -29,12 +29,14 @@ class RelativeImportInScript(Rule):
     code = "IM042"
     name = "relative-import-in-script"
     examples = (
-        Example("full name", {**_FILES, "talker/node.py": "from talker.text import TEXT\n"}),
         Example(
-            "relative",
+            "an absolute import", {**_FILES, "talker/node.py": "from talker.text import TEXT\n"}
+        ),
+        Example(
+            "a relative import",
             {**_FILES, "talker/node.py": "from .text import TEXT\n"},
-            "talker/node.py:1:1: installed as a program, it has no package to import from: "
-            "ImportError",
+            "talker/node.py:1:1: relative import in an installed program, which is not part of a "
+            "package: ImportError; use the full module name",
         ),
     )
 
@@ -49,6 +51,7 @@ class RelativeImportInScript(Rule):
             for item in module.imports:
                 if item.level and not item.guarded and not item.conditional:
                     message = (
-                        "installed as a program, it has no package to import from: ImportError"
+                        "relative import in an installed program, which is not part of a package: "
+                        "ImportError; use the full module name"
                     )
                     yield self.report(item, message)

@@ -1,4 +1,4 @@
-"""What arguments of launch can be: a function for each kind that yields what is wrong with one."""
+"""Checks of launch arguments: one function for each kind, which yields the problems."""
 
 from __future__ import annotations
 
@@ -44,11 +44,11 @@ def _texts(launch: LaunchFile, _: LaunchCall, node: ast.expr) -> Iterator[Flaw]:
 def _text(launch: LaunchFile, node: ast.expr, *, is_number_read: bool = False) -> Iterator[Flaw]:
     view = launch.call_of(node)
     if _is_number(node) and not is_number_read:
-        yield node, f"this is not a string: write {ast.unparse(node)!r}"
+        yield node, f"not a string; write {ast.unparse(node)!r}"
     elif view is not None and view.kind in ACTIONS:
         name = launch.text(view, "name") if view.kind == "DeclareLaunchArgument" else None
-        hint = f": write LaunchConfiguration({name!r})" if isinstance(name, str) else ""
-        yield node, f"this is the action {view.kind}, not a value{hint}"
+        hint = f"; write LaunchConfiguration({name!r})" if isinstance(name, str) else ""
+        yield node, f"expected a value, not the action {view.kind}{hint}"
 
 
 def _is_number(node: ast.AST) -> bool:
@@ -69,7 +69,7 @@ def _judge_words(launch: LaunchFile, call: LaunchCall, node: ast.expr) -> Iterat
 def _command(launch: LaunchFile, call: LaunchCall, node: ast.expr) -> Iterator[Flaw]:
     value = launch.evaluator.evaluate(node)
     if isinstance(value, str) or isinstance(node, ast.JoinedStr):
-        yield node, "launch splits a string into letters: write a list of words"
+        yield node, "launch splits this string into single characters; write a list of strings"
     if not isinstance(node, ast.List) or not node.elts:
         return
     yield from _judge_words(launch, call, node)
@@ -78,8 +78,8 @@ def _command(launch: LaunchFile, call: LaunchCall, node: ast.expr) -> Iterator[F
         text = first.value.strip()
         is_path = "\\ " in text or text.startswith(("/", "'", '"'))
         if " " in text and not is_path and "shell" not in call.given and not call.is_open:
-            problem = f"this is one word, so a program {text!r} is looked for: "
-            yield node, f"{problem}write a list of words"
+            problem = f"launch searches for a program named {text!r}; "
+            yield node, f"{problem}write a list of strings"
 
 
 def _environment(launch: LaunchFile, _: LaunchCall, node: ast.expr) -> Iterator[Flaw]:
@@ -103,7 +103,7 @@ def _output(launch: LaunchFile, _: LaunchCall, node: ast.expr) -> Iterator[Flaw]
 
 def _respawn(_: LaunchFile, __: LaunchCall, node: ast.expr) -> Iterator[Flaw]:
     if isinstance(node, ast.Constant) and isinstance(node.value, str):
-        yield node, "respawn must be a bool, not a string: write True or False"
+        yield node, "respawn must be a bool, not a string; write True or False"
 
 
 def _period(_: LaunchFile, __: LaunchCall, node: ast.expr) -> Iterator[Flaw]:
@@ -111,7 +111,7 @@ def _period(_: LaunchFile, __: LaunchCall, node: ast.expr) -> Iterator[Flaw]:
         case ast.Constant(value=bool() | None):
             yield node, "a period must be a number of seconds, such as 1.0"
         case ast.Constant(value=int(number)):
-            yield node, f"a period must be a float: write {number}.0"
+            yield node, f"a period must be a float; write {number}.0"
         case ast.Constant(value=str(text)):
             try:
                 float(text)
@@ -121,13 +121,13 @@ def _period(_: LaunchFile, __: LaunchCall, node: ast.expr) -> Iterator[Flaw]:
 
 def _type(_: LaunchFile, __: LaunchCall, node: ast.expr) -> Iterator[Flaw]:
     if isinstance(node, ast.Constant) and isinstance(node.value, str):
-        yield node, f"value_type must be a type, not a string: write {node.value}"
+        yield node, f"value_type must be a type, not a string; write {node.value}"
 
 
 def _default(launch: LaunchFile, call: LaunchCall, node: ast.expr) -> Iterator[Flaw]:
     value = launch.evaluator.evaluate(node)
     if type(value) in _NUMBERS:
-        yield node, f"this is not a string: write {str(value)!r}"
+        yield node, f"not a string; write {str(value)!r}"
     else:
         yield from _texts(launch, call, node)
 
@@ -135,12 +135,12 @@ def _default(launch: LaunchFile, call: LaunchCall, node: ast.expr) -> Iterator[F
 def _choices(launch: LaunchFile, call: LaunchCall, node: ast.expr) -> Iterator[Flaw]:
     choices = launch.evaluator.evaluate(node)
     if isinstance(node, ast.Constant) and isinstance(node.value, str):
-        yield node, f"{LOOSE}: any part of this string is accepted; write a list"
+        yield node, f"{LOOSE}: launch accepts any substring; write a list"
     if not isinstance(choices, list | tuple) or not all(map(is_known, choices)):
         return
     default = launch.text(call, "default_value")
     if any(type(choice) in _NUMBERS for choice in choices):
-        yield node, "choices must be strings: a value of the command line never equals a number"
+        yield node, "choices must be strings: values from the command line never equal a number"
     elif isinstance(default, str) and default not in choices:
         yield node, f"the default {default!r} is not among the choices"
 
@@ -168,15 +168,15 @@ def _parameters(launch: LaunchFile, call: LaunchCall, node: ast.expr) -> Iterato
 def _parameter_problem(node: ast.expr) -> str:
     match node:
         case ast.Constant(value=None):
-            return "is None, which is not a value of a parameter"
+            return "is None, which is not a parameter value"
         case ast.List(elts=[]) | ast.Tuple(elts=[]):
-            return "is an empty list, whose type is unknown"
+            return "is an empty list, which has no type"
         case ast.List(elts=items) | ast.Tuple(elts=items):
             kinds = {
                 type(item.value) if isinstance(item, ast.Constant) else object for item in items
             }
             if object not in kinds and len(kinds) > 1 and kinds != {int, float}:
-                return "mixes types in a list"
+                return "is a list of mixed types"
     return ""
 
 
@@ -187,12 +187,12 @@ def _arguments_of_include(launch: LaunchFile, call: LaunchCall, node: ast.expr) 
             yield value, f"{name!r} gets {problem}"
     match node:
         case ast.Set():
-            yield node, f"this is a set: {_PAIRS}"
+            yield node, f"expected pairs, not a set: {_PAIRS}"
         case ast.Attribute(value=ast.Dict(), attr="items"):
-            yield node, "items is not called: write .items()"
+            yield node, "items is not called; write .items()"
         case ast.List(elts=items) | ast.Tuple(elts=items):
             if any(isinstance(item, ast.Constant | ast.JoinedStr) for item in items):
-                yield node, f"these are not pairs: {_PAIRS}"
+                yield node, f"not pairs: {_PAIRS}"
 
 
 def _include_problem(launch: LaunchFile, node: ast.expr) -> str:
@@ -202,7 +202,7 @@ def _include_problem(launch: LaunchFile, node: ast.expr) -> str:
     if type(value) in _NUMBERS:
         return f"{value!r}, which is not a string"
     if isinstance(node, ast.List) and any(map(_is_number, node.elts)):
-        return "a list with a number, which launch cannot join"
+        return "a list with a number, which launch cannot concatenate"
     return ""
 
 

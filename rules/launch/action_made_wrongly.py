@@ -1,4 +1,4 @@
-"""LF047: actions get the arguments they need, and lists of actions hold actions."""
+"""LF047: actions have their required arguments, and lists of actions contain actions."""
 
 from __future__ import annotations
 
@@ -43,18 +43,17 @@ _ALONE = frozenset({"this is a list", "this is a tuple", "this is a function", "
 
 
 class ActionMadeWrongly(LaunchRule):
-    """An action lacks its program, or a list of actions is not a list or has other items.
+    """An action lacks its executable, or a list of actions is not a list or has other items.
 
     **Why.** ``ros2 launch`` stops: ``TypeError: 'Node' object is not iterable`` without the list,
-    ``'list' object has no attribute 'describe_sub_entities'``, the same with
-    ``'LaunchConfiguration'`` or ``'NoneType'``, ``'Node' object is not callable`` where a comma is
-    missing between two actions, ``missing 1 required keyword-only argument: 'executable'``. A
-    setting at the end of a group has no effect.
+    ``'list' object has no attribute 'describe_sub_entities'`` (or ``'LaunchConfiguration'``,
+    ``'NoneType'``), ``'Node' object is not callable`` if a comma is missing between two actions,
+    ``missing 1 required keyword-only argument: 'executable'``. A setting at the end of a group has
+    no effect.
 
-    **Fix.** ``Node(package=..., executable=...)``, ``actions=[...]``, and settings first;
-    ``*nodes`` for the items of a list, ``RegisterEventHandler(...)`` around a handler,
-    ``IncludeLaunchDescription(...)`` around a source; nothing for substitutions, which belong to
-    where they are used.
+    **Fix.** Write ``Node(package=..., executable=...)`` and ``actions=[...]``, with settings first.
+    Unpack lists with ``*nodes``, wrap handlers in ``RegisterEventHandler(...)`` and sources in
+    ``IncludeLaunchDescription(...)``. Use substitutions only as arguments.
 
     **Source.** ``launch/actions/group_action.py``, ``timer_action.py``;
     ``launch/launch_description_entity.py``; ``launch/utilities``; ``launch_ros/actions/node.py``.
@@ -63,24 +62,24 @@ class ActionMadeWrongly(LaunchRule):
     code = "LF047"
     name = "action-made-wrongly"
     examples = (
-        Example("right", _launch(*_RIGHT)),
+        Example("valid actions", _launch(*_RIGHT)),
         Example(
-            "no list",
+            "an action instead of a list",
             _launch(_RIGHT[0], "[GroupAction(node)]"),
-            "8:43: expected a list of actions, not one Node",
+            "8:43: expected a list of actions, not a single Node",
         ),
         Example(
             "several arguments",
             _launch(_RIGHT[0], "node, node"),
-            "8:12: LaunchDescription takes one list of actions: put them in [...]",
+            "8:12: LaunchDescription takes one list of actions; put them in [...]",
         ),
         Example(
             "a missing comma",
             _launch(_RIGHT[0], "[Node(package='a', executable='b')(node)]"),
-            "8:31: missing comma after this Node: it is called",
+            "8:31: missing comma after Node: TypeError",
         ),
         Example(
-            "no program",
+            "no executable",
             _launch("name='node'", "[node]"),
             "7:12: Node needs executable=...: TypeError",
         ),
@@ -94,13 +93,13 @@ class ActionMadeWrongly(LaunchRule):
                     "executable='node'", "[GroupAction([node, SetParameter('a', 1)])]"
                 ).replace("import Node", "import Node, SetParameter"),
             },
-            "launch/a.launch.py:7:12: Node has no package=...: the program is looked for on the "
-            "PATH",
-            "launch/b.launch.py:8:50: nothing follows this SetParameter in the group: it has no "
-            "effect",
+            "launch/a.launch.py:7:12: Node has no package=...: launch searches for the executable "
+            "on PATH",
+            "launch/b.launch.py:8:50: SetParameter at the end of the group has no effect; move it "
+            "before the actions it is for",
         ),
         Example(
-            "something set before and after the nodes",
+            "settings before and after the nodes",
             {
                 "launch/a.launch.py": _LAUNCH.replace(
                     "import Node", "import Node, SetParameter"
@@ -113,38 +112,39 @@ class ActionMadeWrongly(LaunchRule):
                     "executable='a'", "[GroupAction([]), node, SetParameter('use_sim_time', True)]"
                 ),
             },
-            "launch/b.launch.py:8:54: nothing follows this SetParameter: it has no effect",
+            "launch/b.launch.py:8:54: SetParameter at the end of the list has no effect; move it "
+            "before the actions it is for",
         ),
         Example(
             "a list of actions",
             {"launch/a.launch.py": _LAUNCH_ITEMS.format("*[node], RegisterEventHandler(handler)")},
         ),
         Example(
-            "a list, a substitution, a handler in the list",
+            "a nested list, a substitution and a handler in the list",
             {"launch/a.launch.py": _LAUNCH_ITEMS.format("[node],\n name,\n handler")},
-            "12:31: this is a list, but LaunchDescription takes actions: unpack it with *",
+            "12:31: this is a list, but LaunchDescription takes actions; unpack it with *",
             "13:2: this is a LaunchConfiguration, but LaunchDescription takes actions",
-            "14:2: this is the handler OnProcessExit, but LaunchDescription takes actions: wrap "
+            "14:2: this is the handler OnProcessExit, but LaunchDescription takes actions; wrap "
             "it in RegisterEventHandler(...)",
         ),
         Example(
-            "a text, a class, None in the list",
+            "a string, a class and None in the list",
             {"launch/a.launch.py": _LAUNCH_ITEMS.format("'node',\n Node,\n None")},
             "12:31: this is a string, but LaunchDescription takes actions",
-            "13:2: this is a class, but LaunchDescription takes actions: call it",
+            "13:2: this is a class, but LaunchDescription takes actions; call it",
             "14:2: this is None, but LaunchDescription takes actions",
         ),
         Example(
-            "an event for what happens at the end of a node",
+            "an event in on_exit of a node",
             {
                 "launch/a.launch.py": "from launch.events import Shutdown\n"
                 + _LAUNCH_ITEMS.format("node").replace("name=name", "on_exit=Shutdown()")
             },
-            "11:62: this is an event, but 'on_exit' of Node takes actions: wrap it in "
+            "11:62: this is an event, but 'on_exit' of Node takes actions; wrap it in "
             "EmitEvent(event=...)",
         ),
         Example(
-            "an event, a source, a node in a container",
+            "an event, a source, and a node in a container",
             {
                 "launch/a.launch.py": "from launch.events import Shutdown\n"
                 "from launch.launch_description_sources import AnyLaunchDescriptionSource\n"
@@ -156,11 +156,11 @@ class ActionMadeWrongly(LaunchRule):
                     "  composable_node_descriptions=[node])"
                 )
             },
-            "15:31: this is an event, but LaunchDescription takes actions: wrap it in "
+            "15:31: this is an event, but LaunchDescription takes actions; wrap it in "
             "EmitEvent(event=...)",
-            "16:2: this is an AnyLaunchDescriptionSource, but LaunchDescription takes actions: "
+            "16:2: this is an AnyLaunchDescriptionSource, but LaunchDescription takes actions; "
             "wrap it in IncludeLaunchDescription(...)",
-            "18:33: this is a Node, but a container takes ComposableNode",
+            "18:33: expected a ComposableNode in a container, not a Node",
         ),
     )
 
@@ -179,25 +179,32 @@ class ActionMadeWrongly(LaunchRule):
             if call.kind == "LaunchDescription" and isinstance(above, ast.Return):
                 last = _setting_nothing(launch, call.given.get("initial_entities"))
                 if last is not None:
-                    message = f"nothing follows this {last.kind}: it has no effect"
+                    message = (
+                        f"{last.kind} at the end of the list has no effect; move it before "
+                        f"the actions it is for"
+                    )
                     yield self.report(last, message)
 
     def _check_action(self, launch: LaunchFile, call: LaunchCall) -> Iterator[Diagnostic]:
         parent = launch.module.parent(call.call)
         if isinstance(parent, ast.Call) and parent.func is call.call:
-            yield self.report(call, f"missing comma after this {call.kind}: it is called")
+            yield self.report(call, f"missing comma after {call.kind}: TypeError")
         if call.kind in {"GroupAction", "TimerAction"}:
             name = "GroupAction" if call.call.args and call.kind == "GroupAction" else ""
             actions = call.call.args[0] if name else call.given.get("actions")
             view = launch.call_of(actions)
             if actions is not None and view is not None and view.kind in _ACTIONS:
                 yield self.report(
-                    launch.location(actions), f"expected a list of actions, not one {view.kind}"
+                    launch.location(actions),
+                    f"expected a list of actions, not a single {view.kind}",
                 )
             if call.kind == "GroupAction" and "scoped" not in call.given:
                 last = _setting_nothing(launch, actions)
                 if last is not None:
-                    message = f"nothing follows this {last.kind} in the group: it has no effect"
+                    message = (
+                        f"{last.kind} at the end of the group has no effect; move it before "
+                        f"the actions it is for"
+                    )
                     yield self.report(last, message)
 
     def _check_items(self, launch: LaunchFile) -> Iterator[Diagnostic]:
@@ -213,7 +220,7 @@ class ActionMadeWrongly(LaunchRule):
             for node in listed.elts if isinstance(listed, ast.List) else ():
                 view = launch.call_of(node)
                 if view is not None and view.kind in NODES:
-                    message = f"this is a {view.kind}, but a container takes ComposableNode"
+                    message = f"expected a ComposableNode in a container, not a {view.kind}"
                     yield self.report(launch.location(node), message)
 
 
@@ -231,10 +238,10 @@ def _problem(launch: LaunchFile, call: LaunchCall) -> str:
         if "executable" not in call.given and "node_executable" not in call.given:
             return f"{call.kind} needs executable=...: TypeError"
         if "package" not in call.given and _is_script(launch, call):
-            return f"{call.kind} has no package=...: the program is looked for on the PATH"
+            return f"{call.kind} has no package=...: launch searches for the executable on PATH"
     second = call.call.args[1] if len(call.call.args) > 1 else None
     if call.kind == "LaunchDescription" and launch.call_of(second) is not None:
-        return "LaunchDescription takes one list of actions: put them in [...]"
+        return "LaunchDescription takes one list of actions; put them in [...]"
     return ""
 
 
@@ -247,13 +254,13 @@ def _is_script(launch: LaunchFile, call: LaunchCall) -> bool:
 def _replacement(kind: str) -> str:
     """Return what to write instead."""
     if kind == "this is a list":
-        return ": unpack it with *"
+        return "; unpack it with *"
     if kind == "this is an event":
-        return ": wrap it in EmitEvent(event=...)"
+        return "; wrap it in EmitEvent(event=...)"
     if "handler" in kind:
-        return ": wrap it in RegisterEventHandler(...)"
+        return "; wrap it in RegisterEventHandler(...)"
     if "Source" in kind:
-        return ": wrap it in IncludeLaunchDescription(...)"
+        return "; wrap it in IncludeLaunchDescription(...)"
     if "class" in kind or "function" in kind:
-        return ": call it"
+        return "; call it"
     return ""

@@ -1,4 +1,4 @@
-"""LF042: what a launch file makes is launched, and only once."""
+"""LF042: actions of a launch file are launched, and only once."""
 
 from __future__ import annotations
 
@@ -34,12 +34,12 @@ _LAUNCH_ONCE = (
 
 
 class ActionNotLaunched(LaunchRule):
-    """A launch file does not return an action, returns it twice, or cannot be called.
+    """A launch file does not return an action, or returns it twice, or its function has parameters.
 
-    **Why.** An action that is in no list is silently never executed, even if it is named as
-    ``target_action``; one that is in two stops the launch: ``executed more than once``. ``ros2
+    **Why.** An action that is not in a list is never executed, without an error, even if it is a
+    ``target_action``; an action in two lists stops the launch: ``executed more than once``. ``ros2
     launch`` calls ``generate_launch_description`` without arguments, and ``add_action`` returns
-    ``None``. A warning where a variable holds the action: it may be kept for later.
+    ``None``. It is a warning if a variable holds the action, which may be used later.
 
     **Fix.** Put the action in one list; take no arguments; return the LaunchDescription.
 
@@ -52,7 +52,7 @@ class ActionNotLaunched(LaunchRule):
     examples = (
         Example("complete", {"launch/a.launch.py": _LAUNCH.format(*_RIGHT)}),
         Example(
-            "add_action of a class of one's own",
+            "add_action of a class of this package",
             {
                 "launch/a.launch.py": _LAUNCH.format(*_RIGHT)
                 + "\n\nclass Launcher:\n    def node(self, made):\n"
@@ -66,8 +66,9 @@ class ActionNotLaunched(LaunchRule):
                     "context", "Node(package='talker', executable='node')", ""
                 )
             },
-            "5:5: `ros2 launch` calls generate_launch_description without arguments: TypeError",
-            "8:5: this Node is not in the LaunchDescription: it is never launched",
+            "5:5: `ros2 launch` calls generate_launch_description without arguments: TypeError; "
+            "remove the parameters",
+            "8:5: Node is not in the LaunchDescription: it is never launched",
         ),
         Example(
             "an action that only a variable holds",
@@ -78,12 +79,12 @@ class ActionNotLaunched(LaunchRule):
             },
             Report(
                 "8:13",
-                "this Node is not in the LaunchDescription: it is never launched",
+                "Node is not in the LaunchDescription: it is never launched",
                 severity=Severity.WARNING,
             ),
         ),
         Example(
-            "an action that is switched off",
+            "an action that is disabled",
             {
                 "launch/a.launch.py": _LAUNCH.format(
                     "", "other = Node(package='talker', executable='node')", ""
@@ -91,9 +92,9 @@ class ActionNotLaunched(LaunchRule):
             },
         ),
         Example(
-            "what add_action returns",
+            "the return value of add_action",
             {"launch/a.launch.py": _LAUNCH.format("", "", ".add_action(talker)")},
-            "9:5: add_action() returns nothing: return the LaunchDescription",
+            "9:5: add_action() returns None; return the LaunchDescription",
         ),
         Example("launched once", {"launch/a.launch.py": _LAUNCH_ONCE.format("first, ")}),
         Example(
@@ -119,7 +120,10 @@ class ActionNotLaunched(LaunchRule):
             arguments = function.node.args
             given = [*arguments.posonlyargs, *arguments.args]
             if len(given) > len(arguments.defaults):
-                message = f"`ros2 launch` calls {FUNCTION} without arguments: TypeError"
+                message = (
+                    f"`ros2 launch` calls {FUNCTION} without arguments: TypeError; remove "
+                    f"the parameters"
+                )
                 yield self.report(function, message)
         for call in launch.calls:
             is_dropped = isinstance(launch.module.parent(call.call), ast.Expr)
@@ -127,7 +131,7 @@ class ActionNotLaunched(LaunchRule):
             if is_dropped or (call.kind in _ASSIGNED and _is_never_used(launch, call.call)):
                 yield self.report(
                     call,
-                    f"this {call.kind} is not in the LaunchDescription: it is never launched",
+                    f"{call.kind} is not in the LaunchDescription: it is never launched",
                     severity=Severity.ERROR if is_dropped else Severity.WARNING,
                 )
         for statement in launch.module.walk(ast.Return):
@@ -137,7 +141,7 @@ class ActionNotLaunched(LaunchRule):
                 continue
             match statement.value:
                 case ast.Call(func=ast.Attribute(attr="add_action" | "add_entity")):
-                    message = "add_action() returns nothing: return the LaunchDescription"
+                    message = "add_action() returns None; return the LaunchDescription"
                     yield self.report(launch.location(statement), message)
 
     def _check_once(self, launch: LaunchFile) -> Iterator[Diagnostic]:

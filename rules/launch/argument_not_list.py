@@ -1,4 +1,4 @@
-"""LF007: what launch goes through item by item is a list of items, or of pairs."""
+"""LF007: arguments that launch iterates over are lists of items or pairs."""
 
 from __future__ import annotations
 
@@ -30,13 +30,14 @@ class ArgumentNotList(LaunchRule):
     """An argument that must be a list, such as ``parameters=`` of a node, is not a list.
 
     **Why.** ``parameters``: ``ros2 launch`` stops, ``'Node' expected 'parameters' to be one of
-    [<class 'list'>]``; a tuple is refused as well. A text in ``arguments`` is split into letters:
-    the program gets ``-``, ``-``, ``r``, ``o`` ... and usually ignores them silently.
-    ``remappings`` and ``launch_arguments`` are taken apart in pairs: ``ValueError: not enough
-    values to unpack``; names of two letters silently set wrong arguments.
+    [<class 'list'>]``; a tuple fails as well. A string in ``arguments`` is split into characters:
+    the program gets ``-``, ``-``, ``r``, ``o`` ..., and usually ignores them. ``remappings`` and
+    ``launch_arguments`` are unpacked as pairs: ``ValueError: not enough values to unpack``; names
+    with two letters set wrong arguments, without an error.
 
-    **Fix.** A list: of dictionaries and files, of texts, of pairs. ``launch_arguments`` are the
-    ``.items()`` of a dictionary.
+    **Fix.** Pass a list: of dictionaries and files for ``parameters``, of strings for
+    ``arguments``, of pairs for ``remappings``. For ``launch_arguments``, pass the ``.items()`` of a
+    dictionary.
 
     **Source.** ``launch_ros/actions/node.py``, ``launch_ros/utilities/normalize_remap_rule.py``,
     ``launch/actions/include_launch_description.py``.
@@ -50,28 +51,40 @@ class ArgumentNotList(LaunchRule):
             "parameters: a dictionary",
             _node("parameters={'rate': 2.0}"),
             Report(
-                "8:62", "parameters is a dictionary; Node takes a list", fix="Convert to a list"
+                "8:62",
+                "expected a list of parameters, not a dictionary: Node raises TypeError",
+                fix="Convert to a list",
             ),
             fixed=_node("parameters=[{'rate': 2.0}]"),
         ),
         Example(
             "parameters: a tuple",
             _node("parameters=({'rate': 2.0},)"),
-            Report("8:62", "parameters is a tuple; Node takes a list", fix="Convert to a list"),
+            Report(
+                "8:62",
+                "expected a list of parameters, not a tuple: Node raises TypeError",
+                fix="Convert to a list",
+            ),
             fixed=_node("parameters=[*({'rate': 2.0},)]"),
         ),
         Example(
             "parameters: a path",
             _node("parameters='talker.yaml'"),
             Report(
-                "8:62", "parameters is a single value; Node takes a list", fix="Convert to a list"
+                "8:62",
+                "expected a list of parameters, not a single value: Node raises TypeError",
+                fix="Convert to a list",
             ),
             fixed=_node("parameters=['talker.yaml']"),
         ),
         Example(
-            "parameters: a path that is put together",
+            "parameters: a path that is concatenated",
             _node("parameters='talker' + '.yaml'"),
-            Report("8:62", "parameters is a path; Node takes a list", fix="Convert to a list"),
+            Report(
+                "8:62",
+                "expected a list of parameters, not a path: Node raises TypeError",
+                fix="Convert to a list",
+            ),
             fixed=_node("parameters=['talker' + '.yaml']"),
         ),
         Example("arguments: a list", _node("arguments=['-v', '3']")),
@@ -80,17 +93,18 @@ class ArgumentNotList(LaunchRule):
             _node("arguments='--rate 3'"),
             Report(
                 "8:61",
-                "arguments is one string, which launch splits into letters",
+                "arguments is a string, which launch splits into single characters; pass a list",
                 fix="Append .split()",
             ),
             fixed=_node("arguments='--rate 3'.split()"),
         ),
         Example(
-            "arguments for ROS: a string",
+            "ros_arguments: a string",
             _node("ros_arguments='-p rate:=2.0'"),
             Report(
                 "8:65",
-                "ros_arguments is one string, which launch splits into letters",
+                "ros_arguments is a string, which launch splits into single "
+                "characters; pass a list",
                 fix="Append .split()",
             ),
             fixed=_node("ros_arguments='-p rate:=2.0'.split()"),
@@ -99,30 +113,30 @@ class ArgumentNotList(LaunchRule):
         Example(
             "remappings: a dictionary",
             _node("remappings={'a': 'b'}"),
-            "8:62: remappings are a list of pairs, [('from', 'to')], not a dictionary",
+            "8:62: remappings must be a list of pairs, [('from', 'to')], not a dictionary",
         ),
         Example(
             "remappings: one pair",
             _node("remappings=('a', 'b')"),
-            "8:62: this is one pair: remappings are a list of pairs, [('from', 'to')]",
+            "8:62: this is a single pair; remappings must be a list of pairs, [('from', 'to')]",
         ),
         Example(
-            "remappings: texts",
+            "remappings: strings",
             _node("remappings=['a:=b']"),
             "8:62: 'a:=b' is not a pair ('from', 'to')",
         ),
         Example(
             "remappings: three parts",
             _node("remappings=[('a', 'b', 'c')]"),
-            "8:62: a remapping is a pair, and this has 3 parts",
+            "8:62: a remapping must be a pair, but this has 3 items",
         ),
-        Example("of an include: items", _include("{'rate': '2'}.items()")),
+        Example("launch_arguments: items", _include("{'rate': '2'}.items()")),
         Example(
-            "of an include: a dictionary",
+            "launch_arguments: a dictionary",
             _include("{'rate': '2'}"),
             Report(
                 "8:69",
-                "launch_arguments is a dictionary; launch takes pairs: add .items()",
+                "launch_arguments must be pairs, not a dictionary; add .items()",
                 fix="Append .items()",
             ),
             fixed=_include("{'rate': '2'}.items()"),
@@ -139,7 +153,7 @@ class ArgumentNotList(LaunchRule):
             },
             Report(
                 "6:60",
-                "launch_arguments is a dictionary; launch takes pairs: add .items()",
+                "launch_arguments must be pairs, not a dictionary; add .items()",
                 fix="Append .items()",
             ),
             fixed={
@@ -177,7 +191,9 @@ def _parameters(launch: LaunchFile, call: LaunchCall, argument: str) -> _Judgeme
     start, end = launch.module.span(node)
     star = "*" if kind == "a tuple" else ""
     edits = (Edit(launch.path, start, start, f"[{star}"), Edit(launch.path, end, end, "]"))
-    return f"parameters is {kind}; {call.kind} takes a list", Fix("Convert to a list", edits)
+    return f"expected a list of parameters, not {kind}: {call.kind} raises TypeError", Fix(
+        "Convert to a list", edits
+    )
 
 
 def _kind_of_parameters(launch: LaunchFile, node: ast.expr) -> str | None:
@@ -204,7 +220,7 @@ def _words(launch: LaunchFile, call: LaunchCall, argument: str) -> _Judgement:
         return _FITS
     _, end = launch.module.span(node)
     fix = Fix("Append .split()", (Edit(launch.path, end, end, ".split()"),))
-    return f"{argument} is one string, which launch splits into letters", fix
+    return f"{argument} is a string, which launch splits into single characters; pass a list", fix
 
 
 def _remappings(_: LaunchFile, call: LaunchCall, argument: str) -> _Judgement:
@@ -213,16 +229,16 @@ def _remappings(_: LaunchFile, call: LaunchCall, argument: str) -> _Judgement:
 
 def _flaw_of_remappings(node: ast.expr) -> str:
     if isinstance(node, ast.Dict):
-        return f"remappings are {_PAIRS}, not a dictionary"
+        return f"remappings must be {_PAIRS}, not a dictionary"
     if isinstance(node, ast.Tuple) and node.elts and not isinstance(node.elts[0], ast.Tuple):
         is_pair = not isinstance(node.elts[0], ast.List | ast.Name | ast.Starred)
-        return f"this is one pair: remappings are {_PAIRS}" if is_pair else ""
+        return f"this is a single pair; remappings must be {_PAIRS}" if is_pair else ""
     if isinstance(node, ast.List):
         for elt in node.elts:
             if isinstance(elt, ast.Constant) and isinstance(elt.value, str):
                 return f"{elt.value!r} is not a pair ('from', 'to')"
             if isinstance(elt, ast.Tuple) and len(elt.elts) != 2:  # noqa: PLR2004  from and to
-                return f"a remapping is a pair, and this has {len(elt.elts)} parts"
+                return f"a remapping must be a pair, but this has {len(elt.elts)} items"
     return ""
 
 
@@ -238,7 +254,7 @@ def _of_include(launch: LaunchFile, call: LaunchCall, argument: str) -> _Judgeme
         return _FITS
     _, end = launch.module.span(node)
     fix = Fix("Append .items()", (Edit(launch.path, end, end, ".items()"),))
-    return "launch_arguments is a dictionary; launch takes pairs: add .items()", fix
+    return "launch_arguments must be pairs, not a dictionary; add .items()", fix
 
 
 def _takes_keywords(launch: LaunchFile, parameter: ast.AST) -> bool:

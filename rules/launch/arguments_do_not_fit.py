@@ -1,4 +1,4 @@
-"""LF017: actions and substitutions get the arguments that they have, and all that they need."""
+"""LF017: actions and substitutions get all required arguments, and no unknown ones."""
 
 from __future__ import annotations
 
@@ -41,15 +41,15 @@ _NODE = (
 
 
 class ArgumentsDoNotFit(LaunchRule):
-    """An action or a substitution lacks an argument, or gets one that it does not take.
+    """An action or substitution lacks a required argument, or gets an unknown one.
 
     **Why.** ``ros2 launch`` stops: ``TypeError: TimerAction.__init__() missing 1 required
     keyword-only argument: 'period'``, ``Action.__init__() got an unexpected keyword argument
     'default'``, ``LogInfo.__init__() takes 1 positional argument but 2 were given``.
 
-    **Fix.** Give what is missing, by the name that the argument has today; parts of a path are one
-    list. ``node_executable``, ``node_name``, ``node_namespace`` and ``node_plugin`` are
-    ``executable``, ``name``, ``namespace`` and ``plugin`` since Foxy.
+    **Fix.** Pass the missing argument, use the current keyword, and pass the parts of a path as one
+    list. ``node_executable``, ``node_name``, ``node_namespace`` and ``node_plugin`` were renamed to
+    ``executable``, ``name``, ``namespace`` and ``plugin`` in Foxy.
 
     **Source.** The modules of ``launch.actions``, ``launch.substitutions``,
     ``launch.event_handlers``, ``launch.conditions``, ``launch_ros.actions`` and
@@ -59,11 +59,11 @@ class ArgumentsDoNotFit(LaunchRule):
     code = "LF017"
     name = "arguments-do-not-fit"
     examples = (
-        Example("fitting", {"launch/a.launch.py": _LAUNCH.format("['a', 'b']", "period")}),
+        Example("valid arguments", {"launch/a.launch.py": _LAUNCH.format("['a', 'b']", "period")}),
         Example(
             "two parts instead of a list",
             {"launch/a.launch.py": _LAUNCH.format("'a', 'b'", "period")},
-            "8:12: PathJoinSubstitution takes one list of parts: put them in [...]",
+            "8:12: PathJoinSubstitution takes one list of parts; put them in [...]",
         ),
         Example(
             "no period",
@@ -71,7 +71,7 @@ class ArgumentsDoNotFit(LaunchRule):
             "10:31: TimerAction needs period=...: TypeError",
         ),
         Example(
-            "arguments without names",
+            "positional arguments",
             {
                 "launch/a.launch.py": _LAUNCH.format("['a']", "period").replace("period=", ""),
                 "launch/b.launch.py": "from launch.substitutions import LaunchConfiguration\n\n\n"
@@ -86,7 +86,8 @@ class ArgumentsDoNotFit(LaunchRule):
         Example(
             "a keyword of another class",
             {"launch/a.launch.py": _ARGUMENT.format("default")},
-            "9:39: DeclareLaunchArgument has no argument 'default'; closest: 'default_value'",
+            "9:39: DeclareLaunchArgument has no argument 'default': TypeError; closest: "
+            "'default_value'",
         ),
         Example(
             "keywords of Eloquent, for Eloquent",
@@ -101,11 +102,13 @@ class ArgumentsDoNotFit(LaunchRule):
             {"launch/a.launch.py": _NODE.format("node_executable", "node_name")},
             Report(
                 "9:32",
-                "Node has no node_executable: it was renamed to executable",
+                "Node has no argument node_executable: TypeError; it was renamed to executable",
                 fix="Replace with executable",
             ),
             Report(
-                "9:56", "Node has no node_name: it was renamed to name", fix="Replace with name"
+                "9:56",
+                "Node has no argument node_name: TypeError; it was renamed to name",
+                fix="Replace with name",
             ),
             fixed={"launch/a.launch.py": _NODE.format("executable", "name")},
         ),
@@ -142,7 +145,9 @@ def _renamed(call: LaunchCall, keyword: str) -> str:
     """Return the message about a renamed keyword; empty for other keywords."""
     if keyword not in _RENAMED or call.kind not in {*NODES, "ComposableNode"}:
         return ""
-    return f"{call.kind} has no {keyword}: it was renamed to {_RENAMED[keyword]}"
+    return (
+        f"{call.kind} has no argument {keyword}: TypeError; it was renamed to {_RENAMED[keyword]}"
+    )
 
 
 def _unknown(call: LaunchCall, keyword: str) -> str:
@@ -152,7 +157,7 @@ def _unknown(call: LaunchCall, keyword: str) -> str:
         return ""
     closest = get_close_matches(keyword, sorted(parameters.names), 1, 0.6)
     hint = f"; closest: {closest[0]!r}" if closest else ""
-    return f"{call.kind} has no argument {keyword!r}{hint}"
+    return f"{call.kind} has no argument {keyword!r}: TypeError{hint}"
 
 
 def _is_meant(launch: LaunchFile, call: ast.Call, keyword: str) -> bool:
@@ -178,7 +183,7 @@ def _misfit(call: LaunchCall) -> str:
 
 def _too_many(kind: str, positional: tuple[str, ...]) -> str:
     if kind == "PathJoinSubstitution":
-        return "PathJoinSubstitution takes one list of parts: put them in [...]"
+        return "PathJoinSubstitution takes one list of parts; put them in [...]"
     if not positional:
         return f"{kind} takes keyword arguments only"
     count = f"{len(positional)} positional argument" + "s" * (len(positional) > 1)

@@ -1,4 +1,4 @@
-"""LF066: what is loaded into a component container is a component in C++."""
+"""LF066: component containers load C++ components only."""
 
 from __future__ import annotations
 
@@ -23,10 +23,10 @@ _MANIFEST = (
 
 
 class ComponentNotLoadable(LaunchRule):
-    """A launch file loads a node as a component from a package without any C++.
+    """A launch file loads a component from a package without C++ code.
 
-    **Why.** A component is a class in a shared library: ``Failed to find class with the requested
-    plugin name``, and the node is missing. Nodes in Python cannot be loaded.
+    **Why.** A component is a class in a shared library, so Python nodes cannot be loaded: ``Failed
+    to find class with the requested plugin name``, and the node is not started.
 
     **Fix.** Start it with ``Node(package='talker', executable='talk')``.
 
@@ -37,11 +37,11 @@ class ComponentNotLoadable(LaunchRule):
     name = "component-not-loadable"
     examples = (
         Example(
-            "of another package",
+            "a component of another package",
             {"package.xml": _MANIFEST, "launch/a.launch.py": _LAUNCH.format("image_proc")},
         ),
         Example(
-            "of C++",
+            "a C++ component",
             {
                 "package.xml": _MANIFEST.replace("ament_python", "ament_cmake"),
                 "src/talker.cpp": "RCLCPP_COMPONENTS_REGISTER_NODE(talker::Talker)\n",
@@ -49,10 +49,10 @@ class ComponentNotLoadable(LaunchRule):
             },
         ),
         Example(
-            "of Python",
+            "a Python node",
             {"package.xml": _MANIFEST, "launch/a.launch.py": _LAUNCH.format("talker")},
-            "launch/a.launch.py:10:36: 'talker' has no components, which are classes in C++: the "
-            "container does not find the plugin; start a node in Python with Node(...)",
+            "launch/a.launch.py:10:36: 'talker' has no C++ components: the container does not "
+            "find the plugin; start Python nodes with Node(...)",
         ),
     )
 
@@ -66,8 +66,8 @@ class ComponentNotLoadable(LaunchRule):
                 continue
             if owner.build_type == "ament_python" or owner.python_files:
                 message = (
-                    f"{name!r} has no components, which are classes in C++: the container does not "
-                    "find the plugin; start a node in Python with Node(...)"
+                    f"{name!r} has no C++ components: the container does not find the plugin; "
+                    f"start Python nodes with Node(...)"
                 )
                 yield self.report(launch.location(call.given["package"]), message)
 

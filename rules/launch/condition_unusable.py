@@ -1,4 +1,4 @@
-"""LF051: conditions are about a text that launch can read as true or false."""
+"""LF051: conditions have a value that launch can evaluate as true or false."""
 
 from __future__ import annotations
 
@@ -29,22 +29,22 @@ _LAUNCH = (
 
 
 class ConditionUnusable(LaunchRule):
-    """A condition has a value that launch cannot read as true or false, or is never true.
+    """launch cannot evaluate a condition as true or false, or it is never true.
 
-    **Why.** ``ros2 launch`` stops: ``'bool' object is not iterable`` for what Python decides,
-    ``invalid condition expression, expected one of [true, 1, false, 0]`` for other texts, ``name
-    'true' is not defined`` for ``not true`` in a PythonExpression. Texts are compared letter by
-    letter: ``true`` is not ``True``, and the node is silently not started.
+    **Why.** ``ros2 launch`` stops: ``'bool' object is not iterable`` for Python values, ``invalid
+    condition expression, expected one of [true, 1, false, 0]`` for other strings, ``name 'true' is
+    not defined`` for ``not true`` in a PythonExpression. String comparison is case-sensitive:
+    ``true`` is not ``True``, and the node is not started, without an error.
 
-    **Fix.** ``IfCondition(LaunchConfiguration('use'))``, ``UnlessCondition(...)`` instead of
-    ``not``, quotes around what is text: ``PythonExpression(["'", mode, "' == 'fast'"])``.
+    **Fix.** Write ``IfCondition(LaunchConfiguration('use'))``, ``UnlessCondition(...)`` instead of
+    ``not``, and quotes around strings: ``PythonExpression(["'", mode, "' == 'fast'"])``.
 
     **Source.** ``launch/conditions``; ``launch/substitutions/python_expression.py``.
     """
 
     code = "LF051"
     name = "condition-unusable"
-    other_severities = {Severity.WARNING: "the text is one that somebody may set"}
+    other_severities = {Severity.WARNING: "the value may be set on the command line"}
     examples = (
         Example("a launch argument", {"launch/a.launch.py": _LAUNCH.format("true", "use")}),
         Example(
@@ -88,14 +88,15 @@ class ConditionUnusable(LaunchRule):
             "launch/f.launch.py:12:53: 'use' is 'true' by default, which does not equal 'True'",
         ),
         Example(
-            "a value of Python",
+            "a Python value",
             {"launch/a.launch.py": _LAUNCH.format("true", "not use")},
-            "12:65: `not` tests the LaunchConfiguration object, not its value: use NotSubstitution",
+            "12:65: `not` tests the LaunchConfiguration object, not its value; use NotSubstitution",
         ),
         Example(
             "the name of the argument",
             {"launch/a.launch.py": _LAUNCH.format("true", "'use'")},
-            "12:65: 'use' is neither true nor false; did you mean LaunchConfiguration('use')?",
+            "12:65: 'use' is neither true nor false: the launch stops; did you mean "
+            "LaunchConfiguration('use')?",
         ),
         Example(
             "an expression without quotes",
@@ -103,7 +104,7 @@ class ConditionUnusable(LaunchRule):
             "12:65: with the defaults this is 'not true': the name 'true' is not defined",
         ),
         Example(
-            "a condition in a condition, a truth value, a list, a value for a name",
+            "a nested condition, a bool, a list, and a value instead of a name",
             {
                 "launch/a.launch.py": _LAUNCH.format("true", "UnlessCondition(use)").replace(
                     "import If", "import UnlessCondition, If"
@@ -117,9 +118,10 @@ class ConditionUnusable(LaunchRule):
                 ),
             },
             "launch/a.launch.py:12:65: IfCondition takes a string, not another condition",
-            "launch/b.launch.py:12:65: True is not a string: write 'true', or no condition",
-            "launch/c.launch.py:12:53: a condition is one object such as IfCondition(...), not a "
-            "list",
+            "launch/b.launch.py:12:65: True is not a string: TypeError; write 'true', or remove "
+            "the condition",
+            "launch/c.launch.py:12:53: a condition must be one object, such as IfCondition(...), "
+            "not a list",
             "launch/d.launch.py:12:79: LaunchConfigurationEquals takes the name of the launch "
             "argument, a string",
         ),
@@ -139,9 +141,9 @@ class ConditionUnusable(LaunchRule):
                 ).replace("import Launch", "import AndSubstitution, NotSubstitution, Launch"),
             },
             "launch/a.launch.py:12:80: OrSubstitution takes substitutions, not the condition "
-            "IfCondition: write its value",
+            "IfCondition; pass its argument",
             "launch/b.launch.py:12:86: AndSubstitution takes substitutions, not the condition "
-            "LaunchConfigurationEquals: use EqualsSubstitution",
+            "LaunchConfigurationEquals; use EqualsSubstitution",
         ),
     )
 
@@ -173,14 +175,14 @@ def _misplaced(launch: LaunchFile) -> Iterator[tuple[ast.expr, str]]:
         listed = call.given.get("condition")
         is_value = call.kind == "IfElseSubstitution"
         if isinstance(listed, ast.List | ast.Tuple) and not is_value:
-            yield listed, "a condition is one object such as IfCondition(...), not a list"
+            yield listed, "a condition must be one object, such as IfCondition(...), not a list"
     for call in launch.find(*_SUBSTITUTIONS):
         for node in dict.fromkeys((*call.given.values(), *call.call.args)):
             view = launch.call_of(node)
             if view is not None and view.kind in {*_CONDITIONS, *_BY_NAME}:
                 is_plain = view.kind in _CONDITIONS
-                hint = "write its value" if is_plain else "use EqualsSubstitution"
-                message = f"{call.kind} takes substitutions, not the condition {view.kind}: {hint}"
+                hint = "pass its argument" if is_plain else "use EqualsSubstitution"
+                message = f"{call.kind} takes substitutions, not the condition {view.kind}; {hint}"
                 yield node, message
                 break
 
@@ -195,14 +197,17 @@ def _problem(launch: LaunchFile, call: LaunchCall, node: ast.expr) -> str:
         return f"{call.kind} takes a string, not another condition"
     match node:
         case ast.Constant(value=bool() | int() | None as value):
-            return f"{value!r} is not a string: write {str(value).lower()!r}, or no condition"
+            return (
+                f"{value!r} is not a string: TypeError; write {str(value).lower()!r}, or "
+                f"remove the condition"
+            )
         case ast.UnaryOp(op=ast.Not()) | ast.BoolOp():
             return _by_python(launch, node)
         case ast.Constant(value=str(text)) if text.strip().lower() not in _TRUTHS:
             hint = (
                 f"; did you mean LaunchConfiguration({text!r})?" if text in launch.declared else ""
             )
-            return f"{text!r} is neither true nor false{hint}"
+            return f"{text!r} is neither true nor false: the launch stops{hint}"
     return ""
 
 
@@ -214,5 +219,5 @@ def _by_python(launch: LaunchFile, node: ast.UnaryOp | ast.BoolOp) -> str:
         if call is not None and call.kind in {"LaunchConfiguration", "PythonExpression"}:
             operator = "not" if isinstance(node, ast.UnaryOp) else "and/or"
             use = "NotSubstitution" if operator == "not" else "AndSubstitution, OrSubstitution"
-            return f"`{operator}` tests the {call.kind} object, not its value: use {use}"
+            return f"`{operator}` tests the {call.kind} object, not its value; use {use}"
     return ""

@@ -1,4 +1,4 @@
-"""LF010: launch configurations are declared, before they are read."""
+"""LF010: launch configurations are declared before they are read."""
 
 from __future__ import annotations
 
@@ -36,11 +36,10 @@ _DECLARED_ORDER = "DeclareLaunchArgument('name', default_value='a')"
 
 
 class ConfigurationUndeclared(LaunchRule):
-    """A ``LaunchConfiguration`` is read that nothing declares or sets, or before it is declared.
+    """A ``LaunchConfiguration`` is read but never declared, or read before its declaration.
 
-    **Why.** Actions are executed in their order, and a declaration sets the default: ``ros2
-    launch`` stops, ``launch configuration 'node' does not exist``, and ``--show-args`` does not
-    show that it is needed.
+    **Why.** Actions are executed in order, and the declaration sets the default: ``ros2 launch``
+    stops with ``launch configuration 'node' does not exist``, and ``--show-args`` does not list it.
 
     **Fix.** ``DeclareLaunchArgument('node', default_value=...)`` in the same file, before its use.
 
@@ -71,7 +70,7 @@ class ConfigurationUndeclared(LaunchRule):
             },
         ),
         Example(
-            "set by a file that puts the name of this one together",
+            "set by a file that builds the name of this one",
             {
                 "package.xml": "<package><name>talker</name></package>\n",
                 "launch/c.launch.py": _LAUNCH.format("", "LaunchConfiguration('who')"),
@@ -102,15 +101,15 @@ class ConfigurationUndeclared(LaunchRule):
             },
         ),
         Example(
-            "declared nowhere; declared under another name",
+            "not declared; declared under another name",
             {
                 "launch/a.launch.py": _LAUNCH.format("", _USED),
                 "launch/b.launch.py": _LAUNCH.format(_DECLARED, "LaunchConfiguration('nod')"),
             },
-            "launch/a.launch.py:9:56: the launch configuration 'node' is never set; declared "
-            "here: nothing",
-            "launch/b.launch.py:10:56: the launch configuration 'nod' is never set; declared "
-            "here: node",
+            "launch/a.launch.py:9:56: launch configuration 'node' is not declared: the launch "
+            "stops; declared here: nothing",
+            "launch/b.launch.py:10:56: launch configuration 'nod' is not declared: the launch "
+            "stops; declared here: node",
         ),
         Example(
             "declared first",
@@ -119,8 +118,7 @@ class ConfigurationUndeclared(LaunchRule):
         Example(
             "declared after its use",
             {"launch/a.launch.py": _LAUNCH_ORDER.format(f"node, {_DECLARED_ORDER}")},
-            "8:12: 'name' is declared after its use: the Node in line 9 reads it before it has a "
-            "value",
+            "8:12: 'name' is declared too late: the Node in line 9 reads it before it has a value",
         ),
         Example(
             "declared after a function that uses it",
@@ -131,8 +129,8 @@ class ConfigurationUndeclared(LaunchRule):
                 + "\n\ndef set_up(context):\n"
                 "    text = LaunchConfiguration('name').perform(context)\n    return [text]\n"
             },
-            "14:12: 'name' is declared after its use: the OpaqueFunction in line 10 reads it "
-            "before it has a value",
+            "14:12: 'name' is declared too late: the OpaqueFunction in line 10 reads it before it "
+            "has a value",
         ),
         Example(
             "added after its use",
@@ -140,8 +138,7 @@ class ConfigurationUndeclared(LaunchRule):
                 "launch/a.launch.py": _LAUNCH_ORDER.format("node").replace("return", "launch =")
                 + f"    launch.add_action({_DECLARED_ORDER})\n    return launch\n"
             },
-            "8:12: 'name' is declared after its use: the Node in line 9 reads it before it has a "
-            "value",
+            "8:12: 'name' is declared too late: the Node in line 9 reads it before it has a value",
         ),
     )
 
@@ -166,7 +163,10 @@ class ConfigurationUndeclared(LaunchRule):
             if may_be_set_elsewhere(package, launch, name):
                 continue
             have = listed_names(launch.declared, name, "nothing")
-            message = f"the launch configuration {name!r} is never set; declared here: {have}"
+            message = (
+                f"launch configuration {name!r} is not declared: the launch stops; declared "
+                f"here: {have}"
+            )
             yield self.report(launch.location(call.call), message)
 
     def _check_order(self, package: Package, launch: LaunchFile) -> Iterator[Diagnostic]:
@@ -185,7 +185,7 @@ class ConfigurationUndeclared(LaunchRule):
                 reported.add(name)
                 line = step.action.location.line
                 what = f"the {step.action.kind} in line {line} reads it"
-                message = f"{name!r} is declared after its use: {what} before it has a value"
+                message = f"{name!r} is declared too late: {what} before it has a value"
                 yield self.report(launch.location(call.call), message)
 
 

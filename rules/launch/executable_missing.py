@@ -1,4 +1,4 @@
-"""LF006: the packages and programs that launch files name exist."""
+"""LF006: packages and executables in launch files exist."""
 
 from __future__ import annotations
 
@@ -37,13 +37,13 @@ _FILES_PACKAGES = {
 
 
 class ExecutableMissing(Rule):
-    """A launch file names a package that does not exist, or a program that the package lacks.
+    """A launch file names a package or an executable that does not exist.
 
     **Why.** ``ros2 launch`` stops: ``package 'talker_dmeo' not found, searching: [...]``, or
     ``executable 'talker' not found on the libexec directory '.../install/talker/lib/talker'``.
 
-    **Fix.** Write the name in package.xml, that of the entry point in setup.py, or of the script
-    that CMakeLists.txt installs, with its ending; or install the program.
+    **Fix.** Use the package name from package.xml, and the name of the entry point in setup.py or
+    of the script that CMakeLists.txt installs, including its extension; or install the executable.
 
     **Source.** ``launch_ros/substitutions/find_package.py``, ``executable_in_package.py``.
     """
@@ -53,7 +53,7 @@ class ExecutableMissing(Rule):
     examples = (
         Example("an entry point", {**_FILES, "launch/a.launch.py": _LAUNCH.format("talk")}),
         Example(
-            "a node that is made, but never launched",
+            "a node that is created, but never launched",
             {
                 **_FILES,
                 "launch/a.launch.py": "from launch import LaunchDescription\n"
@@ -68,7 +68,7 @@ class ExecutableMissing(Rule):
             },
         ),
         Example(
-            "the module's name",
+            "the name of the module",
             {**_FILES, "launch/a.launch.py": _LAUNCH.format("talk.py")},
             "launch/a.launch.py:7:43: talker has no program 'talk.py'; closest: 'talk'",
         ),
@@ -97,7 +97,7 @@ class ExecutableMissing(Rule):
             neighbours={"talker": _FILES},
         ),
         Example(
-            "packages: itself, a known one, a declared one, and one unlike any known name",
+            "packages: itself, a known one, a declared one, and one without a similar name",
             {
                 **_FILES_PACKAGES,
                 "launch/a.launch.py": _LAUNCH_PACKAGES.format("talker_demo", "talk"),
@@ -106,7 +106,7 @@ class ExecutableMissing(Rule):
             },
         ),
         Example(
-            "a package with letters swapped; with another name, but the program is here",
+            "a package with swapped letters; another package, but the executable is in this one",
             {
                 **_FILES_PACKAGES,
                 "launch/a.launch.py": _LAUNCH_PACKAGES.format("talker_dmeo", "talk"),

@@ -1,4 +1,4 @@
-"""LF060: files are read as what they are: launch files by their format, xacro by xacro."""
+"""LF060: launch files and xacro files are read in their own format."""
 
 from __future__ import annotations
 
@@ -39,13 +39,13 @@ _LAUNCH_XACRO = (
 
 
 class FileOfOtherKind(LaunchRule):
-    """A launch file reads another file as if it were of another format.
+    """A launch file reads another file in the wrong format.
 
-    **Why.** ``ros2 launch`` stops: ``InvalidLaunchFileError``, with ``invalid syntax`` where Python
-    reads XML. The macros of a xacro file that is read as URDF stay as they are:
-    robot_state_publisher finds no links, or ends with ``Failed to parse robot description``.
+    **Why.** ``ros2 launch`` stops: ``InvalidLaunchFileError``, with ``invalid syntax`` if XML is
+    read as Python. If a xacro file is read as URDF, its macros are not expanded:
+    robot_state_publisher finds no links, or fails with ``Failed to parse robot description``.
 
-    **Fix.** ``AnyLaunchDescriptionSource``, which reads all three kinds of launch files;
+    **Fix.** Use ``AnyLaunchDescriptionSource``, which reads all three formats; for xacro,
     ``ParameterValue(Command(['xacro ', path]), value_type=str)``.
 
     **Source.** ``launch/launch_description_sources``; xacro, README; ROS 2 documentation, "Using
@@ -57,38 +57,41 @@ class FileOfOtherKind(LaunchRule):
     examples = (
         Example("Python", {"launch/a.launch.py": _LAUNCH.format("b.launch.py")}),
         Example(
-            "XML for Python",
+            "XML read as Python",
             {"launch/a.launch.py": _LAUNCH.format("b.launch.xml")},
             "11:34: PythonLaunchDescriptionSource cannot read b.launch.xml: write "
             "AnyLaunchDescriptionSource",
         ),
         Example(
-            "URDF; written",
+            "URDF; a file that is written",
             {
                 "launch/a.launch.py": _LAUNCH_XACRO.format("urdf", "open(path).read()"),
                 "launch/b.launch.py": _LAUNCH_XACRO.format("xacro", "open(path, 'w').write('')"),
             },
         ),
         Example(
-            "given to xacro",
+            "processed by xacro",
             {"launch/a.launch.py": _LAUNCH_XACRO.format("xacro", "Command(['xacro ', path])")},
         ),
         Example(
-            "read as it is",
+            "xacro read without processing",
             {
                 "launch/a.launch.py": _LAUNCH_XACRO.format("urdf.xacro", "open(path).read()"),
                 "launch/b.launch.py": _LAUNCH_XACRO.format("xacro", "Command(['cat ', path])"),
             },
-            "launch/a.launch.py:11:19: a xacro file is read without expanding its macros; run "
-            "xacro in a Command",
-            "launch/b.launch.py:11:28: a xacro file is read without expanding its macros; run "
-            "xacro in a Command",
+            "launch/a.launch.py:11:19: a xacro file is read without expanding its macros: the "
+            "URDF is invalid; run xacro in a Command",
+            "launch/b.launch.py:11:28: a xacro file is read without expanding its macros: the "
+            "URDF is invalid; run xacro in a Command",
         ),
     )
 
     def check_file(self, launch: LaunchFile) -> Iterator[Diagnostic]:
         for at in _places_reading(launch):
-            message = "a xacro file is read without expanding its macros; run xacro in a Command"
+            message = (
+                "a xacro file is read without expanding its macros: the URDF is invalid; "
+                "run xacro in a Command"
+            )
             yield self.report(at, message)
         for kind, endings in _ENDINGS.items():
             for source in launch.find(kind):

@@ -1,4 +1,4 @@
-"""LF053: an included launch file gets the arguments that it has."""
+"""LF053: included launch files get all required arguments, and no unknown ones."""
 
 from __future__ import annotations
 
@@ -39,10 +39,10 @@ def _files(path: str, given: str) -> dict[str, str]:
 
 
 class IncludeDoesNotFit(LaunchRule):
-    """An include passes arguments that the launch file does not have, or a file includes itself.
+    """An include passes unknown arguments or lacks required ones, or a file includes itself.
 
     **Why.** ``ros2 launch`` stops: ``Included launch description missing required argument
-    'robot_name'``. An argument that the file does not have is silently ignored.
+    'robot_name'``. Unknown arguments are silently ignored.
 
     **Fix.** Write the name that the included file declares.
 
@@ -52,15 +52,15 @@ class IncludeDoesNotFit(LaunchRule):
     code = "LF053"
     name = "include-does-not-fit"
     examples = (
-        Example("given", _files("b.launch.py", "{'robot_name': 'a'}")),
+        Example("the required argument", _files("b.launch.py", "{'robot_name': 'a'}")),
         Example(
-            "required, but not given",
+            "a required argument that is missing",
             _files("b.launch.py", "{}"),
-            "launch/a.launch.py:11:9: launch/b.launch.py requires the argument 'robot_name', "
-            "which is not given here",
+            "launch/a.launch.py:11:9: missing argument 'robot_name', which launch/b.launch.py "
+            "requires: the launch stops",
         ),
         Example(
-            "misspelled in a dictionary with a name, and one that is changed",
+            "misspelled in a named dictionary, and in one that is modified",
             {
                 **_files("b.launch.py", "given"),
                 "launch/a.launch.py": _LAUNCH.format("b.launch.py", "given").replace(
@@ -71,19 +71,19 @@ class IncludeDoesNotFit(LaunchRule):
                     "    given = {'robot_nam': 'a'}\n    given['robot_name'] = 'a'\n    return",
                 ),
             },
-            "launch/a.launch.py:10:14: launch/b.launch.py has no argument 'robot_nam'; closest: "
-            "'robot_name'",
+            "launch/a.launch.py:10:14: launch/b.launch.py has no argument 'robot_nam': it is "
+            "ignored; closest: 'robot_name'",
         ),
         Example(
             "misspelled",
             _files("b.launch.py", "{'robot_nam': 'a'}"),
-            "launch/a.launch.py:13:31: launch/b.launch.py has no argument 'robot_nam'; closest: "
-            "'robot_name'",
+            "launch/a.launch.py:13:31: launch/b.launch.py has no argument 'robot_nam': it is "
+            "ignored; closest: 'robot_name'",
         ),
         Example(
-            "itself",
+            "a file that includes itself",
             _files("a.launch.py", "{}"),
-            "launch/a.launch.py:11:9: this file includes itself endlessly",
+            "launch/a.launch.py:11:9: this file includes itself: the launch never starts",
         ),
     )
 
@@ -97,7 +97,7 @@ class IncludeDoesNotFit(LaunchRule):
         self, launch: LaunchFile, call: LaunchCall, other: Included
     ) -> Iterator[Diagnostic]:
         if other.path == launch.path and "condition" not in call.given:
-            yield self.report(call, "this file includes itself endlessly")
+            yield self.report(call, "this file includes itself: the launch never starts")
             return
         given = given_arguments(launch, call)
         if given is None:
@@ -108,11 +108,15 @@ class IncludeDoesNotFit(LaunchRule):
             closest = get_close_matches(name, sorted(other.names - names), 1, 0.75)
             if name not in other.names and closest and not other.is_open:
                 misspelled = True
-                message = f"{other.path} has no argument {name!r}; closest: {closest[0]!r}"
+                message = (
+                    f"{other.path} has no argument {name!r}: it is ignored; closest: {closest[0]!r}"
+                )
                 yield self.report(launch.location(node), message)
         missing = sorted(other.required - names)
         if missing and not misspelled and _is_understood(call):
-            message = f"{other.path} requires the argument {missing[0]!r}, which is not given here"
+            message = (
+                f"missing argument {missing[0]!r}, which {other.path} requires: the launch stops"
+            )
             yield self.report(call, message)
 
 

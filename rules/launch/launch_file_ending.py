@@ -1,4 +1,4 @@
-"""LF001: launch files are named as launch files."""
+"""LF001: the names of launch files end with launch.py."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ _INCLUDED = frozenset({"include", "includes"})
 
 
 class LaunchFileEnding(LaunchRule):
-    """A launch file has a name that ``ros2 launch`` does not offer.
+    """``ros2 launch`` does not list a launch file because of its name.
 
-    **Why.** ``ros2 launch <package> <TAB>`` and tools that look for launch files list only what
-    ends with ``launch.py``; so do the usual patterns such as ``glob('launch/*launch.py')``.
+    **Why.** The completion of ``ros2 launch <package>`` and other tools only list files that end
+    with ``launch.py``; common patterns such as ``glob('launch/*launch.py')`` only install those.
 
     **Fix.** Name it ``<something>.launch.py`` or ``<something>_launch.py``.
 
@@ -31,13 +31,13 @@ class LaunchFileEnding(LaunchRule):
     name = "launch-file-ending"
     severity = Severity.WARNING
     examples = (
-        Example("both endings", {"launch/a.launch.py": _LAUNCH, "launch/b_launch.py": _LAUNCH}),
-        Example("what others include", {"launch/include/nodes.py": _LAUNCH}),
+        Example("both suffixes", {"launch/a.launch.py": _LAUNCH, "launch/b_launch.py": _LAUNCH}),
+        Example("included files", {"launch/include/nodes.py": _LAUNCH}),
         Example(
-            "neither",
+            "no suffix",
             {"launch/talk.py": _LAUNCH},
-            "1:1: defines generate_launch_description, but `ros2 launch` lists only names that "
-            "end with launch.py, not talk.py",
+            "1:1: defines generate_launch_description, but `ros2 launch` does not list talk.py; "
+            "use a name that ends with .launch.py",
         ),
     )
 
@@ -48,7 +48,7 @@ class LaunchFileEnding(LaunchRule):
             return
         if launch.function is not None and not package.has(f"{directory}/__init__.py"):
             message = (
-                f"defines {FUNCTION}, but `ros2 launch` lists only names that end with "
-                f"launch.py, not {name}"
+                f"defines {FUNCTION}, but `ros2 launch` does not list {name}; use a name that "
+                f"ends with .launch.py"
             )
             yield self.report(package.start_of(launch.path), message)

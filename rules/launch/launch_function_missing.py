@@ -43,8 +43,8 @@ class LaunchFunctionMissing(LaunchRule):
     'generate_launch_description()'``, or ``'NoneType' object has no attribute
     'get_launch_arguments_with_include_launch_description_actions'``.
 
-    **Fix.** Define it, under exactly this name, with ``return LaunchDescription([...])`` on every
-    way through the function.
+    **Fix.** Define the function with exactly this name, and ``return LaunchDescription([...])`` on
+    every path.
 
     **Source.** ``launch/launch_description_sources/python_launch_file_utilities.py``; ROS 2
     documentation, "Creating a launch file".
@@ -79,12 +79,12 @@ class LaunchFunctionMissing(LaunchRule):
             },
         ),
         Example(
-            "not there",
+            "not defined",
             {"launch/a.launch.py": "from launch import LaunchDescription\n\nLaunchDescription()\n"},
             "1:1: `ros2 launch` calls generate_launch_description, which this file does not define",
         ),
         Example(
-            "a description that is made, but not returned",
+            "a description that is created, but not returned",
             {"launch/a.launch.py": _LAUNCH_RESULT + "    LaunchDescription([node])\n"},
             Report(
                 "7:5",
@@ -94,7 +94,7 @@ class LaunchFunctionMissing(LaunchRule):
             fixed={"launch/a.launch.py": _LAUNCH_RESULT + "    return LaunchDescription([node])\n"},
         ),
         Example(
-            "a list returned; a description on one way only",
+            "a list returned; a description on one path only",
             {
                 "launch/a.launch.py": _LAUNCH_RESULT + "    return [node]\n",
                 "launch/b.launch.py": _LAUNCH_RESULT

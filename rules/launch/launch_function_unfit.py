@@ -1,4 +1,4 @@
-"""LF057: functions that launch calls take what it gives them, and return what it expects."""
+"""LF057: functions that launch calls have the expected parameters and return value."""
 
 from __future__ import annotations
 
@@ -43,16 +43,16 @@ _LAUNCH_HANDLERS = (
 
 
 class LaunchFunctionUnfit(LaunchRule):
-    """The function of an OpaqueFunction or event handler takes wrong arguments or returns no list.
+    """The function of an OpaqueFunction or event handler has wrong parameters or returns no list.
 
-    **Why.** ``ros2 launch`` stops when it calls it: ``set_up() takes 0 positional arguments but 1
-    was given``, ``missing 1 required positional argument``; ``'list' object is not callable`` for a
-    function that is called where it should be passed, ``'Node' object is not iterable`` for one
-    action.
+    **Why.** ``ros2 launch`` stops when it calls the function: ``set_up() takes 0 positional
+    arguments but 1 was given``, ``missing 1 required positional argument``; ``'list' object is not
+    callable`` if the function is called instead of passed, ``'Node' object is not iterable`` if it
+    returns a single action.
 
-    **Fix.** ``function=set_up`` with ``def set_up(context, ...)``, ``args=[...]`` and
-    ``kwargs={...}`` for the rest; ``return [node]``. Event handlers give event and context,
-    ``OnProcessIO`` the event alone.
+    **Fix.** Pass ``function=set_up`` with ``def set_up(context, ...)``, further arguments in
+    ``args=[...]`` and ``kwargs={...}``, and ``return [node]``. Event handlers pass event and
+    context, ``OnProcessIO`` only the event.
 
     **Source.** ``launch/actions/opaque_function.py``;
     ``launch/event_handlers/on_action_event_base.py``.
@@ -62,7 +62,7 @@ class LaunchFunctionUnfit(LaunchRule):
     name = "launch-function-unfit"
     examples = (
         Example(
-            "context, and what is given besides",
+            "context and further arguments",
             {
                 "launch/a.launch.py": _LAUNCH.format("context", ""),
                 "launch/b.launch.py": _LAUNCH.format(
@@ -76,33 +76,33 @@ class LaunchFunctionUnfit(LaunchRule):
             "10:55: set_up takes no arguments; it is given the context: TypeError",
         ),
         Example(
-            "what nothing gives",
+            "a parameter that is never passed",
             _launch("context, a", ""),
             "10:55: set_up takes 'a', which args=[...] does not give: TypeError",
         ),
         Example(
-            "a text for the list of arguments",
+            "a string instead of a list of arguments",
             _launch("context, a", ", args='fast'"),
-            "10:55: set_up gets a string letter by letter: args=... must be a list",
+            "10:55: set_up gets the string as single characters; args=... must be a list",
         ),
         Example(
             "called",
             _launch("", "()"),
-            "10:31: set_up() is called here: pass the function itself",
+            "10:31: set_up() is called here; pass the function itself",
         ),
         Example("a list returned", {"launch/a.launch.py": _RETURNS.format("[node]")}),
         Example(
             "one action returned",
             {"launch/a.launch.py": _RETURNS.format("node")},
-            "8:5: set_up returns one Node, not a list: TypeError",
+            "8:5: set_up returns a single Node, not a list: TypeError",
         ),
         Example(
             "a description returned",
             {"launch/a.launch.py": _RETURNS.format("LaunchDescription([node])")},
-            "8:5: set_up returns one LaunchDescription, not a list: TypeError",
+            "8:5: set_up returns a single LaunchDescription, not a list: TypeError",
         ),
         Example(
-            "an event handler of event and context",
+            "an event handler with event and context",
             {"launch/a.launch.py": _LAUNCH_HANDLERS.format("event, context", "on_exit")},
         ),
         Example(
@@ -118,7 +118,7 @@ class LaunchFunctionUnfit(LaunchRule):
         Example(
             "an event handler that is called",
             {"launch/a.launch.py": _LAUNCH_HANDLERS.format("event, context", "on_exit()")},
-            "14:57: on_exit() is called here: pass the function itself",
+            "14:57: on_exit() is called here; pass the function itself",
         ),
     )
 
@@ -132,7 +132,7 @@ class LaunchFunctionUnfit(LaunchRule):
             if given is None:
                 continue
             if _is_call_of_own(launch, given):
-                message = f"{launch.module.text(given)} is called here: pass the function itself"
+                message = f"{launch.module.text(given)} is called here; pass the function itself"
                 yield self.report(call, message)
             function = function_of(launch, given)
             if function is None or function.decorator_list:
@@ -150,7 +150,7 @@ class LaunchFunctionUnfit(LaunchRule):
             for statement in returned(function):
                 made = launch.call_of(statement.value)
                 if made is not None and made.kind in {*ACTIONS, "LaunchDescription"}:
-                    message = f"{function.name} returns one {made.kind}, not a list: TypeError"
+                    message = f"{function.name} returns a single {made.kind}, not a list: TypeError"
                     yield self.report(launch.location(statement), message)
 
     def _check_handlers(self, launch: LaunchFile) -> Iterator[Diagnostic]:
@@ -167,7 +167,7 @@ def _problem(call: LaunchCall, arguments: ast.arguments) -> str:
     """Return how the parameters of a function differ from the passed arguments."""
     args, kwargs = call.given.get("args"), call.given.get("kwargs")
     if isinstance(args, ast.Constant) and isinstance(args.value, str):
-        return "gets a string letter by letter: args=... must be a list"
+        return "gets the string as single characters; args=... must be a list"
     items = args.elts if isinstance(args, ast.List | ast.Tuple) else []
     if (args is not None and _is_unknown(args, items)) or call.is_open:
         return ""
@@ -207,7 +207,7 @@ def _callback_problem(launch: LaunchFile, node: ast.expr, count: int) -> str:
     if function is None or function.decorator_list:
         return ""
     if called and not _accepts(function.args, 0):
-        return f"{function.name}() is called here: pass the function itself"
+        return f"{function.name}() is called here; pass the function itself"
     if not called and not _accepts(function.args, count):
         return f"launch calls {function.name} with {given}: TypeError"
     return ""

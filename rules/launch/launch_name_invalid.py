@@ -1,4 +1,4 @@
-"""LF045: launch files name nodes and namespaces as ROS 2 allows, and ask for truth values."""
+"""LF045: names of nodes and namespaces are valid, and defaults of conditions are booleans."""
 
 from __future__ import annotations
 
@@ -19,13 +19,13 @@ _LAUNCH = (
 
 
 class LaunchNameInvalid(LaunchRule):
-    """A launch file gives a node an invalid name or namespace, or a condition an invalid default.
+    """A launch file has an invalid node name, namespace, or default of a condition.
 
-    **Why.** The node dies at start: ``InvalidNodeNameException``, or ``Couldn't parse remap
-    rule``. A condition on another text ends the launch: ``invalid condition expression``.
+    **Why.** The node fails at start: ``InvalidNodeNameException``, or ``Couldn't parse remap
+    rule``. A condition with another value stops the launch: ``invalid condition expression``.
 
-    **Fix.** Letters, digits and ``_``, no digit first; ``/`` in namespaces only. Defaults of
-    conditions are ``true`` and ``false``.
+    **Fix.** Use letters, digits and ``_``, but no digit first, and ``/`` in namespaces only. Use
+    ``true`` or ``false`` as the default of a condition.
 
     **Source.** ``rmw/validate_node_name.c``; ``launch/conditions``.
     """
@@ -37,7 +37,7 @@ class LaunchNameInvalid(LaunchRule):
         Example(
             "a dash and a slash",
             {"launch/a.launch.py": _LAUNCH.format("my/talker", "robot-1")},
-            "7:56: ROS 2 rejects the node name 'my/talker': letters, digits and _ only",
+            "7:56: ROS 2 rejects the node name 'my/talker': use letters, digits and _ only",
             "7:79: ROS 2 rejects the namespace 'robot-1'",
         ),
         Example(
@@ -48,7 +48,8 @@ class LaunchNameInvalid(LaunchRule):
                 "def generate_launch_description():\n"
                 "    return IfCondition(LaunchConfiguration('use', default='yes'))\n"
             },
-            "6:12: the default is 'yes', which is neither true nor false",
+            "6:12: the default is 'yes', which is neither true nor false: the condition stops the "
+            "launch",
         ),
     )
 
@@ -56,7 +57,7 @@ class LaunchNameInvalid(LaunchRule):
         for call in launch.find(*NODES, "ComposableNode"):
             name, space = launch.text(call, "name"), launch.text(call, "namespace")
             if isinstance(name, str) and not re.fullmatch(r"[A-Za-z_]\w*", name, re.ASCII):
-                message = f"ROS 2 rejects the node name {name!r}: letters, digits and _ only"
+                message = f"ROS 2 rejects the node name {name!r}: use letters, digits and _ only"
                 yield self.report(launch.location(call.given["name"]), message)
             is_space = re.fullmatch(r"(/?[A-Za-z_]\w*(/[A-Za-z_]\w*)*/?|/|)", str(space), re.ASCII)
             if isinstance(space, str) and not is_space:
@@ -66,5 +67,8 @@ class LaunchNameInvalid(LaunchRule):
             node = next(iter([*call.given.values(), *call.call.args]), None)
             value = launch.default_of(node)
             if isinstance(value, str) and value.lower() not in _TRUTHS:
-                message = f"the default is {value!r}, which is neither true nor false"
+                message = (
+                    f"the default is {value!r}, which is neither true nor false: the "
+                    f"condition stops the launch"
+                )
                 yield self.report(call, message)

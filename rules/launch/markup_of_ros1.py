@@ -1,4 +1,4 @@
-"""LF046: launch files in XML are written as ROS 2 reads them."""
+"""LF046: XML launch files use the syntax of ROS 2."""
 
 from __future__ import annotations
 
@@ -29,12 +29,12 @@ _LAUNCH = "<launch>\n  <node pkg='talker' {}='node' name='{}'/>\n</launch>\n"
 
 
 class MarkupOfRos1(Rule):
-    """A launch file in XML uses elements, attributes or substitutions of ROS 1.
+    """An XML launch file uses elements, attributes or substitutions of ROS 1.
 
     **Why.** ``ros2 launch`` stops: ``Attribute 'exec' of Entity node not found``, ``Unknown
     substitution: find``.
 
-    **Fix.** Write the equivalent of ROS 2.
+    **Fix.** Use the ROS 2 equivalent in the message.
 
     **Source.** ROS 2 documentation, "Migrating launch files from ROS 1 to ROS 2".
     """
@@ -43,20 +43,20 @@ class MarkupOfRos1(Rule):
     name = "markup-of-ros1"
     other_severities = {Severity.WARNING: "the launch file is not installed"}
     examples = (
-        Example("of ROS 2", {"launch/a.launch.xml": _LAUNCH.format("exec", "a")}),
+        Example("syntax of ROS 2", {"launch/a.launch.xml": _LAUNCH.format("exec", "a")}),
         Example(
-            "of ROS 1",
+            "syntax of ROS 1",
             {"launch/a.launch.xml": _LAUNCH.format("type", "$(arg name)")},
-            "2:28: 'type' of <node> belongs to ROS 1; ROS 2 has exec",
-            "2:40: $(arg ...) belongs to ROS 1; ROS 2 has $(var name)",
+            "2:28: 'type' of <node> is ROS 1 syntax: the launch stops; use exec",
+            "2:40: $(arg ...) is ROS 1 syntax: the launch stops; use $(var name)",
         ),
         Example(
             "an element of ROS 1",
             {"launch/a.launch.xml": "<launch>\n  <rosparam file='a.yaml'/>\n</launch>\n"},
-            "2:4: <rosparam> belongs to ROS 1; ROS 2 has <param from='...'/>",
+            "2:4: <rosparam> is ROS 1 syntax: the launch stops; use <param from='...'/>",
         ),
         Example(
-            "of ROS 1, and not installed",
+            "syntax of ROS 1, in a file that is not installed",
             {
                 "package.xml": "<package><name>talker</name>"
                 "<export><build_type>ament_cmake</build_type></export></package>\n",
@@ -65,10 +65,11 @@ class MarkupOfRos1(Rule):
                 "old/a.launch.xml": _LAUNCH.format("type", "a"),
                 "launch/b.launch.xml": _LAUNCH.format("type", "b"),
             },
-            "launch/b.launch.xml:2:28: 'type' of <node> belongs to ROS 1; ROS 2 has exec",
+            "launch/b.launch.xml:2:28: 'type' of <node> is ROS 1 syntax: the launch stops; use "
+            "exec",
             Report(
                 "old/a.launch.xml:2:28",
-                "'type' of <node> belongs to ROS 1; ROS 2 has exec",
+                "'type' of <node> is ROS 1 syntax: the launch stops; use exec",
                 severity=Severity.WARNING,
             ),
         ),
@@ -96,14 +97,16 @@ def _problems(element: Element) -> Iterator[tuple[Location, str]]:
     if element.tag in _TAGS:
         yield (
             element.name_location,
-            f"<{element.tag}> belongs to ROS 1; ROS 2 has {_TAGS[element.tag]}",
+            f"<{element.tag}> is ROS 1 syntax: the launch stops; use {_TAGS[element.tag]}",
         )
     for name, attribute in element.attributes.items():
         new = _ATTRIBUTES.get((element.tag, name))
         if new is not None:
-            problem = f"{name!r} of <{element.tag}> belongs to ROS 1; ROS 2 has {new}"
+            problem = f"{name!r} of <{element.tag}> is ROS 1 syntax: the launch stops; use {new}"
             yield attribute.location, problem
         for kind in re.findall(r"\$\((\w+) ", attribute.value):
             if kind in _SUBSTITUTIONS:
-                problem = f"$({kind} ...) belongs to ROS 1; ROS 2 has {_SUBSTITUTIONS[kind]}"
+                problem = (
+                    f"$({kind} ...) is ROS 1 syntax: the launch stops; use {_SUBSTITUTIONS[kind]}"
+                )
                 yield attribute.location, problem

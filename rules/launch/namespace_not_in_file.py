@@ -1,4 +1,4 @@
-"""LF016: parameter files know the namespace of the node."""
+"""LF016: parameter files match the namespace of the node."""
 
 from __future__ import annotations
 
@@ -26,10 +26,10 @@ _FILE = "{}:\n  ros__parameters:\n    rate: 1.0\n"
 
 
 class NamespaceNotInFile(Rule):
-    """A node runs in a namespace that the key in its parameter file lacks.
+    """A node runs in a namespace that its key in the parameter file does not include.
 
-    **Why.** Nothing warns: ``talker`` in the file is ``/talker``, not ``/left/talker``, and the
-    node runs with its defaults.
+    **Why.** ``talker`` in the file is ``/talker``, not ``/left/talker``: the node runs with its
+    defaults, without a warning.
 
     **Fix.** Write ``/left/talker``, ``/**/talker`` or ``/**`` in the file.
 
@@ -44,10 +44,10 @@ class NamespaceNotInFile(Rule):
         Example("the full name", {**_FILES, "config/demo.yaml": _FILE.format("/left/talker")}),
         Example("all namespaces", {**_FILES, "config/demo.yaml": _FILE.format("/**/talker")}),
         Example(
-            "the name alone",
+            "the name without the namespace",
             {**_FILES, "config/demo.yaml": _FILE.format("talker")},
             "launch/a.launch.py:10:74: the node runs as /left/talker, but config/demo.yaml:1 is "
-            "for /talker: it is ignored",
+            "for /talker: the section is ignored; write /left/talker",
         ),
     )
 
@@ -72,6 +72,6 @@ def _problem(package: Package, node: StartedNode, file: ParameterFile) -> str | 
         if section.node.rpartition("/")[2] == node.name(package):
             return (
                 f"the node runs as {full}, but {file.path}:{section.key.location.line} is for "
-                f"{section.node}: it is ignored"
+                f"{section.node}: the section is ignored; write {full}"
             )
     return None

@@ -1,4 +1,4 @@
-"""LF012: nodes of a launch file have names of their own."""
+"""LF012: nodes of a launch file have unique names."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ _LAUNCH = (
 
 
 class NodeNameRepeated(Rule):
-    """A launch file starts two nodes with one name.
+    """A launch file starts two nodes with the same name.
 
-    **Why.** Nothing warns, but ``ros2 param``, services and ``ros2 node info`` reach one of the two
-    at random. **Fix.** Give each its own name or namespace.
+    **Why.** There is no error, but ``ros2 param``, ``ros2 node info`` and services of the node
+    reach either one. **Fix.** Give each a unique name or namespace.
 
     **Source.** ROS 2 documentation, "Passing ROS arguments to nodes"; ROS 2 design, "Unique
     network flows".
@@ -39,15 +39,17 @@ class NodeNameRepeated(Rule):
             },
         ),
         Example(
-            "one name",
+            "the same name",
             {
                 "launch/a.launch.py": _LAUNCH.format("", "eye", ""),
                 "launch/b.launch.py": _LAUNCH.format(
                     ", namespace='left'", "eye", ", namespace='/left'"
                 ),
             },
-            "launch/a.launch.py:8:48: the node in line 7 is named /eye as well",
-            "launch/b.launch.py:8:48: the node in line 7 is named /left/eye as well",
+            "launch/a.launch.py:8:48: the node in line 7 is also named /eye; give each a unique "
+            "name or namespace",
+            "launch/b.launch.py:8:48: the node in line 7 is also named /left/eye; give each a "
+            "unique name or namespace",
         ),
     )
 
@@ -60,5 +62,8 @@ class NodeNameRepeated(Rule):
             at = node.name_location
             line = first.setdefault((at.path, full), at.line)
             if line != at.line:
-                message = f"the node in line {line} is named {full} as well"
+                message = (
+                    f"the node in line {line} is also named {full}; give each a unique name "
+                    f"or namespace"
+                )
                 yield self.report(at, message)

@@ -1,4 +1,4 @@
-"""LF005: packages that launch files name are declared."""
+"""LF005: packages that launch files use are declared."""
 
 from __future__ import annotations
 
@@ -18,18 +18,18 @@ _LAUNCH = (
     "        Node(package='rviz2', executable='rviz2'),\n    ])\n"
 )
 _LAST_WITH_CLASSIC = "Humble"
-"""The last distribution with Gazebo classic, and with the old names of the new Gazebo."""
+"""The last distribution with Gazebo Classic, and with the old names of the new Gazebo."""
 _MANIFEST = '<package format="3">\n  <name>talker</name>\n{}</package>\n'
 
 
 class PackageUndeclared(Rule):
-    """A launch file starts or finds something of a package that the manifest does not declare.
+    """A launch file uses a package that package.xml does not declare.
 
-    **Why.** On a clean machine rosdep does not install the package: ``package 'rviz2' not
-    found``. Packages of Gazebo classic and of ROS 1 cannot be installed at all.
+    **Why.** On a clean machine rosdep does not install the package: ``package 'rviz2' not found``.
+    Packages of Gazebo Classic and ROS 1 cannot be installed at all.
 
-    **Fix.** Add an ``<exec_depend>``; if there is one whose condition excludes the distribution,
-    change the condition.
+    **Fix.** Add an ``<exec_depend>``. If the condition of an existing dependency excludes the
+    distribution, change the condition.
 
     **Source.** REP-149, ``<exec_depend>``; ROS 2 documentation, "Using ROS 2 launch for large
     projects".
@@ -37,7 +37,9 @@ class PackageUndeclared(Rule):
 
     code = "LF005"
     name = "package-undeclared"
-    other_severities = {Severity.WARNING: "the package is in the workspace, or a command of ros2"}
+    other_severities = {
+        Severity.WARNING: "the package is in the workspace, or provides a ros2 command"
+    }
     examples = (
         Example(
             "declared",
@@ -54,8 +56,8 @@ class PackageUndeclared(Rule):
             },
             Report(
                 "launch/a.launch.py:8:22",
-                "starts a node of 'rviz2', which no dependency in package.xml "
-                "provides; add <exec_depend>rviz2</exec_depend>",
+                "starts a node of 'rviz2', which package.xml does not declare; add "
+                "<exec_depend>rviz2</exec_depend>",
                 fix="Declare rviz2",
             ),
             fixed={
@@ -72,9 +74,9 @@ class PackageUndeclared(Rule):
             },
             Report(
                 "launch/a.launch.py:8:22",
-                "starts a node of 'listener', which no dependency in package.xml "
-                "provides; declaring it would close a cycle, talker needs listener "
-                "needs talker: move what both need into a third package",
+                "starts a node of 'listener', which package.xml does not declare; "
+                "declaring it would close a cycle, talker needs listener needs talker: "
+                "move what both need into a third package",
                 severity=Severity.WARNING,
             ),
             neighbours={
@@ -98,7 +100,7 @@ class PackageUndeclared(Rule):
             "condition",
         ),
         Example(
-            "declared for this distribution, or where a variable of who builds it is set",
+            "declared for this distribution, or under a condition on another variable",
             {
                 "package.xml": _MANIFEST.format(
                     '  <exec_depend condition="$ROS_DISTRO == humble">rviz2</exec_depend>\n'
@@ -113,15 +115,15 @@ class PackageUndeclared(Rule):
             },
         ),
         Example(
-            "a package of the same workspace",
+            "a package in the same workspace",
             {
                 "package.xml": _MANIFEST.format("  <exec_depend>launch_ros</exec_depend>\n"),
                 "launch/a.launch.py": _LAUNCH.replace("rviz2", "arm"),
             },
             Report(
                 "launch/a.launch.py:8:22",
-                "starts a node of 'arm', which no dependency in package.xml provides; "
-                "add <exec_depend>arm</exec_depend>",
+                "starts a node of 'arm', which package.xml does not declare; add "
+                "<exec_depend>arm</exec_depend>",
                 fix="Declare arm",
                 severity=Severity.WARNING,
             ),
@@ -135,7 +137,7 @@ class PackageUndeclared(Rule):
             },
         ),
         Example(
-            "programs that are run by name",
+            "executables that are run by name",
             {
                 "package.xml": _MANIFEST.format("  <exec_depend>launch_ros</exec_depend>\n"),
                 "launch/a.launch.py": "from launch import LaunchDescription\n"
@@ -150,14 +152,14 @@ class PackageUndeclared(Rule):
             },
             Report(
                 "launch/a.launch.py:8:41",
-                "runs 'xacro' of 'xacro', which no dependency in package.xml provides; "
-                "add <exec_depend>xacro</exec_depend>",
+                "runs 'xacro' of 'xacro', which package.xml does not declare; add "
+                "<exec_depend>xacro</exec_depend>",
                 fix="Declare xacro",
             ),
             Report(
                 "launch/a.launch.py:11:29",
-                "runs 'ros2 bag' of 'ros2bag', which no dependency in package.xml "
-                "provides; add <exec_depend>ros2bag</exec_depend>",
+                "runs 'ros2 bag' of 'ros2bag', which package.xml does not declare; add "
+                "<exec_depend>ros2bag</exec_depend>",
                 fix="Declare ros2bag",
                 severity=Severity.WARNING,
             ),
@@ -169,15 +171,15 @@ class PackageUndeclared(Rule):
             },
         ),
         Example(
-            "of a driver",
+            "a package of a driver",
             {
                 "package.xml": _MANIFEST.format("  <exec_depend>launch_ros</exec_depend>\n"),
                 "launch/a.launch.py": _LAUNCH.replace("rviz2", "velodyne_driver"),
             },
             Report(
                 "launch/a.launch.py:8:22",
-                "starts a node of 'velodyne_driver', which no dependency in "
-                "package.xml provides; add <exec_depend>velodyne_driver</exec_depend>",
+                "starts a node of 'velodyne_driver', which package.xml does not "
+                "declare; add <exec_depend>velodyne_driver</exec_depend>",
                 fix="Declare velodyne_driver",
             ),
             fixed={
@@ -188,7 +190,7 @@ class PackageUndeclared(Rule):
             },
         ),
         Example(
-            "of Gazebo classic, which Jazzy does not have",
+            "Gazebo Classic, which Jazzy does not have",
             {
                 "package.xml": _MANIFEST.format("  <exec_depend>launch_ros</exec_depend>\n"),
                 "launch/b.launch.py": _LAUNCH.replace("rviz2", "gazebo_ros"),
@@ -197,15 +199,15 @@ class PackageUndeclared(Rule):
             "use ros_gz",
         ),
         Example(
-            "of Gazebo classic, which Humble has",
+            "Gazebo Classic, which Humble has",
             {
                 "package.xml": _MANIFEST.format("  <exec_depend>launch_ros</exec_depend>\n"),
                 "launch/b.launch.py": _LAUNCH.replace("rviz2", "gazebo_ros"),
             },
             Report(
                 "launch/b.launch.py:8:22",
-                "starts a node of 'gazebo_ros', which no dependency in package.xml "
-                "provides; add <exec_depend>gazebo_ros</exec_depend>",
+                "starts a node of 'gazebo_ros', which package.xml does not declare; "
+                "add <exec_depend>gazebo_ros</exec_depend>",
                 fix="Declare gazebo_ros",
             ),
             fixed={
@@ -252,8 +254,7 @@ class PackageUndeclared(Rule):
             needed = declaring(package, tag, use.name)
             yield self.report(
                 use.location,
-                f"{_usage(use)} {use.name!r}, which no dependency in package.xml provides; "
-                f"{needed.advice}",
+                f"{_usage(use)} {use.name!r}, which package.xml does not declare; {needed.advice}",
                 needed.fix,
                 severity=severity,
                 cause=f"dependency {use.name}",
@@ -271,4 +272,4 @@ def _usage(use: Reference) -> str:
     """Return how a launch file uses a package."""
     if use.program:
         return f"runs {use.program!r} of"
-    return "looks for" if use.executable is None else "starts a node of"
+    return "finds" if use.executable is None else "starts a node of"

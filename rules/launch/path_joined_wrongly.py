@@ -1,4 +1,4 @@
-"""LF044: parts of paths are joined with one slash."""
+"""LF044: parts of paths are joined with exactly one slash."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ _LAUNCH = (
 
 
 class PathJoinedWrongly(LaunchRule):
-    """A path below a share directory is joined with an extra slash, or without one.
+    """A path in a share directory is joined with an extra slash, or without one.
 
     **Why.** ``os.path.join(share, '/config')`` is ``/config``; ``share + 'config'`` is
     ``.../talkerconfig``: the file is not found, and a node runs without its parameters.
@@ -34,12 +34,13 @@ class PathJoinedWrongly(LaunchRule):
             "joined", {"launch/a.launch.py": _LAUNCH.format("PATH = os.path.join(SHARE, 'config')")}
         ),
         Example(
-            "a slash too many",
+            "an extra slash",
             {"launch/a.launch.py": _LAUNCH.format("PATH = os.path.join(SHARE, '/config')")},
-            "6:28: '/config' begins with a slash, which discards everything before it",
+            "6:28: '/config' starts with a slash, which discards all parts before it; remove the "
+            "slash",
         ),
         Example(
-            "no slash in a list",
+            "a missing slash in a list",
             {
                 "launch/a.launch.py": _LAUNCH.format(
                     "from launch.launch_description_sources import PythonLaunchDescriptionSource\n"
@@ -47,12 +48,13 @@ class PathJoinedWrongly(LaunchRule):
                     "OTHER = PythonLaunchDescriptionSource([SHARE, '/launch', '/b.launch.py'])"
                 )
             },
-            "7:46: parts are concatenated: missing slash before this one",
+            "7:46: parts are concatenated: missing slash before this part",
         ),
         Example(
-            "no slash",
+            "a missing slash",
             {"launch/a.launch.py": _LAUNCH.format("PATH = SHARE + 'config/a.yaml'")},
-            "6:8: missing slash between the share directory and 'config/a.yaml'",
+            "6:8: missing slash between the share directory and 'config/a.yaml': the file is not "
+            "found",
         ),
     )
 
@@ -64,15 +66,21 @@ class PathJoinedWrongly(LaunchRule):
             for part in call.args[1:]:
                 text = _text(launch, part)
                 if text.startswith("/") and not text.startswith(SHARE) and first:
-                    message = f"{text!r} begins with a slash, which discards everything before it"
+                    message = (
+                        f"{text!r} starts with a slash, which discards all parts before it; "
+                        f"remove the slash"
+                    )
                     yield self.report(launch.location(part), message)
         for sum_ in launch.module.walk(ast.BinOp):
             if isinstance(sum_.op, ast.Add) and _runs_on(launch, sum_.left, sum_.right):
                 right = _text(launch, sum_.right)
-                message = f"missing slash between the share directory and {right!r}"
+                message = (
+                    f"missing slash between the share directory and {right!r}: the file is "
+                    f"not found"
+                )
                 yield self.report(launch.location(sum_), message)
         for node in _run_on_in_lists(launch):
-            message = "parts are concatenated: missing slash before this one"
+            message = "parts are concatenated: missing slash before this part"
             yield self.report(launch.location(node), message)
 
 

@@ -1,4 +1,4 @@
-"""LF013: launch files name no path of one machine."""
+"""LF013: launch files use no paths of the author's machine."""
 
 from __future__ import annotations
 
@@ -46,9 +46,9 @@ class PathOfAuthor(Rule):
     severity = Severity.WARNING
     release_refused = "the file is not in the package"
     examples = (
-        Example("of the system", {"launch/a.launch.py": _LAUNCH.format("/etc/talker.yaml")}),
+        Example("a system path", {"launch/a.launch.py": _LAUNCH.format("/etc/talker.yaml")}),
         Example(
-            "in the description of an argument",
+            "a path in the description of an argument",
             {
                 "launch/a.launch.py": _LAUNCH.format("/etc/talker.yaml").replace(
                     "Node(package",
@@ -57,7 +57,7 @@ class PathOfAuthor(Rule):
             },
         ),
         Example(
-            "of a home, of a workspace, of the current directory",
+            "paths in a home directory, a workspace and the current directory",
             {
                 "launch/a.launch.py": _LAUNCH.format("/home/me/ros2_ws/src/talker/talker.yaml"),
                 "launch/b.launch.py": _LAUNCH.format("/ros2_ws/src/talker/talker.yaml"),
@@ -66,14 +66,14 @@ class PathOfAuthor(Rule):
                 "launch/c.launch.xml": "<launch>\n"
                 '  <arg name="map" default="/home/me/map.yaml"/>\n</launch>\n',
             },
-            "launch/a.launch.py:7:63: '/home/me/ros2_ws/src/talker/talker.yaml' exists on one "
-            "machine only; build it from the share directory",
-            "launch/b.launch.py:7:63: '/ros2_ws/src/talker/talker.yaml' exists on one machine "
-            "only; build it from the share directory",
-            "launch/c.launch.xml:2:28: '/home/me/map.yaml' exists on one machine only; build it "
-            "from the share directory",
-            "launch/d.launch.py:7:63: 'config/talker.yaml' is relative to the directory of `ros2 "
-            "launch`, not to this file",
+            "launch/a.launch.py:7:63: '/home/me/ros2_ws/src/talker/talker.yaml' exists only on "
+            "the author's machine; build the path from the share directory",
+            "launch/b.launch.py:7:63: '/ros2_ws/src/talker/talker.yaml' exists only on the "
+            "author's machine; build the path from the share directory",
+            "launch/c.launch.xml:2:28: '/home/me/map.yaml' exists only on the author's machine; "
+            "build the path from the share directory",
+            "launch/d.launch.py:7:63: 'config/talker.yaml' is relative to the current directory "
+            "of `ros2 launch`, not to this file; build the path from the share directory",
         ),
     )
 
@@ -81,12 +81,16 @@ class PathOfAuthor(Rule):
         for at, text in _texts(package):
             matched = re.match(_HOME, text)
             if matched:
-                message = f"{text!r} exists on one machine only; build it from the share directory"
+                message = (
+                    f"{text!r} exists only on the author's machine; build the path from the "
+                    f"share directory"
+                )
                 yield self.report(at, message)
         for at, text in _parameters(package):
             if package.has(text) or text.startswith("src/"):
                 message = (
-                    f"{text!r} is relative to the directory of `ros2 launch`, not to this file"
+                    f"{text!r} is relative to the current directory of `ros2 launch`, not to this "
+                    f"file; build the path from the share directory"
                 )
                 yield self.report(at, message)
 

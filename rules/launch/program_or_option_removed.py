@@ -1,4 +1,4 @@
-"""LF083: programs that stay are started, with options that they have."""
+"""LF083: launch files start programs, and pass options, that the distribution has."""
 
 from __future__ import annotations
 
@@ -53,13 +53,13 @@ _XML_DEPRECATED = (
 
 
 class ProgramOrOptionRemoved(Rule):
-    """A launch file starts a program that will go, or with an option that it no longer has.
+    """A launch file starts a removed or deprecated program, or passes a removed option.
 
-    **Why.** The program ends at once, with ``ambiguous option`` or ``unrecognized arguments``, or
+    **Why.** The program exits at once with ``ambiguous option`` or ``unrecognized arguments``, or
     ignores the option: a robot gets another name in the simulation. A deprecated program warns at
-    each start, and a later distribution does not have it: the launch stops.
+    each start; later distributions do not have it, and the launch stops.
 
-    **Fix.** Use its replacement.
+    **Fix.** Use the replacement in the message.
 
     **Source.** rosbag2, ``ros2bag/verb/record.py``; ros_gz_sim, ``create.cpp``; the pull requests
     that ``scaffold/data/changes.toml`` names.
@@ -70,7 +70,7 @@ class ProgramOrOptionRemoved(Rule):
     is_fixed_for_all = True
     since = "0.2"
     is_deprecation = True
-    other_severities = {Severity.INFO: "it is a program that a later distribution will not have"}
+    other_severities = {Severity.INFO: "the program is only removed in a later distribution"}
     examples = (
         Example("a robot with a name", {"launch/a.launch.py": _CREATE.format("-name")}),
         Example(
@@ -80,16 +80,16 @@ class ProgramOrOptionRemoved(Rule):
             "-name",
         ),
         Example(
-            "still there",
+            "an option that still exists",
             {"launch/a.launch.py": _LAUNCH.format("'--exclude', '/tf'")},
             distro="humble",
         ),
         Example(
-            "its successor",
+            "the new option",
             {"launch/a.launch.py": _LAUNCH.format("'--exclude-regex', '/tf'")},
         ),
         Example(
-            "gone",
+            "a removed option",
             {
                 "launch/a.launch.py": _LAUNCH.format("'--exclude', '/tf'"),
                 "launch/b.launch.py": _LAUNCH.format('"-x", "/tf"'),
@@ -97,19 +97,19 @@ class ProgramOrOptionRemoved(Rule):
             },
             Report(
                 "launch/a.launch.py:3:63",
-                "--exclude of ros2 bag record was removed in Jazzy: it ends at once; "
+                "--exclude of ros2 bag record was removed in Jazzy: it exits at once; "
                 "use --exclude-regex (rosbag2 1480)",
                 fix="Replace with --exclude-regex",
             ),
             Report(
                 "launch/b.launch.py:3:63",
-                "-x of ros2 bag record was removed in Jazzy: it ends at once; use "
+                "-x of ros2 bag record was removed in Jazzy: it exits at once; use "
                 "--exclude-regex (rosbag2 1480)",
                 fix="Replace with --exclude-regex",
             ),
             Report(
                 "launch/c.launch.xml:2:20",
-                "--exclude of ros2 bag record was removed in Jazzy: it ends at once; "
+                "--exclude of ros2 bag record was removed in Jazzy: it exits at once; "
                 "use --exclude-regex (rosbag2 1480)",
                 fix="Replace with --exclude-regex",
             ),
@@ -130,16 +130,16 @@ class ProgramOrOptionRemoved(Rule):
             "453)",
         ),
         Example(
-            "still usual",
+            "a program that is not deprecated yet",
             {"launch/a.launch.py": _LAUNCH_DEPRECATED.format("component_container_mt")},
         ),
         Example(
-            "what stays",
+            "programs that are not deprecated",
             {"launch/a.launch.py": _LAUNCH_DEPRECATED.format("component_container")},
             distro="lyrical",
         ),
         Example(
-            "containers with executors of their own",
+            "containers with isolated executors",
             {
                 "launch/a.launch.py": _LAUNCH_DEPRECATED.format("component_container_mt"),
                 "launch/b.launch.xml": _XML_DEPRECATED.format("component_container_isolated"),
@@ -185,7 +185,7 @@ class ProgramOrOptionRemoved(Rule):
                 option = word.text.partition("=")[0]
                 change = removed.get(f"{program} {option}")
                 if change is not None:
-                    message = f"{option} of {program} {change.state}: it ends at once; "
+                    message = f"{option} of {program} {change.state}: it exits at once; "
                     message += f"{change.instead(change.use)} ({change.source})"
                     edit = _edit(package, line, word, option, change.use)
                     is_fixed = edit is not None and change.has_replacement

@@ -1,4 +1,4 @@
-"""LF082: the topics to record follow their option."""
+"""LF082: topics to record are passed with --topics."""
 
 from __future__ import annotations
 
@@ -40,12 +40,12 @@ _XML = "<launch>\n  <executable cmd='ros2 bag record {}'/>\n</launch>\n"
 
 
 class RecordedTopicsUnnamed(Rule):
-    """A launch file gives ``ros2 bag record`` topics without ``--topics``.
+    """A launch file passes topics to ``ros2 bag record`` without ``--topics``.
 
-    **Why.** Lyrical no longer accepts them: the recorder exits at once, with
+    **Why.** Lyrical no longer accepts positional topics: the recorder exits at once with
     ``unrecognized arguments``, and nothing is recorded.
 
-    **Fix.** Write ``--topics`` before them, which distributions from Jazzy on know.
+    **Fix.** Write ``--topics`` before them, which works since Jazzy.
 
     **Source.** rosbag2 issue 2328.
     """
@@ -55,9 +55,12 @@ class RecordedTopicsUnnamed(Rule):
     is_fixed_for_all = True
     since = "0.2"
     examples = (
-        Example("still known", {"launch/a.launch.py": _LAUNCH.format("'/scan'")}),
         Example(
-            "options with values, all topics, and what is not known",
+            "a distribution that still accepts them",
+            {"launch/a.launch.py": _LAUNCH.format("'/scan'")},
+        ),
+        Example(
+            "options with values, all topics, and unknown values",
             {
                 "launch/a.launch.py": _LAUNCH.format("'-o', name(), '--topics', '/scan', '/tf'"),
                 "launch/b.launch.py": _LAUNCH.format("'-a', '-s', 'mcap', '--node-name=bag'"),
@@ -67,21 +70,21 @@ class RecordedTopicsUnnamed(Rule):
             distro="lyrical",
         ),
         Example(
-            "topics without a name",
+            "topics without the option",
             {
                 "launch/a.launch.py": _LAUNCH.format("'/scan', '/tf', '-o', 'bag'"),
                 "launch/b.launch.xml": _XML.format("-s mcap /scan /tf"),
             },
             Report(
                 "launch/a.launch.py:7:54",
-                "'/scan' follows no option: ros2 bag record of Lyrical ends at once; "
-                "use --topics (rosbag2 2328)",
+                "'/scan' is a positional argument: ros2 bag record of Lyrical exits at "
+                "once; use --topics (rosbag2 2328)",
                 fix="Replace with --topics",
             ),
             Report(
                 "launch/b.launch.xml:2:20",
-                "'/scan' follows no option: ros2 bag record of Lyrical ends at once; "
-                "use --topics (rosbag2 2328)",
+                "'/scan' is a positional argument: ros2 bag record of Lyrical exits at "
+                "once; use --topics (rosbag2 2328)",
                 fix="Replace with --topics",
             ),
             fixed={
@@ -91,21 +94,21 @@ class RecordedTopicsUnnamed(Rule):
             distro="lyrical",
         ),
         Example(
-            "launch looks for the program",
+            "a program that launch finds",
             {
                 "launch/a.launch.py": _FOUND.format("[ROS, 'bag', 'record', '/tf']"),
                 "launch/c.launch.xml": _XML.format("/tf").replace("ros2", "$(find-exec ros2)"),
             },
             Report(
                 "launch/a.launch.py:5:54",
-                "'/tf' follows no option: ros2 bag record of Lyrical ends at once; use "
-                "--topics (rosbag2 2328)",
+                "'/tf' is a positional argument: ros2 bag record of Lyrical exits at "
+                "once; use --topics (rosbag2 2328)",
                 fix="Replace with --topics",
             ),
             Report(
                 "launch/c.launch.xml:2:20",
-                "'/tf' follows no option: ros2 bag record of Lyrical ends at once; use "
-                "--topics (rosbag2 2328)",
+                "'/tf' is a positional argument: ros2 bag record of Lyrical exits at "
+                "once; use --topics (rosbag2 2328)",
                 fix="Replace with --topics",
             ),
             fixed={
@@ -124,14 +127,14 @@ class RecordedTopicsUnnamed(Rule):
             },
             Report(
                 "launch/a.launch.yaml:3:10",
-                "'/tf' follows no option: ros2 bag record of Lyrical ends at once; use "
-                "--topics (rosbag2 2328)",
+                "'/tf' is a positional argument: ros2 bag record of Lyrical exits at "
+                "once; use --topics (rosbag2 2328)",
                 fix="Replace with --topics",
             ),
             Report(
                 "launch/b.launch.yaml:3:10",
-                "'/tf' follows no option: ros2 bag record of Lyrical ends at once; use "
-                "--topics (rosbag2 2328)",
+                "'/tf' is a positional argument: ros2 bag record of Lyrical exits at "
+                "once; use --topics (rosbag2 2328)",
                 fix="Replace with --topics",
             ),
             fixed={
@@ -148,20 +151,20 @@ class RecordedTopicsUnnamed(Rule):
                 "launch/c.launch.yaml": "launch:\n- executable:\n"
                 '    cmd: "ros2 bag record \\x2Ftf"\n',
             },
-            "launch/c.launch.yaml:3:10: '/tf' follows no option: ros2 bag record of Lyrical ends "
-            "at once; use --topics (rosbag2 2328)",
+            "3:10: '/tf' is a positional argument: ros2 bag record of Lyrical exits at once; use "
+            "--topics (rosbag2 2328)",
             distro="lyrical",
         ),
         Example(
-            "topics that are written elsewhere",
+            "topics in a variable",
             {
                 "launch/a.launch.py": _LAUNCH.format("'-o', name(), *'/scan /tf'.split()"),
                 "launch/b.launch.py": _FOUND.format("[[ROS, ' bag record ', '/tf']], shell=True"),
             },
-            "launch/a.launch.py:7:69: '/scan' follows no option: ros2 bag record of Lyrical ends "
-            "at once; use --topics (rosbag2 2328)",
-            "launch/b.launch.py:5:32: '/tf' follows no option: ros2 bag record of Lyrical ends at "
-            "once; use --topics (rosbag2 2328)",
+            "launch/a.launch.py:7:69: '/scan' is a positional argument: ros2 bag record of "
+            "Lyrical exits at once; use --topics (rosbag2 2328)",
+            "launch/b.launch.py:5:32: '/tf' is a positional argument: ros2 bag record of Lyrical "
+            "exits at once; use --topics (rosbag2 2328)",
             distro="lyrical",
         ),
     )
@@ -176,8 +179,8 @@ class RecordedTopicsUnnamed(Rule):
             topics = _unnamed(line.words[3:])
             if topics:
                 message = (
-                    f"{topics[0].text!r} follows no option: {_PROGRAM} of {target().title} ends at "
-                    f"once; {change.instead(change.use)} ({change.source})"
+                    f"{topics[0].text!r} is a positional argument: {_PROGRAM} of {target().title} "
+                    f"exits at once; {change.instead(change.use)} ({change.source})"
                 )
                 edit = _edit(package, line, topics[0]) if change.has_replacement else None
                 fix = Fix(f"Replace with {change.use}", (edit,)) if edit is not None else None

@@ -1,4 +1,4 @@
-"""LF065: remappings name what the node has."""
+"""LF065: remapped names exist in the node."""
 
 from __future__ import annotations
 
@@ -48,14 +48,13 @@ _LAUNCH = (
 class RemappingWithoutEffect(Rule):
     """A launch file remaps a name that the node does not have.
 
-    Reported only for Python nodes of the workspace all of whose topics, services and actions are
+    Only Python nodes in the workspace are checked, if all of their topics, services and actions are
     known.
 
-    **Why.** Nothing is remapped, silently: the node keeps using its old names, and messages do not
-    reach it.
+    **Why.** The remapping is ignored without an error: the node keeps its old names, and messages
+    do not reach it.
 
-    **Fix.** Remap a name that the node has. A topic that a parameter names is set with that
-    parameter.
+    **Fix.** Remap a name that the node has. If a parameter holds the topic name, set the parameter.
 
     **Source.** ROS 2 design, "Topic and Service name mapping": remapping rules match full names.
     """
@@ -65,7 +64,7 @@ class RemappingWithoutEffect(Rule):
     effect = Effect.IGNORED
     examples = (
         Example(
-            "a name that keeps its name",
+            "a name remapped to itself",
             {
                 **_FILES,
                 "launch/a.launch.py": _LAUNCH.format("", "chat_in").replace(
@@ -80,36 +79,36 @@ class RemappingWithoutEffect(Rule):
         Example(
             "a private topic without ~/",
             {**_FILES, "launch/a.launch.py": _LAUNCH.format("", "input")},
-            "launch/a.launch.py:8:27: 'talk' has '~/input', which is below the name of the node: "
-            "nothing is remapped; write '~/input'",
+            "launch/a.launch.py:8:27: 'talk' uses the private name '~/input': nothing is "
+            "remapped; write '~/input'",
         ),
         Example(
-            "no such topic",
+            "an unknown topic",
             {**_FILES, "launch/a.launch.py": _LAUNCH.format("", "chat_in")},
             "launch/a.launch.py:8:27: 'talk' has no topic, service or action 'chat_in': nothing "
             "is remapped; it has chatter, ~/input",
         ),
         Example(
-            "a slip",
+            "a misspelled topic",
             {**_FILES, "launch/a.launch.py": _LAUNCH.format("", "chater")},
             "launch/a.launch.py:8:27: 'talk' has no topic, service or action 'chater': nothing is "
             "remapped; did you mean 'chatter'?",
         ),
         Example(
-            "the wrong way round",
+            "the wrong order",
             {
                 **_FILES,
                 "launch/a.launch.py": _LAUNCH.format("", "robot/chatter").replace(
                     "'other'", "'chatter'"
                 ),
             },
-            "launch/a.launch.py:8:27: 'talk' has 'chatter', not 'robot/chatter': nothing is "
+            "launch/a.launch.py:8:27: 'talk' uses 'chatter', not 'robot/chatter': nothing is "
             "remapped; the name in the code comes first",
         ),
         Example(
             "a full name, in a namespace",
             {**_FILES, "launch/a.launch.py": _LAUNCH.format(" namespace='bot',", "/chatter")},
-            "launch/a.launch.py:8:27: in its namespace, 'talk' has '/bot/chatter': nothing is "
+            "launch/a.launch.py:8:27: 'talk' uses '/bot/chatter' in its namespace: nothing is "
             "remapped; write 'chatter'",
         ),
         Example(
@@ -129,7 +128,7 @@ class RemappingWithoutEffect(Rule):
             "is remapped; it has chatter, ~/input",
         ),
         Example(
-            "the name of a parameter that is set",
+            "a topic from a parameter that is set",
             {
                 **_FILES,
                 "launch/a.launch.py": _LAUNCH.format(" parameters=[{'topic': 'a'}],", "chat_in"),
@@ -143,7 +142,7 @@ class RemappingWithoutEffect(Rule):
             },
         ),
         Example(
-            "parameters among the arguments",
+            "parameters in the arguments",
             {
                 **_FILES,
                 "launch/a.launch.py": _LAUNCH.format(
@@ -151,7 +150,9 @@ class RemappingWithoutEffect(Rule):
                 ),
             },
         ),
-        Example("what tf2 has", {**_FILES, "launch/a.launch.py": _LAUNCH.format("", "/tf_static")}),
+        Example(
+            "topics of tf2", {**_FILES, "launch/a.launch.py": _LAUNCH.format("", "/tf_static")}
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
@@ -171,19 +172,19 @@ def _problem(
     full_name = misses_namespace(names, source, node.namespace)
     if full_name:
         return (
-            f"in its namespace, {node.program!r} has {full_name!r}: nothing is remapped; "
-            f"write {source.removeprefix('/')!r}"
+            f"{node.program!r} uses {full_name!r} in its namespace: nothing is remapped; write "
+            f"{source.removeprefix('/')!r}"
         )
     private = misses_privacy(names, source)
     if private:
         return (
-            f"{node.program!r} has {private!r}, which is below the name of the node: nothing is "
-            f"remapped; write {private!r}"
+            f"{node.program!r} uses the private name {private!r}: nothing is remapped; write "
+            f"{private!r}"
         )
     if is_reversed(names, source, target, node.name):
         return (
-            f"{node.program!r} has {target!r}, not {source!r}: nothing is remapped; "
-            "the name in the code comes first"
+            f"{node.program!r} uses {target!r}, not {source!r}: nothing is remapped; the name in "
+            f"the code comes first"
         )
     if has_name(names, source, node.name):
         return ""

@@ -1,4 +1,4 @@
-"""LF085: programs that launch files start accept the arguments of ROS."""
+"""LF085: programs started by launch files accept ROS arguments."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _PLAYER = (
     "    rclpy.init()\n    rclpy.spin(Player(options.speed))\n"
 )
 _HANDLED = ("remove_ros_args(", "parse_known", "sys.argv =", "argv.remove", "ros-args")
-"""Words of programs that know of the arguments of ROS."""
+"""Words in programs that handle ROS arguments."""
 _REMOVED = "parse_args(remove_ros_args(sys.argv)[1:])"
 _FILES = {
     "package.xml": "<package><name>demo</name>"
@@ -37,12 +37,12 @@ _FILES = {
 
 
 class RosArgumentsRefused(Rule):
-    """A launch file starts a program that takes the arguments of ROS for its own.
+    """A launch file starts a program that does not accept ROS arguments.
 
     **Why.** ``Node`` of launch_ros adds ``--ros-args`` to every command line: argparse prints
-    ``error: unrecognized arguments: --ros-args``, and the program ends.
+    ``error: unrecognized arguments: --ros-args``, and the program exits.
 
-    **Fix.** ``parser.parse_args(rclpy.utilities.remove_ros_args(sys.argv)[1:])``.
+    **Fix.** Write ``parser.parse_args(rclpy.utilities.remove_ros_args(sys.argv)[1:])``.
 
     **Source.** ``launch_ros``, ``actions/node.py``; ``rclpy/utilities.py``.
     """
@@ -51,7 +51,7 @@ class RosArgumentsRefused(Rule):
     name = "ros-arguments-refused"
     examples = (
         Example(
-            "the arguments of ROS are removed",
+            "ROS arguments are removed",
             {
                 **_FILES,
                 "demo/player.py": _PLAYER.format("parse_args(remove_ros_args(sys.argv)[1:])"),
@@ -64,8 +64,8 @@ class RosArgumentsRefused(Rule):
         Example(
             "all arguments are parsed",
             {**_FILES, "demo/player.py": _PLAYER.format("parse_args()")},
-            "demo/player.py:18:15: launch/play.launch.py:6 starts this program with --ros-args, "
-            "which argparse refuses; use remove_ros_args()",
+            "demo/player.py:18:15: launch/play.launch.py:6 starts this program with --ros-args: "
+            "argparse exits with an error; use remove_ros_args()",
         ),
     )
 
@@ -78,8 +78,8 @@ class RosArgumentsRefused(Rule):
             seen.add(owner.path)
             for at in _parsing(package, owner.path):
                 message = (
-                    f"{node.launch}:{node.location.line} starts this program with --ros-args, "
-                    "which argparse refuses; use remove_ros_args()"
+                    f"{node.launch}:{node.location.line} starts this program with --ros-args: "
+                    f"argparse exits with an error; use remove_ros_args()"
                 )
                 yield self.report(at, message)
 

@@ -1,4 +1,4 @@
-"""LF015: files that launch files name are there when the package is installed."""
+"""LF015: files that launch files use are installed."""
 
 from __future__ import annotations
 
@@ -45,20 +45,20 @@ class SharePathMissing(Rule):
     **Why.** ``ros2 launch`` stops with ``No such file or directory``; for a parameter file it
     only warns, and the node runs with its defaults. A node ends with ``FileNotFoundError``.
 
-    **Fix.** Write the path that the build file installs, or install the file.
+    **Fix.** Use the path that the build file installs to, or install the file.
 
     **Source.** ROS 2 documentation, "Using ROS 2 launch for large projects".
     """
 
     code = "LF015"
     name = "share-path-missing"
-    other_severities = {Severity.WARNING: "its directory is empty but for a README or .gitkeep"}
+    other_severities = {Severity.WARNING: "its directory contains only a README or .gitkeep"}
     examples = (
         Example(
             "installed", {**_FILES, "launch/a.launch.py": _LAUNCH.format("'config', 'talker.yaml'")}
         ),
         Example(
-            "in a directory that waits for files of the user",
+            "in a directory for files of the user",
             {
                 **_FILES,
                 "models/README.md": "Put best.pt here.\n",
@@ -95,7 +95,7 @@ class SharePathMissing(Rule):
             },
         ),
         Example(
-            "made on each machine, so git leaves it out",
+            "a generated file that git ignores",
             {
                 **_FILES,
                 ".gitignore": "*.pyc\ntalk.yaml\n",
@@ -113,7 +113,7 @@ class SharePathMissing(Rule):
             },
         ),
         Example(
-            "given to a function of which nothing is known",
+            "passed to an unknown function",
             {
                 **_FILES,
                 "launch/a.launch.py": _LAUNCH.format("'config', 'talker.yaml'").replace(
@@ -124,7 +124,7 @@ class SharePathMissing(Rule):
             },
         ),
         Example(
-            "a pattern; a file that the launch file makes anew",
+            "a pattern; a file that the launch file creates",
             {
                 **_FILES,
                 "launch/a.launch.py": _LAUNCH.format("'config', '*.yml'"),
@@ -136,7 +136,7 @@ class SharePathMissing(Rule):
             },
         ),
         Example(
-            "a path that only went into what nothing starts",
+            "a path that is never used",
             {
                 **_FILES,
                 "launch/a.launch.py": _LAUNCH.format("'config', 'talker.yaml'").replace(
@@ -149,7 +149,7 @@ class SharePathMissing(Rule):
             },
         ),
         Example(
-            "a path that is read at once",
+            "a path that is read while the launch file is loaded",
             {
                 **_FILES,
                 "launch/a.launch.py": _LAUNCH.format("'config', 'talker.yaml'").replace(
@@ -173,7 +173,7 @@ class SharePathMissing(Rule):
             },
         ),
         Example(
-            "a file that a shell writes; a name that is filled in later",
+            "a file that a shell command writes; a format string",
             {
                 **_FILES,
                 "launch/a.launch.py": _LAUNCH.format("'config', 'talker.yaml'").replace(
@@ -187,7 +187,7 @@ class SharePathMissing(Rule):
             },
         ),
         Example(
-            "a database, which is made when it is opened",
+            "a database, which is created when it is opened",
             {
                 **_FILES,
                 "launch/a.launch.py": _LAUNCH.format("'config', 'map.db'")
@@ -196,7 +196,7 @@ class SharePathMissing(Rule):
             },
         ),
         Example(
-            "a text of several lines, in a directory of which nothing is installed",
+            "a multi-line string, in a directory that is not installed",
             {
                 **_FILES,
                 "tests/a.test": "",
@@ -208,7 +208,7 @@ class SharePathMissing(Rule):
             "talker does not install tests/a.test",
         ),
         Example(
-            "a node that reads what is installed, and makes a file of its own",
+            "a node that reads an installed file and creates another one",
             {
                 **_FILES,
                 "talker/talk.py": _NODE.format("talker.yaml")

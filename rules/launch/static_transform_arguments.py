@@ -1,4 +1,4 @@
-"""LF080: a static transform is described with names."""
+"""LF080: static_transform_publisher gets named arguments."""
 
 from __future__ import annotations
 
@@ -70,11 +70,11 @@ _WIDTH = 99
 
 
 class StaticTransformArguments(Rule):
-    """A launch file gives ``static_transform_publisher`` arguments without names.
+    """A launch file passes positional arguments to ``static_transform_publisher``.
 
-    **Why.** The program exits at once: Lyrical no longer accepts them.
+    **Why.** Lyrical no longer accepts them: the program exits at once.
 
-    **Fix.** Put the name before each value; all distributions know the names.
+    **Fix.** Write the option before each value, such as ``--x 1``; this works on all distributions.
 
     **Source.** geometry2, ``static_transform_broadcaster_program.cpp``.
     """
@@ -83,10 +83,12 @@ class StaticTransformArguments(Rule):
     name = "static-transform-arguments"
     is_fixed_for_all = True
     examples = (
-        Example("still known", {"launch/a.launch.py": _LAUNCH.format(_OLD)}),
-        Example("names", {"launch/a.launch.py": _LAUNCH.format(_NEW)}, distro="lyrical"),
         Example(
-            "no names",
+            "a distribution that still accepts them", {"launch/a.launch.py": _LAUNCH.format(_OLD)}
+        ),
+        Example("named arguments", {"launch/a.launch.py": _LAUNCH.format(_NEW)}, distro="lyrical"),
+        Example(
+            "positional arguments",
             {
                 "launch/a.launch.py": _LAUNCH.format(_OLD),
                 "launch/b.launch.xml": _XML.format("1 0 0 0 0 0 base laser"),
@@ -110,7 +112,7 @@ class StaticTransformArguments(Rule):
             distro="lyrical",
         ),
         Example(
-            "a list with room",
+            "a list over several lines",
             {"launch/a.launch.py": _LAUNCH.format(_ROOMY.format(*[""] * 8))},
             Report(
                 "8:24",
@@ -126,7 +128,7 @@ class StaticTransformArguments(Rule):
             distro="lyrical",
         ),
         Example(
-            "other ways to give them",
+            "other forms of arguments",
             {
                 "launch/a.launch.py": _PROGRAMS,
                 "launch/b.launch.xml": _PROCESS.format(*[""] * 8),
@@ -220,7 +222,7 @@ class StaticTransformArguments(Rule):
             distro="lyrical",
         ),
         Example(
-            "what is not all there, and other programs",
+            "incomplete arguments, and other programs",
             {
                 "launch/a.launch.py": _LAUNCH.format("*more(), '0', 'a', 'b'"),
                 "launch/b.launch.xml": _PROCESS.format(*[""] * 8).replace("tf2_ros static", "a b"),

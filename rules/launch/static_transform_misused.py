@@ -1,4 +1,4 @@
-"""LF067: static_transform_publisher gets options that it knows."""
+"""LF067: static_transform_publisher gets valid options and values."""
 
 from __future__ import annotations
 
@@ -24,17 +24,17 @@ _TURN = 6.3
 
 
 class StaticTransformMisused(Rule):
-    """A launch file gives static_transform_publisher options that it does not know, or too few.
+    """A launch file passes invalid or incomplete options to static_transform_publisher.
 
-    Or an angle is in degrees, or a value is not a number, such as ROS 1 arguments that end with a
-    period.
+    Also reported are angles in degrees, and values that are not numbers, such as in ROS 1
+    arguments, which end with a period.
 
-    **Why.** It ends at once, ``must specify --frame-id``: the frame is missing, and nodes wait for
-    a transform that never comes. Angles are in radians: a frame that is rotated by 90 of them
-    points anywhere.
+    **Why.** It exits at once with ``must specify --frame-id``: the frame is missing, and nodes wait
+    for a transform that never arrives. Angles are in radians: a rotation by 90 radians points in an
+    arbitrary direction.
 
-    **Fix.** ``--x 0.1 --yaw 1.57 --frame-id base_link --child-frame-id laser``, each value as a
-    separate string.
+    **Fix.** Pass ``--x 0.1 --yaw 1.57 --frame-id base_link --child-frame-id laser``, each value as
+    a separate string.
 
     **Source.** tf2_ros, ``static_transform_broadcaster_program.cpp``.
     """
@@ -43,7 +43,7 @@ class StaticTransformMisused(Rule):
     name = "static-transform-misused"
     examples = (
         Example(
-            "options; the old way; unknown",
+            "options; positional arguments; an unknown value",
             {
                 "launch/a.launch.py": _LAUNCH.format(
                     "'--x', '0.1', '--frame-id', 'a', '--child-frame-id', 'b'"
@@ -53,21 +53,21 @@ class StaticTransformMisused(Rule):
             },
         ),
         Example(
-            "an option misspelt; none of another",
+            "a misspelled option; a missing option",
             {
                 "launch/a.launch.py": _LAUNCH.format("'--frame_id', 'a', '--child-frame-id', 'b'"),
                 "launch/b.launch.py": _LAUNCH.format("'--x', '1', '--frame-id', 'a'"),
                 "launch/c.launch.xml": _XML.format("--tx 1 --frame-id a --child-frame-id b"),
             },
-            "launch/a.launch.py:8:25: '--frame_id' is not an option: static_transform_publisher "
-            "ends at once; closest: '--frame-id'",
-            "launch/b.launch.py:7:9: no '--child-frame-id': static_transform_publisher ends at "
-            "once, it must be given",
-            "launch/c.launch.xml:2:63: '--tx' is not an option: static_transform_publisher ends "
-            "at once; closest: '--x'",
+            "launch/a.launch.py:8:25: unknown option '--frame_id': static_transform_publisher "
+            "exits at once; closest: '--frame-id'",
+            "launch/b.launch.py:7:9: missing '--child-frame-id': static_transform_publisher exits "
+            "at once",
+            "launch/c.launch.xml:2:63: unknown option '--tx': static_transform_publisher exits at "
+            "once; closest: '--x'",
         ),
         Example(
-            "options that Lyrical passes over",
+            "options that Lyrical ignores",
             {
                 "launch/a.launch.py": _LAUNCH.format(
                     "'--tx', '1', '--frame-id', 'a', '--child-frame-id', 'b'"
@@ -76,14 +76,14 @@ class StaticTransformMisused(Rule):
                     "'0.1', '--frame-id', 'a', '--child-frame-id', 'b'"
                 ),
             },
-            "launch/a.launch.py:8:25: '--tx' is not an option: static_transform_publisher ignores "
+            "launch/a.launch.py:8:25: unknown option '--tx': static_transform_publisher ignores "
             "it; closest: '--x'",
-            "launch/b.launch.py:8:25: '0.1' follows no option: static_transform_publisher ignores "
-            "it",
+            "launch/b.launch.py:8:25: '0.1' has no option before it: static_transform_publisher "
+            "ignores it",
             distro="lyrical",
         ),
         Example(
-            "a process, and values that are not known",
+            "a process, and unknown values",
             {
                 "launch/a.launch.xml": "<launch>\n  <executable cmd='ros2 run tf2_ros "
                 "static_transform_publisher --x 1 --frame-id a'/>\n</launch>\n",
@@ -91,8 +91,8 @@ class StaticTransformMisused(Rule):
                 "launch/c.launch.xml": _XML.format("--frame-id a --child-frame-id $(var b c)"),
                 "launch/d.launch.xml": _XML.format("0 0 0 $(var rotation) a b"),
             },
-            "launch/a.launch.xml:2:20: no '--child-frame-id': static_transform_publisher ends at "
-            "once, it must be given",
+            "launch/a.launch.xml:2:20: missing '--child-frame-id': static_transform_publisher "
+            "exits at once",
         ),
         Example(
             "degrees",
@@ -107,7 +107,7 @@ class StaticTransformMisused(Rule):
             "launch/b.launch.xml:2:63: angles are in radians: 180 is more than a turn",
         ),
         Example(
-            "the arguments of ROS 1, with a period at the end; no number",
+            "ROS 1 arguments, with a period at the end; a value that is not a number",
             {
                 "launch/a.launch.py": _LAUNCH.format("*'0 0 0 0 0 0 a b 100'.split()"),
                 "launch/b.launch.py": _LAUNCH.format(
@@ -115,8 +115,9 @@ class StaticTransformMisused(Rule):
                 ),
                 "launch/c.launch.xml": _XML.format("1e-1 .5 -.5 +0 inf 1.0f 1 a b"),
             },
-            "launch/a.launch.py:8:26: 'a' is not a number: static_transform_publisher ends at once",
-            "launch/b.launch.py:8:34: 'pi' is not a number: static_transform_publisher ends at "
+            "launch/a.launch.py:8:26: 'a' is not a number: static_transform_publisher exits at "
+            "once",
+            "launch/b.launch.py:8:34: 'pi' is not a number: static_transform_publisher exits at "
             "once",
         ),
         Example(
@@ -126,7 +127,7 @@ class StaticTransformMisused(Rule):
                     "'0.1', '--frame-id', 'a', '--child-frame-id', 'b'"
                 )
             },
-            "8:25: '0.1' follows no option: static_transform_publisher ends at once",
+            "8:25: '0.1' has no option before it: static_transform_publisher exits at once",
         ),
         Example(
             "too few numbers; two kinds of rotation; one frame",
@@ -137,10 +138,10 @@ class StaticTransformMisused(Rule):
                 ),
                 "launch/c.launch.xml": _XML.format("--frame-id a --child-frame-id a"),
             },
-            "launch/a.launch.py:7:9: 5 positional arguments: static_transform_publisher ends "
-            "at once; write --frame-id, --child-frame-id and --x, --y, ...",
-            "launch/b.launch.py:7:9: angles and a quaternion: static_transform_publisher ends at "
-            "once; give one of them",
+            "launch/a.launch.py:7:9: 5 positional arguments: static_transform_publisher exits at "
+            "once; write --frame-id, --child-frame-id and --x, --y, ...",
+            "launch/b.launch.py:7:9: both angles and a quaternion: static_transform_publisher "
+            "exits at once; pass one of them",
             "launch/c.launch.xml:2:63: 'a' is its own parent: tf2 ignores the transform",
         ),
     )
@@ -154,7 +155,7 @@ class StaticTransformMisused(Rule):
             whole = transform.given if transform.attribute is not None else transform.location
             options = [n for n, word in enumerate(transform.words) if word.text.startswith("--")]
             for word in _invalid_numbers(transform.words):
-                message = f"{word.text!r} is not a number: {PROGRAM} ends at once"
+                message = f"{word.text!r} is not a number: {PROGRAM} exits at once"
                 yield self.report(word.location, message)
             if options:
                 yield from self._check_options(package, transform.words, options, whole)
@@ -162,8 +163,8 @@ class StaticTransformMisused(Rule):
             count = len(transform.words)
             if count not in _POSITIONAL and all(word.text != UNSAID for word in transform.words):
                 message = (
-                    f"{count} positional arguments: {PROGRAM} ends at once; "
-                    "write --frame-id, --child-frame-id and --x, --y, ..."
+                    f"{count} positional arguments: {PROGRAM} exits at once; write --frame-id, "
+                    f"--child-frame-id and --x, --y, ..."
                 )
                 yield self.report(whole, message)
 
@@ -175,22 +176,22 @@ class StaticTransformMisused(Rule):
         if any(texts[index] == UNSAID for index in loose):
             return  # which may be an option
         change = of_program(PROGRAM)
-        then = "ignores it" if change.is_removed else "ends at once"
+        then = "ignores it" if change.is_removed else "exits at once"
         unknown = [index for index in options if texts[index] not in (*_VALUES, *_FRAMES, "--help")]
         for index in unknown:
             closest = closest_name(package, texts[index], (*_VALUES, *_FRAMES), 0.6)
             hint = f"; closest: {closest!r}" if closest else ""
-            message = f"{texts[index]!r} is not an option: {PROGRAM} {then}{hint}"
+            message = f"unknown option {texts[index]!r}: {PROGRAM} {then}{hint}"
             yield self.report(words[index].location, message)
         for index in loose if not unknown else ():
-            message = f"{texts[index]!r} follows no option: {PROGRAM} {then}"
+            message = f"{texts[index]!r} has no option before it: {PROGRAM} {then}"
             yield self.report(words[index].location, message)
         for frame in _FRAMES:
             if frame not in texts and not unknown:
-                yield self.report(whole, f"no {frame!r}: {PROGRAM} ends at once, it must be given")
+                yield self.report(whole, f"missing {frame!r}: {PROGRAM} exits at once")
         given = {texts[index] for index in options}
         if given & {"--roll", "--pitch", "--yaw"} and given & {"--qx", "--qy", "--qz", "--qw"}:
-            message = f"angles and a quaternion: {PROGRAM} ends at once; give one of them"
+            message = f"both angles and a quaternion: {PROGRAM} exits at once; pass one of them"
             yield self.report(whole, message)
         frames = [texts[texts.index(frame) + 1 :][:1] for frame in _FRAMES if frame in texts]
         if len(frames) == len(_FRAMES) and frames[0] == frames[1] != [UNSAID]:

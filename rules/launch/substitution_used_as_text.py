@@ -1,4 +1,4 @@
-"""LF041: substitutions are not text or truth values while the launch file is read."""
+"""LF041: substitutions are not used as strings or booleans while the launch file is loaded."""
 
 from __future__ import annotations
 
@@ -36,14 +36,14 @@ _LAUNCH_TRUTH = (
 
 
 class SubstitutionUsedAsText(LaunchRule):
-    """A substitution such as LaunchConfiguration is used as a string, or its string as a bool.
+    """A substitution such as LaunchConfiguration is used as a string, or its value as a bool.
 
-    **Why.** It has a value only later, when actions are executed: ``TypeError: join() argument must
-    be str ... not 'LaunchConfiguration'``; in an f-string, a comparison or after ``if`` it is an
-    object, and the result silently wrong. Its value is text: Python takes ``'false'`` for true, and
-    ``'true' == True`` is false.
+    **Why.** It only has a value later, when actions are executed: ``TypeError: join() argument must
+    be str ... not 'LaunchConfiguration'``. In an f-string, a comparison or a condition, the object
+    itself is used, and the result is wrong without an error. The value is a string: ``'false'`` is
+    true in Python, and ``'true' == True`` is false.
 
-    **Fix.** A list of parts, ``['/', LaunchConfiguration('name')]``, PathJoinSubstitution,
+    **Fix.** Use a list of parts, ``['/', LaunchConfiguration('name')]``, PathJoinSubstitution,
     PythonExpression, or an OpaqueFunction; ``condition=IfCondition(use)``, or ``if
     use.perform(context).lower() == 'true':``.
 
@@ -63,45 +63,45 @@ class SubstitutionUsedAsText(LaunchRule):
             },
         ),
         Example(
-            "looked at by its author",
+            "printed for debugging",
             {"launch/a.launch.py": _LAUNCH.format("'a'\n    print(f'{name}', str(name))", "name")},
         ),
         Example(
             "joined by Python",
             {"launch/a.launch.py": _LAUNCH.format("os.path.join('a', name)", "'x' + name")},
-            "10:30: the value of a LaunchConfiguration is not known yet in os.path.join(): it is "
-            "evaluated later",
-            "12:74: the value of a LaunchConfiguration is not known yet in a sum: it is evaluated "
-            "later",
+            "10:30: LaunchConfiguration has no value yet in os.path.join(): it is evaluated when "
+            "the launch runs",
+            "12:74: LaunchConfiguration has no value yet in a sum: it is evaluated when the "
+            "launch runs",
         ),
         Example(
-            "filled into a text, a choice of Python",
+            "in a format string, and in a Python condition",
             {"launch/a.launch.py": _LAUNCH.format("'%s.a' % name", "'a' if name else 'b'")},
-            "10:21: the value of a LaunchConfiguration is not known yet in a % format: it is "
-            "evaluated later",
+            "10:21: LaunchConfiguration has no value yet in a % format: it is evaluated when the "
+            "launch runs",
             "12:81: the LaunchConfiguration object is tested, not its value: always true; use "
             "IfCondition",
         ),
         Example(
             "in an f-string",
             {"launch/a.launch.py": _LAUNCH.format("'a'", "f'x{name}'")},
-            "12:74: the value of a LaunchConfiguration is not known yet in an f-string: it is "
-            "evaluated later",
+            "12:74: LaunchConfiguration has no value yet in an f-string: it is evaluated when the "
+            "launch runs",
         ),
         Example(
-            "its text compared",
+            "its value compared",
             {"launch/a.launch.py": _LAUNCH_TRUTH.format("use == 'true'", "false")},
         ),
         Example(
-            "a text that may be empty", {"launch/a.launch.py": _LAUNCH_TRUTH.format("use", "")}
+            "a value that may be empty", {"launch/a.launch.py": _LAUNCH_TRUTH.format("use", "")}
         ),
         Example(
-            "the truth of its text",
+            "its value as a condition",
             {"launch/a.launch.py": _LAUNCH_TRUTH.format("use", "false")},
             "8:18: this is a string such as 'false', which is always true",
         ),
         Example(
-            "its text compared with a truth value",
+            "its value compared with a bool",
             {"launch/a.launch.py": _LAUNCH_TRUTH.format("use == True", "false")},
             "8:18: this is a string, which never equals True",
         ),
@@ -115,7 +115,7 @@ class SubstitutionUsedAsText(LaunchRule):
         for node, kind, use in text_uses(launch):
             if use in _SHOWN and _is_printed(launch, node):
                 continue
-            message = f"the value of a {kind} is not known yet {use}: it is evaluated later"
+            message = f"{kind} has no value yet {use}: it is evaluated when the launch runs"
             if use == CONDITION:
                 message = (
                     f"the {kind} object is tested, not its value: always true; use IfCondition"

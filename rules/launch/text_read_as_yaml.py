@@ -1,4 +1,4 @@
-"""LF014: launch arguments for parameters that are text stay text."""
+"""LF014: launch arguments for string parameters remain strings."""
 
 from __future__ import annotations
 
@@ -58,12 +58,12 @@ _NAMES_SOMETHING = (
 
 
 class TextReadAsYaml(Rule):
-    """A launch argument or the output of a command is a string, but launch reads it as YAML.
+    """launch parses a launch argument or the output of a command as YAML instead of a string.
 
-    **Why.** It works until somebody writes ``text:=42`` or ``text:=on``: ``InvalidParameterType
+    **Why.** It works until a user passes ``text:=42`` or ``text:=on``: ``InvalidParameterType
     Exception: Trying to set parameter 'text' to '42' of type 'INTEGER', expecting type 'STRING'``.
-    A robot description with a colon and a space in it, as in a comment, ends the launch: ``Unable
-    to parse the value of parameter robot_description as yaml``.
+    A robot description that contains a colon and a space, as in a comment, stops the launch:
+    ``Unable to parse the value of parameter robot_description as yaml``.
 
     **Fix.** ``ParameterValue(LaunchConfiguration('text'), value_type=str)``.
 
@@ -73,17 +73,17 @@ class TextReadAsYaml(Rule):
     code = "LF014"
     name = "text-read-as-yaml"
     severity = Severity.WARNING
-    other_severities = {Severity.ERROR: "it is the description of a robot, which YAML cannot read"}
+    other_severities = {Severity.ERROR: "it is a robot description, which YAML cannot parse"}
     examples = (
         Example(
-            "kept as text",
+            "kept as a string",
             {
                 **_FILES,
                 "launch/a.launch.py": _LAUNCH.format("ParameterValue(text, value_type=str)"),
             },
         ),
         Example(
-            "one of certain texts",
+            "one of several choices",
             {
                 **_FILES,
                 "launch/a.launch.py": _LAUNCH.format("text").replace(
@@ -92,7 +92,7 @@ class TextReadAsYaml(Rule):
             },
         ),
         Example(
-            "a path, which is no number",
+            "a path, which does not look like a number",
             {
                 path: text.replace("'text'", "'map_file'")
                 for path, text in {
@@ -102,7 +102,7 @@ class TextReadAsYaml(Rule):
             },
         ),
         Example(
-            "an address, which is no number",
+            "an address, which does not look like a number",
             {
                 path: text.replace("'text'", "'robot_ip'")
                 for path, text in {
@@ -112,17 +112,18 @@ class TextReadAsYaml(Rule):
             },
         ),
         Example(
-            "read as YAML",
+            "parsed as YAML",
             {**_FILES, "launch/a.launch.py": _LAUNCH.format("text")},
-            "launch/a.launch.py:12:70: text is a string, and launch reads a value such as 42 or "
-            "on as YAML: wrap it in ParameterValue(..., value_type=str)",
+            "launch/a.launch.py:12:70: text is a string, but launch parses values such as 42 or "
+            "on as YAML: InvalidParameterTypeException; wrap it in ParameterValue(..., "
+            "value_type=str)",
         ),
         Example(
-            "the output of a command, kept as text",
+            "the output of a command, kept as a string",
             {"launch/a.launch.py": _COMMAND.format("ParameterValue(urdf, value_type=str)")},
         ),
         Example(
-            "a description that YAML takes for text; xacro drops a comment",
+            "a description that YAML parses as a string; a comment that xacro drops",
             {
                 "launch/a.launch.py": _COMMAND.format("urdf"),
                 "urdf/robot.urdf": '<robot name="a" xmlns:xacro="http://www.ros.org/wiki/xacro">\n'
@@ -140,15 +141,15 @@ class TextReadAsYaml(Rule):
             },
             Report(
                 "launch/a.launch.py:11:48",
-                "robot_description is the output of a command, which launch reads "
-                "as YAML, but urdf/robot.urdf:2 has a ': ': wrap it in "
+                "launch parses the output of this command for robot_description as "
+                "YAML, which fails at ': ' in urdf/robot.urdf:2; wrap it in "
                 "ParameterValue(..., value_type=str)",
                 severity=Severity.ERROR,
             ),
             Report(
                 "launch/b.launch.py:11:48",
-                "robot_description is the output of a command, which launch reads "
-                "as YAML, but urdf/robot.urdf:2 has a ': ': wrap it in "
+                "launch parses the output of this command for robot_description as "
+                "YAML, which fails at ': ' in urdf/robot.urdf:2; wrap it in "
                 "ParameterValue(..., value_type=str)",
                 severity=Severity.ERROR,
             ),
@@ -164,8 +165,8 @@ class TextReadAsYaml(Rule):
             broken = _with_colon(package) if outputs else None
             for name, at in outputs if broken is not None else ():
                 message = (
-                    f"{name} is the output of a command, which launch reads as YAML, but "
-                    f"{broken} has a ': ': wrap it in ParameterValue(..., value_type=str)"
+                    f"launch parses the output of this command for {name} as YAML, which fails at "
+                    f"': ' in {broken}; wrap it in ParameterValue(..., value_type=str)"
                 )
                 cause = f"command read as YAML in {path}"
                 yield self.report(at, message, severity=Severity.ERROR, cause=cause)
@@ -180,8 +181,9 @@ class TextReadAsYaml(Rule):
                     continue
                 if item.value is None or item.value.type == "string":
                     message = (
-                        f"{item.name} is a string, and launch reads a value such as 42 or on as "
-                        "YAML: wrap it in ParameterValue(..., value_type=str)"
+                        f"{item.name} is a string, but launch parses values such as 42 or on as "
+                        f"YAML: InvalidParameterTypeException; wrap it in ParameterValue(..., "
+                        f"value_type=str)"
                     )
                     cause = f"text read as YAML in {item.location.path}"
                     yield self.report(item, message, cause=cause)

@@ -1,4 +1,4 @@
-"""LF040: arguments of launch are of a kind that it can use."""
+"""LF040: arguments in launch files have supported types."""
 
 from __future__ import annotations
 
@@ -62,17 +62,17 @@ _NODE = (
 
 
 class ValueUnusable(LaunchRule):
-    """An argument in a launch file has a value of a type that launch cannot use.
+    """An argument in a launch file has a type that launch does not support.
 
     **Why.** ``ros2 launch`` stops with ``TypeError`` or ``ValueError``: ``'int' object is not
     iterable``, ``'TimerAction' expected 'period' to be one of ... float``, ``Provided default_value
     "fst" is not in provided choices``, ``Expected a non-empty sequence, with items of uniform
-    type``. A command that is one text is looked for as one program: ``No such file or directory:
+    type``. A command in one string is taken as the name of a program: ``No such file or directory:
     'ls -l'``.
 
-    **Fix.** Texts in quotes, ``LaunchConfiguration('name')`` for the value of an argument,
-    ``IfCondition(...)`` for conditions, ``period=1.0``, ``cmd=['ls', '-l']``,
-    ``launch_arguments={'use_sim_time': 'true'}.items()``, values of one type in a parameter.
+    **Fix.** Put strings in quotes; write ``LaunchConfiguration('name')`` for the value of an
+    argument, ``IfCondition(...)`` for conditions, ``period=1.0``, ``cmd=['ls', '-l']``,
+    ``launch_arguments={'use_sim_time': 'true'}.items()``; do not mix types in a parameter.
 
     **Source.** ``launch/actions``, ``launch_ros/actions/node.py``,
     ``launch/utilities/normalize_to_list_of_substitutions_impl.py``,
@@ -81,14 +81,14 @@ class ValueUnusable(LaunchRule):
 
     code = "LF040"
     name = "value-unusable"
-    other_severities = {Severity.WARNING: "it works, and lets wrong values pass"}
+    other_severities = {Severity.WARNING: "it works, but accepts wrong values"}
     examples = (
-        Example("usable", {"launch/a.launch.py": _RIGHT, "launch/b.launch.py": _CHOICE}),
+        Example("valid values", {"launch/a.launch.py": _RIGHT, "launch/b.launch.py": _CHOICE}),
         Example(
             "a number, a number in a list",
             {"launch/a.launch.py": _LAUNCH.format("2.0", "['--rate', 3]")},
-            "8:53: this is not a string: write '2.0'",
-            "9:72: this is not a string: write '3'",
+            "8:53: not a string; write '2.0'",
+            "9:72: not a string; write '3'",
         ),
         Example(
             "other arguments of a node",
@@ -105,35 +105,35 @@ class ValueUnusable(LaunchRule):
             "11:24: a condition must be an object such as IfCondition(...), not a value",
             "11:43: parameters must be files or dictionaries {'name': value}, not lists or pairs",
         ),
-        Example("texts", {"launch/a.launch.py": _TEXTS.format("['a', 'b']", "'n'", "'3'")}),
+        Example("strings", {"launch/a.launch.py": _TEXTS.format("['a', 'b']", "'n'", "'3'")}),
         Example(
             "a number, an action, a number in the environment",
             {"launch/a.launch.py": _TEXTS.format("3", "name", "3")},
-            "10:21: this is not a string: write '3'",
-            "11:48: this is the action DeclareLaunchArgument, not a value: write "
+            "10:21: not a string; write '3'",
+            "11:48: expected a value, not the action DeclareLaunchArgument; write "
             "LaunchConfiguration('name')",
-            "11:78: this is not a string: write '3'",
+            "11:78: not a string; write '3'",
         ),
         Example(
-            "a number among texts",
+            "a number among strings",
             {"launch/a.launch.py": _TEXTS.format("['a', 3]", "'n'", "'3'")},
-            "10:27: this is not a string: write '3'",
+            "10:27: not a string; write '3'",
         ),
         Example(
             "a command, a period and a choice",
             {"launch/a.launch.py": _PROCESS.format("fast", "['ls', '-l']", "1.0")},
         ),
         Example(
-            "a default that is no choice, a command in one text, an int as a period",
+            "a default that is not a choice, a command in one string, an int as a period",
             {"launch/a.launch.py": _PROCESS.format("fst", "'ls -l'", "1")},
             "9:68: the default 'fst' is not among the choices",
-            "10:28: launch splits a string into letters: write a list of words",
-            "11:28: a period must be a float: write 1.0",
+            "10:28: launch splits this string into single characters; write a list of strings",
+            "11:28: a period must be a float; write 1.0",
         ),
         Example(
-            "two words of a command in one",
+            "two words of a command in one string",
             {"launch/a.launch.py": _PROCESS.format("fast", "['ls -l']", "1.0")},
-            "10:28: this is one word, so a program 'ls -l' is looked for: write a list of words",
+            "10:28: launch searches for a program named 'ls -l'; write a list of strings",
         ),
         Example(
             "the name of a type",
@@ -145,7 +145,7 @@ class ValueUnusable(LaunchRule):
                 "    return [ParameterValue(rate, value_type=int),\n"
                 "            ParameterValue(rate, value_type='int')]\n"
             },
-            "8:45: value_type must be a type, not a string: write int",
+            "8:45: value_type must be a type, not a string; write int",
         ),
         Example(
             "other kinds of respawn, periods and choices",
@@ -158,22 +158,16 @@ class ValueUnusable(LaunchRule):
                     "['fast', 'slow']", "[1, 2]"
                 ),
             },
-            Report(
-                "launch/a.launch.py:10:44",
-                "respawn must be a bool, not a string: write True or False",
-            ),
-            Report("launch/a.launch.py:11:28", "a period must be a number of seconds, such as 1.0"),
+            "launch/a.launch.py:10:44: respawn must be a bool, not a string; write True or False",
+            "launch/a.launch.py:11:28: a period must be a number of seconds, such as 1.0",
             Report(
                 "launch/b.launch.py:9:69",
-                "choices must be a list of strings: any part of this string is "
-                "accepted; write a list",
+                "choices must be a list of strings: launch accepts any substring; write a list",
                 severity=Severity.WARNING,
             ),
-            Report("launch/b.launch.py:11:28", "a period must be a number of seconds, not 'soon'"),
-            Report(
-                "launch/c.launch.py:9:66",
-                "choices must be strings: a value of the command line never equals a number",
-            ),
+            "launch/b.launch.py:11:28: a period must be a number of seconds, not 'soon'",
+            "launch/c.launch.py:9:66: choices must be strings: values from the command line never "
+            "equal a number",
         ),
         Example(
             "arguments of an include: pairs",
@@ -187,22 +181,23 @@ class ValueUnusable(LaunchRule):
         Example(
             "arguments of an include: a number in a list",
             {"launch/a.launch.py": _INCLUDE.format("[('a', ['b', 1])]")},
-            "13:37: 'a' gets a list with a number, which launch cannot join",
+            "13:37: 'a' gets a list with a number, which launch cannot concatenate",
         ),
         Example(
             "arguments of an include: a set",
             {"launch/a.launch.py": _INCLUDE.format("{'a', 'b'}")},
-            "13:30: this is a set: launch takes pairs, {...}.items() or [('name', 'value')]",
+            "13:30: expected pairs, not a set: launch takes pairs, {...}.items() or [('name', "
+            "'value')]",
         ),
         Example(
             "arguments of an include: items, not called",
             {"launch/a.launch.py": _INCLUDE.format("{'a': 'b'}.items")},
-            "13:30: items is not called: write .items()",
+            "13:30: items is not called; write .items()",
         ),
         Example(
-            "arguments of an include: a list of texts",
+            "arguments of an include: a list of strings",
             {"launch/a.launch.py": _INCLUDE.format("['a', 'b']")},
-            "13:30: these are not pairs: launch takes pairs, {...}.items() or [('name', 'value')]",
+            "13:30: not pairs: launch takes pairs, {...}.items() or [('name', 'value')]",
         ),
         Example(
             "arguments of an include: a number that is computed",
@@ -211,19 +206,19 @@ class ValueUnusable(LaunchRule):
         ),
         Example("a parameter: values of one type", {"launch/a.launch.py": _NODE.format("[1, 2]")}),
         Example(
-            "a parameter: nothing",
+            "a parameter: None",
             {"launch/a.launch.py": _NODE.format("None")},
-            "7:61: the parameter 'a' is None, which is not a value of a parameter",
+            "7:61: the parameter 'a' is None, which is not a parameter value",
         ),
         Example(
             "a parameter: an empty list",
             {"launch/a.launch.py": _NODE.format("[]")},
-            "7:61: the parameter 'a' is an empty list, whose type is unknown",
+            "7:61: the parameter 'a' is an empty list, which has no type",
         ),
         Example(
             "a parameter: a mixed list",
             {"launch/a.launch.py": _NODE.format("[1, 'a']")},
-            "7:61: the parameter 'a' mixes types in a list",
+            "7:61: the parameter 'a' is a list of mixed types",
         ),
     )
 

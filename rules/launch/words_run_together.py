@@ -1,4 +1,4 @@
-"""LF058: each argument of a program is a text of its own."""
+"""LF058: each argument of a program is a separate string."""
 
 from __future__ import annotations
 
@@ -37,14 +37,14 @@ def _command(command: str) -> dict[str, str]:
 
 
 class WordsRunTogether(LaunchRule):
-    """Two words of a command line are one string: a comma or a space is missing between them.
+    """Two words of a command line are in one string, or a comma or space is missing between them.
 
     **Why.** Python joins adjacent string literals: ``'--ros-args' '-r'`` is ``--ros-args-r``.
-    ``'--ros-args -r a:=b'`` is one argument with spaces in it. The program ignores both, most often
-    silently. ``Command(['xacro', path])`` looks for a program ``xacro/opt/...``.
+    ``'--ros-args -r a:=b'`` is one argument with spaces in it. Most programs ignore both without an
+    error. ``Command(['xacro', path])`` searches for a program ``xacro/opt/...``.
 
-    **Fix.** ``['--ros-args', '-r', 'a:=b']``; a space at the end of ``'xacro '``, or ``' '`` after
-    ``FindExecutable(...)``.
+    **Fix.** Write ``['--ros-args', '-r', 'a:=b']``; add a space at the end of ``'xacro '``, or ``'
+    '`` after ``FindExecutable(...)``.
 
     **Source.** Python documentation, "String literal concatenation";
     ``launch/descriptions/executable.py``; ``launch/substitutions/command.py``.
@@ -54,7 +54,7 @@ class WordsRunTogether(LaunchRule):
     name = "words-run-together"
     examples = (
         Example(
-            "one by one",
+            "separate strings",
             {
                 "launch/a.launch.py": _LAUNCH.format(
                     "'--ros-args', '-r', 'a:=b', 'one long ' 'text'"
@@ -79,12 +79,12 @@ class WordsRunTogether(LaunchRule):
         Example(
             "a prefix",
             {"launch/a.launch.py": _LAUNCH.format("'a'], prefix=['xterm', '-e'")},
-            "7:85: launch concatenates the parts of a prefix: missing space",
+            "7:85: launch concatenates the parts of a prefix: missing space before this part",
         ),
         Example(
-            "three in one",
+            "three words in one string",
             {"launch/a.launch.py": _LAUNCH.format("'--ros-args -r a:=b'")},
-            "7:62: this is one argument with spaces in it: write one string for each word",
+            "7:62: this is one argument with spaces in it; write a separate string for each word",
         ),
         Example(
             "the value of an option, which its program splits",
@@ -92,14 +92,14 @@ class WordsRunTogether(LaunchRule):
         ),
         Example("a command with a space", _command("['xacro ', 'a.urdf']")),
         Example(
-            "a command without one",
+            "a command without a space",
             _command("['xacro', 'a']"),
-            "7:12: launch concatenates the parts of a command: write 'xacro '",
+            "7:12: launch concatenates the parts of a command without a space; write 'xacro '",
         ),
         Example(
-            "a program that is looked for",
+            "a program that is searched for",
             _command("[PathJoinSubstitution([FindExecutable(name='xacro')]), 'a']"),
-            "7:12: launch concatenates the parts of a command: write ' ' after it",
+            "7:12: launch concatenates the parts of a command without a space; write ' ' after it",
         ),
     )
 
@@ -112,7 +112,9 @@ class WordsRunTogether(LaunchRule):
             if "shell" in call.given:
                 continue
             for item in _joined_parts(call.given.get("prefix")):
-                message = "launch concatenates the parts of a prefix: missing space"
+                message = (
+                    "launch concatenates the parts of a prefix: missing space before this part"
+                )
                 yield self.report(launch.location(item), message)
             for item, problem in _problems(launch, call):
                 yield self.report(launch.location(item), problem)
@@ -167,7 +169,7 @@ def _problem(launch: LaunchFile, item: ast.expr) -> str:
     if not isinstance(item, ast.Constant) or not isinstance(item.value, str):
         return ""
     if item.value.startswith("--ros-args "):
-        return "this is one argument with spaces in it: write one string for each word"
+        return "this is one argument with spaces in it; write a separate string for each word"
     # linear: the first text cannot contain its closing quote
     written = re.match(_TWO_TEXTS, launch.module.text(item))
     if written is not None and not written[2].endswith((" ", "=", ":", ",")):
@@ -191,7 +193,7 @@ def _joined_command(launch: LaunchFile, node: ast.expr) -> str:
     if word not in _PROGRAMS or _begins_with_space(launch, second):
         return ""
     missing = f"'{word} '" if isinstance(first, ast.Constant) else "' ' after it"
-    return f"launch concatenates the parts of a command: write {missing}"
+    return f"launch concatenates the parts of a command without a space; write {missing}"
 
 
 def _begins_with_space(launch: LaunchFile, node: ast.expr) -> bool:

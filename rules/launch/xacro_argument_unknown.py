@@ -1,4 +1,4 @@
-"""LF084: launch files give xacro the arguments that its file declares."""
+"""LF084: launch files pass declared arguments to xacro."""
 
 from __future__ import annotations
 
@@ -34,11 +34,11 @@ _GIVEN = re.compile(r"(?:^|\s)([^\W\d]\w*):=")
 
 
 class XacroArgumentUnknown(LaunchRule):
-    """A launch file gives xacro an argument that neither the file nor its includes declare.
+    """A launch file passes an argument to xacro that neither the file nor its includes declare.
 
-    **Why.** xacro silently ignores it: the robot is built with the default.
+    **Why.** xacro silently ignores it: the robot description uses the default.
 
-    **Fix.** Write the name of the ``<xacro:arg>``, or declare one.
+    **Fix.** Use the name of an ``<xacro:arg>``, or declare one.
 
     **Source.** xacro, ``substitution_args_context``.
     """
@@ -56,7 +56,7 @@ class XacroArgumentUnknown(LaunchRule):
             },
         ),
         Example(
-            "a file of others is included",
+            "an include of another package",
             {
                 "package.xml": "<package><name>demo</name></package>\n",
                 "urdf/robot.xacro": _ROBOT.format(

@@ -1,4 +1,4 @@
-"""LY005: the changelog has a section for the version of the package, as release tools read it."""
+"""LY005: the changelog has a section for the current version, in the format of release tools."""
 
 from __future__ import annotations
 
@@ -19,8 +19,8 @@ class ChangelogMalformed(Rule):
     """CHANGELOG.rst has a heading that is not a version, or no section for the current version.
 
     **Why.** ``catkin_prepare_release`` and bloom read the sections by their headings, ``0.1.0
-    (2026-11-21)``; what does not fit is missing from the release, and a package whose version has
-    no section is released without release notes.
+    (2026-11-21)``; sections with other headings are missing from the release, and a version without
+    a section is released without release notes.
 
     **Fix.** Write the heading as version and date, or ``Forthcoming``, and let
     ``catkin_prepare_release`` update the version everywhere.
@@ -32,7 +32,7 @@ class ChangelogMalformed(Rule):
     name = "changelog-malformed"
     severity = Severity.WARNING
     other_severities = {Severity.INFO: "the version of the package has no section"}
-    release_refused = "bloom leaves the section out, or finds none for the release"
+    release_refused = "bloom skips the section, or finds none for the release"
     examples = (
         Example(
             "versions",
@@ -42,27 +42,29 @@ class ChangelogMalformed(Rule):
             },
         ),
         Example(
-            "a word before the version",
+            "text before the version",
             {"CHANGELOG.rst": f"{_TITLE}Release 0.1\n-----------\n* first\n"},
-            "5:1: the section 'Release 0.1' is not a version such as 1.2.3 (2026-11-21)",
+            "5:1: heading 'Release 0.1' is not a version, such as '1.2.3 (2026-11-21)': release "
+            "tools skip the section",
         ),
         Example(
             "a section for the version",
             {"package.xml": _MANIFEST.format("0.1.0"), "CHANGELOG.rst": _TITLE + _SECTION},
         ),
         Example(
-            "a version still to come",
+            "a version that is not released yet",
             {
                 "package.xml": _MANIFEST.format("0.2.0"),
                 "CHANGELOG.rst": f"{_TITLE}Forthcoming\n-----------\n* more\n\n{_SECTION}",
             },
         ),
         Example(
-            "a version raised by hand",
+            "a version that was changed by hand",
             {"package.xml": _MANIFEST.format("0.2.0"), "CHANGELOG.rst": _TITLE + _SECTION},
             Report(
                 "CHANGELOG.rst:5:1",
-                "no section for 0.2.0, the version in package.xml, line 2; the newest is 0.1.0",
+                "no section for 0.2.0, the version in package.xml, line 2: it is "
+                "released without notes; the newest section is 0.1.0",
                 severity=Severity.INFO,
             ),
         ),
@@ -83,7 +85,9 @@ class ChangelogMalformed(Rule):
                 continue
             at = source.line_location(number)
             yield self.report(
-                at, f"the section {text!r} is not a version such as 1.2.3 (2026-11-21)"
+                at,
+                f"heading {text!r} is not a version, such as '1.2.3 (2026-11-21)': release "
+                f"tools skip the section",
             )
 
     def _check_version(self, package: Package) -> Iterator[Diagnostic]:
@@ -100,7 +104,8 @@ class ChangelogMalformed(Rule):
         if sections and all(item != version for _, item in sections):
             message = (
                 f"no section for {version}, the version in package.xml, line "
-                f"{elements[0].location.line}; the newest is {sections[0][1]}"
+                f"{elements[0].location.line}: it is released without notes; the newest section "
+                f"is {sections[0][1]}"
             )
             at = source.line_location(sections[0][0])
             yield self.report(at, message, severity=Severity.INFO)

@@ -1,4 +1,4 @@
-"""LY041: the changelog is that of the package."""
+"""LY041: the changelog names its own package."""
 
 from __future__ import annotations
 
@@ -18,8 +18,8 @@ _MANIFEST = "<package><name>talker</name><version>1.2.0</version></package>\n"
 class ChangelogOfOtherPackage(Rule):
     """The title of CHANGELOG.rst names another package.
 
-    **Why.** It is shown on the page of the package in the ROS index, and was often copied from the
-    other package.
+    **Why.** The changelog is shown on the page of the package in the ROS Index; often, the file was
+    copied from the other package.
 
     **Fix.** Write the name of the package.
 
@@ -31,12 +31,12 @@ class ChangelogOfOtherPackage(Rule):
     severity = Severity.WARNING
     examples = (
         Example(
-            "of the package", {"package.xml": _MANIFEST, "CHANGELOG.rst": _TEXT.format("talker")}
+            "this package", {"package.xml": _MANIFEST, "CHANGELOG.rst": _TEXT.format("talker")}
         ),
         Example(
-            "of another one",
+            "another package",
             {"package.xml": _MANIFEST, "CHANGELOG.rst": _TEXT.format("other")},
-            "CHANGELOG.rst:2:23: the changelog belongs to 'other', the package is 'talker'",
+            "CHANGELOG.rst:2:23: the title names 'other', but the package is 'talker'",
         ),
     )
 
@@ -47,7 +47,5 @@ class ChangelogOfOtherPackage(Rule):
             return
         at = source.location(title.start(1), title.end(1))
         if title[1] != package.manifest.name:
-            message = (
-                f"the changelog belongs to {title[1]!r}, the package is {package.manifest.name!r}"
-            )
+            message = f"the title names {title[1]!r}, but the package is {package.manifest.name!r}"
             yield self.report(at, message)

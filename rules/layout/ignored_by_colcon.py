@@ -21,11 +21,11 @@ _COPIES = frozenset({"third_party", "thirdparty", "3rdparty", "external", "vendo
 class IgnoredByColcon(Rule):
     """A package is hidden from the build: by a marker file, or inside another package.
 
-    **Why.** ``colcon build`` says ``0 packages finished`` and nothing else; later ``ros2 run``
-    answers ``Package not found``. colcon does not search inside packages.
+    **Why.** ``colcon build`` prints ``0 packages finished``, without an error; later, ``ros2 run``
+    fails with ``Package not found``. colcon does not search inside packages.
 
-    **Fix.** Delete the marker; move the inner package next to the outer one, below ``src/``. No
-    automatic fix: both may be there on purpose.
+    **Fix.** Delete the marker; move the inner package next to the outer one, in ``src/``. No
+    automatic fix: both may be intentional.
 
     **Source.** colcon documentation, "Discovery arguments"; ``colcon_ros`` package identification;
     ROS 2 documentation, "Creating a package": "You can also not have nested packages".
@@ -42,7 +42,7 @@ class IgnoredByColcon(Rule):
             "COLCON_IGNORE:1:1: COLCON_IGNORE hides the package from colcon: it is never built",
         ),
         Example(
-            "the markers of other tools",
+            "markers of other tools",
             {"package.xml": "<package/>\n", "AMENT_IGNORE": "", "CATKIN_IGNORE": ""},
             "AMENT_IGNORE:1:1: AMENT_IGNORE hides the package from colcon-ros and the ament "
             "tools: it is never built",
@@ -67,19 +67,23 @@ class IgnoredByColcon(Rule):
             },
         ),
         Example(
-            "a package of messages inside the package that uses them",
+            "a message package inside the package that uses it",
             {"package.xml": "<package/>\n", "robot_msgs/package.xml": "<package/>\n"},
-            "robot_msgs/package.xml:1:1: is inside the package 'the package above it': colcon "
-            "never builds it",
+            "robot_msgs/package.xml:1:1: inside the package 'the parent directory': colcon never "
+            "builds it; move it next to that package",
         ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        outer = package.name or "the package above it"
+        outer = package.name or "the parent directory"
         for directory in package.tree.nested:
             if not _is_built(package, directory):
                 at = package.start_of(f"{directory}/package.xml")
-                yield self.report(at, f"is inside the package {outer!r}: colcon never builds it")
+                yield self.report(
+                    at,
+                    f"inside the package {outer!r}: colcon never builds it; "
+                    f"move it next to that package",
+                )
         for marker, tool in MARKERS.items():
             if package.has(marker):
                 at = package.start_of(marker)

@@ -1,4 +1,4 @@
-"""LY006: the text of the license comes with the package."""
+"""LY006: the package or its repository contains the license text."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ _DEPTH = 5
 class LicenseTextMissing(Rule):
     """Neither the package nor its repository has the text of the license.
 
-    **Why.** Most licenses require that their text is included; rosdistro requires it for the first
-    release.
+    **Why.** Most licenses require that their text is included, and rosdistro requires it for the
+    first release.
 
     **Fix.** Add a LICENSE file with the full text.
 
@@ -25,13 +25,16 @@ class LicenseTextMissing(Rule):
     code = "LY006"
     name = "license-text-missing"
     severity = Severity.INFO
-    release_refused = "rosdistro asks for the text of the license"
+    release_refused = "rosdistro requires the license text"
     examples = (
-        Example("there", {"package.xml": "<package/>\n", "setup.py": "", "LICENSE": "..."}),
         Example(
-            "nowhere",
+            "a LICENSE file", {"package.xml": "<package/>\n", "setup.py": "", "LICENSE": "..."}
+        ),
+        Example(
+            "no license text",
             {"package.xml": "<package/>\n", "setup.py": ""},
-            "package.xml:1:1: there is no LICENSE file here or above",
+            "package.xml:1:1: no LICENSE file in the package or its repository; add one with the "
+            "full text",
         ),
     )
 
@@ -43,7 +46,10 @@ class LicenseTextMissing(Rule):
             return
         if package.place is not None and self._is_above(package, package.place):
             return
-        yield self.report(package.start_of("package.xml"), "there is no LICENSE file here or above")
+        yield self.report(
+            package.start_of("package.xml"),
+            "no LICENSE file in the package or its repository; add one with the full text",
+        )
 
     def _is_above(self, package: Package, root: str) -> bool:
         """Search the parent directories up to the top of the repository."""

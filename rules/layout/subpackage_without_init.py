@@ -29,10 +29,10 @@ _FILES = {
 
 
 class SubpackageWithoutInit(Rule):
-    """A directory of modules that are imported has no ``__init__.py``.
+    """A directory with imported modules has no ``__init__.py``.
 
-    **Why.** setuptools leaves the directory out: it works in the source tree, and installed it is
-    ``ModuleNotFoundError: No module named 'talker.text'``.
+    **Why.** setuptools does not install the directory: the import works in the source tree, but
+    fails after installation: ``ModuleNotFoundError: No module named 'talker.text'``.
 
     **Fix.** Add an empty ``__init__.py``.
 
@@ -44,9 +44,9 @@ class SubpackageWithoutInit(Rule):
     effect = Effect.STOPS_BUILD
     other_severities = {Severity.WARNING: "only modules that nothing imports or starts import it"}
     examples = (
-        Example("with", {**_FILES, "talker/text/__init__.py": ""}),
+        Example("with __init__.py", {**_FILES, "talker/text/__init__.py": ""}),
         Example(
-            "modules that are data of the package around them",
+            "modules that are package data",
             {
                 **_FILES,
                 "setup.py": "from setuptools import find_packages, setup\n\n"
@@ -54,7 +54,7 @@ class SubpackageWithoutInit(Rule):
             },
         ),
         Example(
-            "among tests, which run where they are",
+            "tests, which run in the source tree",
             {
                 **_FILES,
                 "talker/text/__init__.py": "",
@@ -64,7 +64,7 @@ class SubpackageWithoutInit(Rule):
             },
         ),
         Example(
-            "among tests in the package",
+            "tests inside the package",
             {
                 **_FILES,
                 "talker/text/__init__.py": "",
@@ -85,20 +85,20 @@ class SubpackageWithoutInit(Rule):
             },
             Report(
                 "talker/text/__init__.py:1:1",
-                "missing: talker/past.py:1 imports from talker/text/, which is not "
-                "installed without it",
+                "missing: without it talker/text/ is not installed, but "
+                "talker/past.py:1 imports from it",
                 fix="Create talker/text/__init__.py",
                 severity=Severity.WARNING,
             ),
             fixed={"talker/text/__init__.py": ""},
         ),
         Example(
-            "without",
+            "without __init__.py",
             _FILES,
             Report(
                 "talker/text/__init__.py:1:1",
-                "missing: talker/node.py:1 imports from talker/text/, which is not "
-                "installed without it",
+                "missing: without it talker/text/ is not installed, but "
+                "talker/node.py:1 imports from it",
                 fix="Create talker/text/__init__.py",
             ),
             fixed={"talker/text/__init__.py": ""},
@@ -125,8 +125,8 @@ class SubpackageWithoutInit(Rule):
         for init, (item, directory, is_used) in missing.items():
             at = item.location
             message = (
-                f"missing: {at.path}:{at.line} imports from {directory}/, which is not "
-                "installed without it"
+                f"missing: without it {directory}/ is not installed, but {at.path}:{at.line} "
+                f"imports from it"
             )
             fix = Fix(f"Create {init}", (CreateFile(init, ""),))
             severity = None if is_used else Severity.WARNING

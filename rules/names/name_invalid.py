@@ -1,4 +1,4 @@
-"""NM001: names of nodes, namespaces, topics, services and actions are accepted."""
+"""NM001: names of nodes, namespaces, topics, services and actions are valid."""
 
 from __future__ import annotations
 
@@ -50,12 +50,11 @@ class NameInvalid(RclpyRule):
     """A node, namespace, topic, service or action has a name that ROS 2 does not accept.
 
     **Why.** ``InvalidTopicNameException``, ``InvalidNodeNameException`` or
-    ``InvalidNamespaceException`` of ``rclpy.exceptions`` at start. A namespace does not belong in
-    the name of a node. Double underscores are reserved for middlewares, although no tool checks
-    this.
+    ``InvalidNamespaceException`` of ``rclpy.exceptions`` at start. A node name must not contain a
+    namespace. Double underscores are reserved for the middleware, although no tool checks this.
 
-    **Fix.** Use letters, digits, single ``_`` and, but for nodes, ``/``; no digit at the start or
-    after a ``/``, no ``/`` at the end.
+    **Fix.** Use letters, digits, single ``_`` and, except in node names, ``/``; no digit at the
+    start or after a ``/``, no ``/`` at the end.
 
     **Source.** design.ros2.org, "Topic and service name mapping"; ``rcl/validate_topic_name.c``;
     ``rmw/validate_node_name.c``; ``rmw/validate_namespace.c``.
@@ -63,13 +62,11 @@ class NameInvalid(RclpyRule):
 
     code = "NM001"
     name = "name-invalid"
-    other_severities = {Severity.WARNING: "it has a double underscore, which no tool refuses"}
+    other_severities = {Severity.WARNING: "it has a double underscore, which no tool rejects"}
     examples = (
+        Example("valid topic names", {"talker.py": _NODE.format("~/scan_2d/front")}),
         Example(
-            "names of topics that are accepted", {"talker.py": _NODE.format("~/scan_2d/front")}
-        ),
-        Example(
-            "a parameter that somebody sets",
+            "a name from a parameter that may be set",
             {
                 "talker.py": _NODE.replace("'{}'", "topic").replace(
                     "        self.create",
@@ -79,7 +76,7 @@ class NameInvalid(RclpyRule):
             },
         ),
         Example(
-            "a part of the name is a parameter that somebody sets",
+            "a part of the name from a parameter that may be set",
             {
                 "talker.py": _NODE.replace("'{}'", "f'robot/{name}/scan'").replace(
                     "        self.create",
@@ -103,7 +100,7 @@ class NameInvalid(RclpyRule):
             "8:39: ROS 2 rejects the name 'front-scan': '-' is not allowed",
         ),
         Example(
-            "parts of names, between those that are filled in",
+            "the constant parts of a format string",
             {
                 "talker.py": _NODE.replace(
                     "        self.create_publisher(String, '{}', 10)\n",
@@ -120,7 +117,7 @@ class NameInvalid(RclpyRule):
             "11:39: ROS 2 rejects this name: whitespace is not allowed",
         ),
         Example(
-            "a program that is called like a test, and a test",
+            "a program that is named like a test, and a test",
             {
                 "talker/test_talker.py": _NODE.format("front-scan")
                 + "\n\ndef main():\n    Talker()\n",
@@ -130,12 +127,12 @@ class NameInvalid(RclpyRule):
             "talker/test_talker.py:8:39: ROS 2 rejects the name 'front-scan': '-' is not allowed",
         ),
         Example(
-            "a digit first",
+            "a leading digit",
             {"talker.py": _NODE.format("scan/2d")},
             "8:39: ROS 2 rejects the name 'scan/2d': '2d' begins with a digit",
         ),
         Example(
-            "names of nodes that are accepted",
+            "valid node names",
             {"talker.py": _NODE_NODES.format("'talker', namespace='left/arm'")},
         ),
         Example(
@@ -149,11 +146,11 @@ class NameInvalid(RclpyRule):
             "6:26: ROS 2 rejects the namespace 'left-arm': '-' is not allowed",
         ),
         Example(
-            "two underscores in a row",
+            "a double underscore",
             {"talker.py": _NODE.format("front__scan")},
             Report(
                 "8:39",
-                "the name 'front__scan' has a double underscore",
+                "the name 'front__scan' has a double underscore, which is reserved",
                 severity=Severity.WARNING,
             ),
         ),
@@ -205,7 +202,7 @@ class NameInvalid(RclpyRule):
             if argument is None or not isinstance(name, str) or topic_problem(name):
                 continue
             if "__" in name:
-                message = f"the name {name!r} has a double underscore"
+                message = f"the name {name!r} has a double underscore, which is reserved"
                 yield self.report(argument, message, severity=Severity.WARNING)
 
 

@@ -1,4 +1,4 @@
-"""NM040: a script does not hide a module."""
+"""NM040: scripts do not shadow modules."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ _LISTS = "project(talker)\ninstall(PROGRAMS talker/{}.py DESTINATION lib/${{PROJ
 
 
 class ScriptShadowsModule(Rule):
-    """An installed script has the name of a module that nodes import.
+    """An installed script has the same name as a module that nodes import.
 
-    **Why.** Python looks in the script's own directory first: every program installed next to it
-    that imports ``logging`` or ``queue``, as rclpy does, imports the script instead and dies.
+    **Why.** Python searches the directory of the script first: every program installed next to it
+    that imports ``logging`` or ``queue``, as rclpy does, imports the script instead and fails.
 
-    **Fix.** Rename the script, or install it without its ending: ``RENAME``.
+    **Fix.** Rename the script, or install it without its extension: ``RENAME``.
 
     **Source.** Python documentation, ``sys.path``.
     """
@@ -26,14 +26,12 @@ class ScriptShadowsModule(Rule):
     code = "NM040"
     name = "script-shadows-module"
     examples = (
+        Example("a unique name", {"CMakeLists.txt": _LISTS.format("node"), "talker/node.py": ""}),
         Example(
-            "a name of its own", {"CMakeLists.txt": _LISTS.format("node"), "talker/node.py": ""}
-        ),
-        Example(
-            "of the standard library",
+            "the name of a standard library module",
             {"CMakeLists.txt": _LISTS.format("logging"), "talker/logging.py": ""},
-            "CMakeLists.txt:2:18: logging.py shadows the module 'logging' from every program next "
-            "to it",
+            "CMakeLists.txt:2:18: logging.py shadows the module 'logging' in all programs next to "
+            "it: their imports fail; rename it",
         ),
     )
 
@@ -44,6 +42,7 @@ class ScriptShadowsModule(Rule):
                 continue
             if stem in sys.stdlib_module_names or (stem in ROS_PACKAGES and stem != package.name):
                 message = (
-                    f"{program.name} shadows the module {stem!r} from every program next to it"
+                    f"{program.name} shadows the module {stem!r} in all programs next to it: "
+                    f"their imports fail; rename it"
                 )
                 yield self.report(program, message)

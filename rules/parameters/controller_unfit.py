@@ -119,14 +119,14 @@ def _files(
 
 
 class ControllerUnfit(Rule):
-    """A controller of ros2_control has no type, a type of ROS 1, or joints that are not there.
+    """A controller of ros2_control has no type, a ROS 1 type, or unknown joints.
 
     **Why.** The robot does not move: ``The 'type' param was not defined for 'base_controller'``,
-    ``Failed loading controller``, ``Not existing command interface``. The controller manager ends
+    ``Failed loading controller``, ``Not existing command interface``. The controller manager exits
     with ``parameter 'update_rate' has invalid type: expected [integer] got [double]``.
 
-    **Fix.** Name it as the parameter file does, with its ``type`` under ``controller_manager``;
-    name the joints as the URDF does; write ``update_rate: 50``.
+    **Fix.** Use the names in the parameter file, with the ``type`` under ``controller_manager``,
+    and the joints of the URDF; write ``update_rate: 50``.
 
     **Source.** https://github.com/ros-controls/ros2_control/issues/850;
     https://github.com/ros-controls/roscon2022_workshop/issues/16; ros2_controllers documentation.
@@ -135,42 +135,42 @@ class ControllerUnfit(Rule):
     code = "PF010"
     name = "controller-unfit"
     examples = (
-        Example("as the file and the robot have it", _files()),
+        Example("matching controllers and joints", _files()),
         Example(
-            "a rate with a point, and a type of ROS 1",
+            "a rate with a decimal point, and a type of ROS 1",
             _files("50.0", "position_controllers/JointTrajectoryController"),
-            "config/controllers.yaml:3:18: update_rate must be an integer: with a double the "
-            "controller manager ends",
+            "config/controllers.yaml:3:18: update_rate must be an integer: the controller manager "
+            "exits at a double",
             "config/controllers.yaml:5:13: Jazzy has no controller "
-            "'position_controllers/JointTrajectoryController': use "
+            "'position_controllers/JointTrajectoryController': loading fails; use "
             "'joint_trajectory_controller/JointTrajectoryController'",
         ),
         Example(
-            "a joint that the robot does not have",
+            "an unknown joint",
             _files(joint="right_wheel_joint"),
             "config/controllers.yaml:10:25: the robot has no joint 'right_wheel_joint': the "
             "controller fails; closest: 'right_joint'",
         ),
         Example(
-            "parameters of a controller among those of the manager",
+            "parameters of a controller in the section of the manager",
             {
                 "config/controllers.yaml": "controller_manager:\n  ros__parameters:\n"
                 f"    base_controller:\n      type: {_DRIVE}\n      left_wheel_names: [left]\n"
                 "      right_wheel_names: [right]\n"
             },
-            "5:7: 'base_controller' does not read 'left_wheel_names' here: it is a node of its "
-            "own; write base_controller: and ros__parameters: on the first level",
+            "5:7: 'base_controller' does not read 'left_wheel_names' here, because it is a "
+            "separate node; write 'base_controller': and ros__parameters: at the top level",
         ),
         Example(
             "spawned under other names",
             _files(words="'joint_broadcaster', 'base_controller'", loaded="diff_controller"),
-            "launch/robot.launch.py:13:25: no file gives the controller manager a type of "
-            "'joint_broadcaster': it is not loaded; known: base_controller",
-            "launch/robot.launch.py:15:29: no file gives the controller manager a type of "
-            "'diff_controller': it is not loaded; known: base_controller",
+            "launch/robot.launch.py:13:25: no file sets the type of 'joint_broadcaster' for the "
+            "controller manager: it is not loaded; known: base_controller",
+            "launch/robot.launch.py:15:29: no file sets the type of 'diff_controller' for the "
+            "controller manager: it is not loaded; known: base_controller",
         ),
         Example(
-            "a manager with a file of another package",
+            "a manager with a parameter file of another package",
             {
                 "launch/robot.launch.py": _LAUNCH.format(
                     "arm.yaml", "'arm_controller', 'joint_broadcaster'", "base_controler"
@@ -178,11 +178,11 @@ class ControllerUnfit(Rule):
                 "config/controllers.yaml": _FILE.format("50", _DRIVE, "right_joint"),
                 "package.xml": "<package><name>base</name></package>\n",
             },
-            "launch/robot.launch.py:15:29: no file gives the controller manager a type of "
-            "'base_controler': it is not loaded; known: base_controller",
+            "launch/robot.launch.py:15:29: no file sets the type of 'base_controler' for the "
+            "controller manager: it is not loaded; known: base_controller",
         ),
         Example(
-            "types that are given otherwise, names that are not known",
+            "types given in another way, and unknown names",
             {
                 **_files(words="'arm', '-p', '/etc/arm.yaml'"),
                 "launch/other.launch.py": _LAUNCH.format(
@@ -198,7 +198,7 @@ class ControllerUnfit(Rule):
             },
         ),
         Example(
-            "another robot that cannot be read",
+            "another robot that cannot be parsed",
             {**_files(joint="rear"), "urdf/arm.xacro": "<!DOCTYPE robot>\n<robot/>\n"},
         ),
     )
@@ -226,15 +226,14 @@ class ControllerUnfit(Rule):
     def _check_manager(self, section: Section) -> Iterator[Diagnostic]:
         for entry in section.entries:
             if entry.name == "update_rate" and value_type(entry.value) == "double":
-                message = (
-                    "update_rate must be an integer: with a double the controller manager ends"
-                )
+                message = "update_rate must be an integer: the controller manager exits at a double"
                 yield self.report(entry.value.location, message)
             if entry.name.endswith(_TYPE) and isinstance(entry.value, Scalar):
                 instead = _OF_ROS1.get(entry.value.text)
                 if instead:
                     message = (
-                        f"{target().title} has no controller {entry.value.text!r}: use {instead!r}"
+                        f"{target().title} has no controller {entry.value.text!r}: loading fails; "
+                        f"use {instead!r}"
                     )
                     yield self.report(entry.value.location, message)
 
@@ -248,8 +247,8 @@ class ControllerUnfit(Rule):
             if controller in types and name in _JOINTS and controller not in own | seen:
                 seen.add(controller)
                 message = (
-                    f"{controller!r} does not read {name!r} here: it is a node of its own; write "
-                    f"{controller}: and ros__parameters: on the first level"
+                    f"{controller!r} does not read {name!r} here, because it is a separate node; "
+                    f"write {controller!r}: and ros__parameters: at the top level"
                 )
                 yield self.report(entry.location, message)
 
@@ -286,8 +285,8 @@ class ControllerUnfit(Rule):
             closest = closest_name(package, word.text, left, 0.9)
             if closest or _is_manager_here(package, launch):
                 message = (
-                    f"no file gives the controller manager a type of {word.text!r}: it is not "
-                    f"loaded; known: {listed_names(types, word.text)}"
+                    f"no file sets the type of {word.text!r} for the controller manager: it is "
+                    f"not loaded; known: {listed_names(types, word.text)}"
                 )
                 yield self.report(word.location, message)
 

@@ -25,9 +25,9 @@ _FILE = "talker:\n  ros__parameters:\n    rate: {}\n"
 
 
 class DivisorZero(Rule):
-    """A parameter is zero, and the node divides by it.
+    """A parameter that a node divides by is zero.
 
-    **Why.** ``ZeroDivisionError: float division by zero``: the node ends at start, or in the
+    **Why.** ``ZeroDivisionError: float division by zero``: the node fails at start, or in the
     callback that divides.
 
     **Fix.** Set another value; in the node, give the parameter a range or check it first.
@@ -39,18 +39,18 @@ class DivisorZero(Rule):
     name = "divisor-zero"
     examples = (
         Example(
-            "another value",
+            "a nonzero value",
             {"talker.py": _NODE.format("2.0", "1.0 / self.rate"), "a.yaml": _FILE.format("1.0")},
         ),
         Example(
-            "looked at first",
+            "checked first",
             {
                 "talker.py": _NODE.format("2.0", "1.0 / self.rate if self.rate else 1.0"),
                 "a.yaml": _FILE.format("0.0"),
             },
         ),
         Example(
-            "zero as default that a file replaces",
+            "a default of zero that a file overrides",
             {"talker.py": _NODE.format("0.0", "1.0 / self.rate"), "a.yaml": _FILE.format("1.0")},
         ),
         Example(
@@ -59,7 +59,7 @@ class DivisorZero(Rule):
             "a.yaml:3:11: 'rate' is 0, and the node (talker.py:7) divides by it: ZeroDivisionError",
         ),
         Example(
-            "zero as default",
+            "a default of zero",
             {"talker.py": _NODE.format("0.0", "1.0 / self.rate")},
             "7:21: 'rate' is 0 by default, and the node divides by it: ZeroDivisionError",
         ),

@@ -14,8 +14,7 @@ _FILE = "talker:\n  ros__parameters:\n    rate: 2.0\n    {}: 3.0\n"
 class KeyRepeated(Rule):
     """A parameter file sets a parameter twice in one section.
 
-    **Why.** The later value silently wins: the node does not get the first. (Repeated sections
-    are merged.)
+    **Why.** The later value silently overrides the first. (Repeated sections are merged.)
 
     **Fix.** Remove one of them.
 

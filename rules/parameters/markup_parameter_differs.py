@@ -1,4 +1,4 @@
-"""PF033: XML and YAML launch files set declared parameters, with the declared types."""
+"""PF033: XML and YAML launch files set declared parameters with the declared types."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ _WORDS = {
     r"true|True|TRUE|false|False|FALSE": "bool",
     r"[A-Za-z_/][\w/-]*": "string",
 }
-"""Words that launch and rcl read as the same type; others are not checked."""
+"""Values that launch and rcl parse as the same type; others are not checked."""
 _UNSURE = frozenset({"y", "n", "yes", "no", "on", "off", "null", "inf", "nan", "infinity"})
 _FILES = {
     "package.xml": "<package><name>demo</name>"
@@ -43,7 +43,7 @@ class MarkupParameterDiffers(Rule):
     **Why.** ``InvalidParameterTypeException: Trying to set parameter 'rate' to '2' of type
     'INTEGER', expecting type 'DOUBLE'``; an undeclared parameter is silently dropped.
 
-    **Fix.** Write ``2.0``, or ``type='str'`` for text that looks like a number; use the declared
+    **Fix.** Write ``2.0``, or ``type='str'`` for strings that look like numbers; use the declared
     name.
 
     **Source.** ``launch_ros/actions/node.py``, ``parse_nested_parameters``;

@@ -43,12 +43,12 @@ def _files(section: str) -> dict[str, str]:
 
 
 class NodeUnknown(Rule):
-    """A section of a parameter file matches no node, or names a namespace that it does not run in.
+    """A section of a parameter file matches no node, or the wrong namespace.
 
-    **Why.** Nothing warns: the section is skipped, and the node runs with its defaults.
+    **Why.** The section is ignored without a warning, and the node runs with its defaults.
 
-    **Fix.** Write the name as ``ros2 node list`` shows it, ``/**/name`` for any namespace, or
-    ``/**`` for all nodes.
+    **Fix.** Use the name that ``ros2 node list`` shows, ``/**/name`` for any namespace, or ``/**``
+    for all nodes.
 
     **Source.** ROS 2 documentation, "Passing ROS arguments to nodes", parameter files.
     """
@@ -57,7 +57,7 @@ class NodeUnknown(Rule):
     name = "node-unknown"
     effect = Effect.IGNORED
     other_severities = {
-        Severity.WARNING: "no launch file names the file, and no node has the parameters"
+        Severity.WARNING: "no launch file uses the file, and no node has the parameters"
     }
     examples = (
         Example(
@@ -76,20 +76,20 @@ class NodeUnknown(Rule):
             "'talker'?",
         ),
         Example(
-            "a section for a node that is gone",
+            "a section for a node that no longer exists",
             {
                 "talker.py": _NODE.replace("'talker'", "'gate_detector_node'"),
                 "config/a.yaml": "drum_detector_node:\n  ros__parameters:\n    least_area: 800\n",
             },
             Report(
                 "config/a.yaml:1:1",
-                "no node of this package is named 'drum_detector_node' or has these parameters: "
-                "nothing reads this section",
+                "no node of this package is named 'drum_detector_node' or has these "
+                "parameters: the section is ignored",
                 severity=Severity.WARNING,
             ),
         ),
         Example(
-            "a launch file with another ending names the file",
+            "a launch file with another extension uses the file",
             {
                 "talker.py": _NODE,
                 "config/a.yaml": _FILE.format("talker_node"),
@@ -106,7 +106,7 @@ class NodeUnknown(Rule):
             },
         ),
         Example(
-            "the name in the code, which the launch file replaces",
+            "the name in the code, which the launch file overrides",
             {
                 "package.xml": _MANIFEST,
                 "demo/talker.py": _NODE + "\n\ndef main():\n    Talker()\n",
@@ -219,7 +219,7 @@ class NodeUnknown(Rule):
             if _is_left_over(
                 package, section, [started for started in nodes if started.node_name in alike]
             ):
-                message += " or has these parameters: nothing reads this section"
+                message += " or has these parameters: the section is ignored"
                 yield self.report(section.key, message, severity=Severity.WARNING)
             else:
                 yield self.report(section.key, f"{message}; did you mean {alike[0]!r}?")

@@ -1,4 +1,4 @@
-"""PF004: parameters that are set are declared."""
+"""PF004: parameters that files set are declared by the node."""
 
 from __future__ import annotations
 
@@ -49,11 +49,11 @@ _FILE = "talker:\n  ros__parameters:\n    rate: 1.0\n    use_sim_time: true\n   
 
 
 class ParameterUndeclared(Rule):
-    """A parameter is set that the node does not declare.
+    """A parameter file or launch file sets a parameter that the node does not declare.
 
-    **Why.** Nothing warns: the value is dropped, and the node runs with its default.
+    **Why.** The value is ignored without a warning, and the node runs with its default.
 
-    **Fix.** Write the name that the node declares, or declare the parameter.
+    **Fix.** Use the name that the node declares, or declare the parameter.
 
     **Source.** ROS 2 documentation, "Parameters", section "Declaring parameters".
     """
@@ -77,7 +77,7 @@ class ParameterUndeclared(Rule):
             },
         ),
         Example(
-            "declared where the node is constructed",
+            "declared by the code that constructs the node",
             {
                 "talker/__init__.py": "",
                 "talker/node.py": _NODE.format(""),
@@ -87,7 +87,7 @@ class ParameterUndeclared(Rule):
             },
         ),
         Example(
-            "declared by an object that the node makes itself known to",
+            "declared by an object that gets the node",
             {
                 "talker/parts.py": "class Limits:\n    def configure(self):\n"
                 "        self.talker.declare_parameter('high', 4)\n",
@@ -116,7 +116,7 @@ class ParameterUndeclared(Rule):
             },
         ),
         Example(
-            "a value that the node has anyway",
+            "the default value of the node",
             {
                 "talker.py": _NODE.format("")
                 + "        self.text = ['hello']\n        self.size = 2\n",

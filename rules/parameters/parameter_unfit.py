@@ -1,4 +1,4 @@
-"""PF006: parameters are set to values of the type and the range that the node declares."""
+"""PF006: parameters are set to values of the declared type and range."""
 
 from __future__ import annotations
 
@@ -60,12 +60,12 @@ def _files(default: str, value: str) -> dict[str, str]:
 
 
 class ParameterUnfit(Rule):
-    """A parameter is set to a value of another type than declared, or outside of its range.
+    """A parameter is set to a value of the wrong type, or outside of its range.
 
-    **Why.** The node ends at start: ``InvalidParameterTypeException: Trying to set parameter 'rate'
-    to '2' of type 'INTEGER', expecting type 'DOUBLE'``, or ``InvalidParameterValueException: ...
-    out of range``, likewise for a value between two steps. ``on``, ``yes`` and ``n`` are booleans,
-    ``2`` is not a double, and the default determines the type.
+    **Why.** The node fails at start: ``InvalidParameterTypeException: Trying to set parameter
+    'rate' to '2' of type 'INTEGER', expecting type 'DOUBLE'``, or ``InvalidParameterValueException:
+    ... out of range``, likewise for a value between two steps. ``on``, ``yes`` and ``n`` are
+    booleans, ``2`` is not a double, and the default determines the type.
 
     **Fix.** Write ``2.0``, also as the default; quote words; change the value or the range.
 
@@ -95,7 +95,7 @@ class ParameterUnfit(Rule):
             fixed={"a.yaml": _FILE.format("2.0", "'on'")},
         ),
         Example(
-            "a word that is replaced before the node gets the file",
+            "a placeholder that is replaced before the node reads the file",
             {"talker.py": _NODE, "a.yaml": _FILE.format("REPLACE", "REPLACE")},
         ),
         Example(
@@ -126,7 +126,7 @@ class ParameterUnfit(Rule):
         ),
         Example("doubles as default and value", _files("1.0", "2.5")),
         Example(
-            "an integer as default of a double",
+            "an integer as the default of a double",
             _files("1", "2.5"),
             "talker.py:7:9: default is an integer, but a.yaml:3 sets a double: "
             "InvalidParameterTypeException; declare a double",
@@ -138,7 +138,7 @@ class ParameterUnfit(Rule):
             "InvalidParameterTypeException; declare an integer",
         ),
         Example(
-            "in the range, on a step",
+            "in the range and on a step",
             {"talker.py": _NODE_RANGE, "a.yaml": _FILE_RANGE.format("0.3")},
         ),
         Example(

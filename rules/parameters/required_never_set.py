@@ -1,4 +1,4 @@
-"""PF009: parameters that are declared with a type alone are set."""
+"""PF009: parameters that are declared without a default are set."""
 
 from __future__ import annotations
 
@@ -25,8 +25,8 @@ _ELSEWHERE = (*_LAUNCH, *_PARAMETERS)
 class RequiredNeverSet(RclpyRule):
     """A parameter without a default is read, and no file of the package sets it.
 
-    **Why.** ``ParameterUninitializedException: The parameter 'rate' is not initialized``, as soon
-    as the node is started without it.
+    **Why.** ``ParameterUninitializedException: The parameter 'rate' is not initialized``, when the
+    node reads the parameter.
 
     **Fix.** Give a default, ``declare_parameter('rate', 2.0)``, or set it in the parameter file.
 
@@ -70,14 +70,14 @@ class RequiredNeverSet(RclpyRule):
             },
         ),
         Example(
-            "a type alone, and a value for another node",
+            "a type without a default, and a value for another node",
             {
                 "package.xml": "<package><name>demo</name></package>\n",
                 "talker.py": _NODE.format("Parameter.Type.DOUBLE"),
                 "config/a.yaml": "listener:\n  ros__parameters:\n    rate: 3.0\n",
             },
-            "talker.py:9:21: parameter 'rate' has a type but no default (line 8), and no file of "
-            "the package sets it: ParameterUninitializedException; give a default",
+            "talker.py:9:21: parameter 'rate' is declared without a default in line 8, and no "
+            "file of the package sets it: ParameterUninitializedException; add a default",
         ),
     )
 
@@ -96,9 +96,9 @@ class RequiredNeverSet(RclpyRule):
                     continue
                 if isinstance(name, str) and not _is_set(package, node, name):
                     message = (
-                        f"parameter {name!r} has a type but no default (line {required[name]}), "
-                        "and no file "
-                        "of the package sets it: ParameterUninitializedException; give a default"
+                        f"parameter {name!r} is declared without a default in line "
+                        f"{required[name]}, and no file of the package sets it: "
+                        f"ParameterUninitializedException; add a default"
                     )
                     yield self.report(read, message)
 

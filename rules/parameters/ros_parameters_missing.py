@@ -17,7 +17,8 @@ class RosParametersMissing(Rule):
     **Why.** The node does not start: ``RCLError: failed to initialize rcl: Couldn't parse params
     file ... Cannot have a value before ros__parameters at line 3``.
 
-    **Fix.** Node name, then ``ros__parameters`` with two underscores, then the parameters.
+    **Fix.** Write the node name, below it ``ros__parameters`` with two underscores, and below that
+    the parameters.
 
     **Source.** ``rcl_yaml_param_parser/src/parse.c``; ROS 2 documentation, "Passing ROS arguments
     to nodes".
@@ -25,9 +26,11 @@ class RosParametersMissing(Rule):
 
     code = "PF002"
     name = "ros-parameters-missing"
-    other_severities = {Severity.WARNING: "no launch file gives the file to a node"}
+    other_severities = {Severity.WARNING: "no launch file passes the file to a node"}
     examples = (
-        Example("two underscores", {"config/talker.yaml": _FILE.format("ros__parameters")}),
+        Example(
+            "nested under ros__parameters", {"config/talker.yaml": _FILE.format("ros__parameters")}
+        ),
         Example(
             "a node of that name",
             {"config/a.yaml": _FILE.format("ros__parameters").replace("talker", "parameters")},

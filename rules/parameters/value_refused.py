@@ -35,7 +35,7 @@ class ValueRefused(Rule):
     **Why.** The node does not start: ``RCLError: failed to initialize rcl: Couldn't parse params
     file ... No value at line 3``, ``Will not support aliasing``, ``Sequence should be of same
     type``, ``Sequences cannot be key``, ``There are no node names before ros__parameters``. A
-    parameter with an empty list counts as unset, also where it has a default:
+    parameter with an empty list counts as unset, even if it has a default:
     ``ParameterUninitializedException``.
 
     **Fix.** Write every value out, without aliases; flatten lists of lists; write ``1.0`` among
@@ -50,7 +50,7 @@ class ValueRefused(Rule):
     examples = (
         Example("values", {"a.yaml": _FILE.format("[1.0, 2.0]"), "b.yaml": _FILE.format("''")}),
         Example(
-            "no value; an alias; a list in a list",
+            "no value; an alias; a nested list",
             {
                 "a.yaml": _FILE.format(""),
                 "b.yaml": _FILE.format("&rate 2.0\n    more: *rate"),
@@ -61,7 +61,7 @@ class ValueRefused(Rule):
             "c.yaml:3:12: 'rate' is a list of lists: rcl rejects the file; flatten it",
         ),
         Example(
-            "no node; no parameters",
+            "no node name; no parameters",
             {
                 "a.yaml": "ros__parameters:\n  rate: 2.0\n",
                 "b.yaml": "talker:\n  ros__parameters:\n",
@@ -75,7 +75,8 @@ class ValueRefused(Rule):
             {"config/a.yaml": _FILE_LISTS.format("[1, 2.5, -3]")},
             Report(
                 "3:16",
-                "list 'gains' mixes integer (1) and double (2.5): rcl rejects the file",
+                "list 'gains' mixes integer (1) and double (2.5): rcl rejects the "
+                "file; use one type",
                 fix="Convert all values to doubles",
             ),
             fixed={"config/a.yaml": _FILE_LISTS.format("[1.0, 2.5, -3.0]")},
@@ -83,7 +84,8 @@ class ValueRefused(Rule):
         Example(
             "a word that YAML reads as a boolean",
             {"config/a.yaml": _FILE_LISTS.format("[left, right, off]")},
-            "3:26: list 'gains' mixes string (left) and bool (off): rcl rejects the file",
+            "3:26: list 'gains' mixes string (left) and bool (off): rcl rejects the file; use one "
+            "type",
         ),
         Example(
             "a list with items",
@@ -105,7 +107,7 @@ class ValueRefused(Rule):
                 "talker.py": _NODE.format("get_parameter('names')"),
                 "a.yaml": _FILE_EMPTY.format("[]"),
             },
-            "a.yaml:3:12: empty list leaves 'names' unset, and talker.py:8 reads it: "
+            "a.yaml:3:12: an empty list leaves 'names' unset, but talker.py:8 reads it: "
             "ParameterUninitializedException",
         ),
     )
@@ -132,7 +134,7 @@ class ValueRefused(Rule):
                     first, kind, other, other_kind = mixture
                     message = (
                         f"list {entry.name!r} mixes {kind} ({first.text}) and {other_kind} "
-                        f"({other.text}): rcl rejects the file"
+                        f"({other.text}): rcl rejects the file; use one type"
                     )
                     yield self.report(other, message, self._fix(path, entry.value))
 
@@ -160,8 +162,8 @@ class ValueRefused(Rule):
                             continue
                         where = place_of(owner.package, read.location, package)
                         message = (
-                            f"empty list leaves {entry.name!r} unset, and "
-                            f"{where} reads it: ParameterUninitializedException"
+                            f"an empty list leaves {entry.name!r} unset, but {where} reads it: "
+                            f"ParameterUninitializedException"
                         )
                         yield self.report(entry.value, message)
                         break

@@ -24,11 +24,11 @@ _FILE = "talker:\n  ros__parameters:\n{}"
 
 
 class YamlMalformed(Rule):
-    """A parameter file or a launch file cannot be read as YAML.
+    """A parameter file or launch file is not valid YAML.
 
     **Why.** The node does not start: ``RCLError: failed to initialize rcl: Couldn't parse params
-    file ... Error parsing a event near line 2``. Nor does a launch file: ``The launch file may have
-    a syntax error, or its format is unknown``.
+    file ... Error parsing a event near line 2``. A launch file fails, too: ``The launch file may
+    have a syntax error, or its format is unknown``.
 
     **Fix.** Correct the syntax; indent with spaces.
 
@@ -40,7 +40,7 @@ class YamlMalformed(Rule):
     examples = (
         Example("valid", {"config/talker.yaml": _FILE.format("    rate: 2.0\n")}),
         Example(
-            "a tab, an unclosed bracket, a stray colon",
+            "a tab, an unclosed bracket, an extra colon",
             {
                 "config/a.yaml": _FILE.format("\trate: 2.0\n"),
                 "config/b.yaml": _FILE.format("    rates: [1.0, 2.0\n    next: 1\n"),
@@ -52,7 +52,7 @@ class YamlMalformed(Rule):
             "config/c.yaml:3:1: not YAML: mapping values are not allowed in this context",
         ),
         Example(
-            "what nobody reads; a template; a file of OpenCV",
+            "an unused file; a template; a file of OpenCV",
             {
                 "config/points.yaml": _POINTS,
                 "config/camera.yaml": "%YAML:1.0\n---\n" + _POINTS,
