@@ -70,7 +70,7 @@ def package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 def write(path: Path, text: str) -> None:
-    path.parent.mkdir(exist_ok=True)
+    path.parent.mkdir(parents=True, exist_ok=True)
     path.write_text(text)
 
 
@@ -623,3 +623,46 @@ def test_too_large_file_may_mention_a_script(
     assert severities(capsys, "F821") == {"talker/talk_old.py": "warning"}
     write(package / "all.sh", "ls\n" * 400_000)
     assert severities(capsys, "F821") == {"talker/talk_old.py": "error"}
+
+
+def test_module_only_used_by_a_script_that_is_not_installed(
+    package: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (package / "setup.py").unlink()
+    manifest = MANIFEST.format("").replace("ament_python", "ament_cmake")
+    write(package / "package.xml", manifest)
+    lists = "project(talker)\nfind_package(ament_cmake REQUIRED)\nament_package()\n"
+    write(package / "CMakeLists.txt", lists)
+    write(package / "scripts" / "talk.py", "import listen\nfrom bags import speech\n")
+    write(package / "scripts" / "listen.py", f"import talk\n\n{UNDEFINED}")
+    write(package / "scripts/bags" / "__init__.py", "")
+    write(package / "scripts/bags" / "speech.py", UNDEFINED)
+    left = {"scripts/listen.py": "warning", "scripts/bags/speech.py": "warning"}
+    assert severities(capsys, "F821") == left
+    installing = "install(PROGRAMS scripts/talk.py DESTINATION lib/talker)\n"
+    write(package / "CMakeLists.txt", lists.replace("ament_package", f"{installing}ament_package"))
+    assert severities(capsys, "F821") == dict.fromkeys(left, "error")
+
+
+def test_main_guard_of_a_module_with_an_entry_point(
+    package: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    entry = ", entry_points={'console_scripts': ['talk = talker.talk:main']})\n"
+    write(package / "setup.py", SETUP.replace(")\n\n", ")\n").removesuffix(")\n") + entry)
+    guard = "if __name__ == '__main__':\n    main(undefined)\n"
+    write(package / "talker" / "talk.py", f"def main():\n    print('hello')\n\n\n{guard}")
+    assert severities(capsys, "F821") == {"talker/talk.py": "warning"}
+    write(package / "README.md", "Run `python3 talker/talk.py`.\n")
+    assert severities(capsys, "F821") == {"talker/talk.py": "error"}
+
+
+def test_uncalled_function_of_a_test(package: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    helper = "def check_all():\n    print(undefined)\n\n\n"
+    write(package / "test" / "test_talk.py", f"{helper}def test_talk():\n    pass\n")
+    write(package / "test" / "test_hear.py", f"{helper}def test_hear():\n    check_all()\n")
+    write(package / "test" / "conftest.py", "def pytest_configure():\n    print(undefined)\n")
+    assert severities(capsys, "F821") == {
+        "test/test_talk.py": "warning",
+        "test/test_hear.py": "error",
+        "test/conftest.py": "error",
+    }

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from scaffold.formats.hash_comments import without_comments
@@ -41,7 +41,8 @@ _PROJECT = re.compile(rb"\bproject\s*\([^)]{0,200}\)")
 _LIST_OF_NAMES = re.compile(rb"[\s\w,()]{0,400}")
 """Matches a line that may belong to an import of several lines."""
 _TAKES_ALL = (
-    rb"GLOB_RECURSE|\bDIRECTORY\s+\./?\s|\brglob|os\.walk\(\s*(?:[\"']\.?/?[\"']|os\.)|[\"']\*\*/"
+    rb"GLOB_RECURSE[^)]{0,500}\*(?:\.py|(?!\.))|\bDIRECTORY\s+\./?\s|\brglob"
+    rb"|os\.walk\(\s*(?:[\"']\.?/?[\"']|os\.)|[\"']\*\*/"
 )
 """Matches code that uses all files of a directory."""
 _BUILDING = ("CMakeLists.txt", "setup.py", "setup.cfg", "pyproject.toml")
@@ -80,11 +81,31 @@ def is_out_of_reach(package: Package, path: str) -> bool:
 
 
 def _is_never_reached(package: Package, path: str, texts: tuple[str, ...]) -> bool:
-    key = ("out of reach", path, texts)
-    return package.remember(key, lambda: _is_out_of_reach(package, path, texts))
+    """Tell whether a file is apart, and only named by others that are never reached either."""
+
+    def find() -> bool:
+        pending, seen = [path], {path}
+        while pending:
+            item = pending.pop()
+            if not _is_apart(package, item):
+                return False
+            for naming in _files_naming(package, item, _stem(item), texts):
+                if not naming.endswith(".py"):
+                    return False
+                if naming not in seen:
+                    seen.add(naming)
+                    pending.append(naming)
+        return True
+
+    return package.remember(("out of reach", path, texts), find)
 
 
-def _is_out_of_reach(package: Package, path: str, texts: tuple[str, ...]) -> bool:
+def _stem(path: str) -> str:
+    return path.rpartition("/")[2].removesuffix(".py")
+
+
+def _is_apart(package: Package, path: str) -> bool:
+    """Tell whether a Python file is in no directory that is installed, or no test that is run."""
     directory, _, name = path.rpartition("/")
     stem = name.removesuffix(".py")
     if stem == name or name in _RUN_AS_THEY_ARE or ".launch." in name or stem.endswith("launch"):
@@ -101,8 +122,7 @@ def _is_out_of_reach(package: Package, path: str, texts: tuple[str, ...]) -> boo
         installing = [_PROJECT.sub(b"", data) for data in installing]
     is_mentioned = any(_mentions_directory(data, part) for part in parts for data in installing)
     takes_all = re.compile(rb"\*\.py" if not parts else _TAKES_ALL)
-    is_taken_whole = any(map(takes_all.search, installing))
-    return not (is_mentioned or is_taken_whole or is_named(package, path, stem, texts))
+    return not is_mentioned and not any(map(takes_all.search, installing))
 
 
 def is_in_python_package(package: Package, path: str) -> bool:
@@ -168,16 +188,21 @@ def is_named(package: Package, path: str, stem: str, texts: tuple[str, ...] = ()
         stem: The name.
         texts: The extensions of further files to search.
     """
+    return any(_files_naming(package, path, stem, texts))
+
+
+def _files_naming(package: Package, path: str, stem: str, texts: tuple[str, ...]) -> Iterator[str]:
+    """Yield the files that mention a name; see `is_named`."""
     unused = _BUILDING[1:] if _is_built_by_cmake(package) else ()
-    others = (
-        item
-        for item in package.files
-        if item not in {path, *unused}
-        and (item.endswith((*_NAMING, *texts)) or item.startswith("scripts/"))
-        and not item.startswith(("config/", "params/"))
-    )
     directory = path.rpartition("/")[0].rpartition("/")[2]
-    return any(_is_in_code(package, item, stem, directory) for item in others)
+    for item in package.files:
+        if (
+            item not in {path, *unused}
+            and (item.endswith((*_NAMING, *texts)) or item.startswith("scripts/"))
+            and not item.startswith(("config/", "params/"))
+            and _is_in_code(package, item, stem, directory)
+        ):
+            yield item
 
 
 def _is_in_code(package: Package, path: str, name: str, directory: str) -> bool:

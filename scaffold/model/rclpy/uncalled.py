@@ -12,6 +12,7 @@ from scaffold.model.cmake.ament import programs
 from scaffold.model.install.unused import TEXTS, is_in_python_package, is_named, names_file
 from scaffold.model.python.module import is_in_tests
 from scaffold.model.rclpy.api import NODE, has
+from scaffold.model.setup_py.console_scripts import has_program_files
 from scaffold.model.setup_py.package_data import installed_data
 from scaffold.source import ViewError
 
@@ -27,6 +28,10 @@ _COMPUTED = re.compile(r"\bgetattr\([^,\n]{0,200},\s{0,9}(?![\"'\s])")
 _IMPORTS_RELATIVELY = re.compile(rb"(?m)^[ \t]*from[ \t]+\.")
 _WORD = re.compile(r"\w+")
 _DEFINITION = re.compile(r"\b(?:class|def)\s+(\w+)")
+_OF_PYTEST = re.compile(
+    r"(?i)_?test|setup|teardown|set_?up|tear_?down|pytest_|generate_|load_tests"
+)
+"""Matches the names of functions that pytest, unittest or launch_testing call."""
 _ENTRIES = frozenset({"main", "generate_launch_description"})
 _NAMING = (".py", ".cfg", ".toml", ".cpp", ".hpp")
 """The endings of files that may call a function of Python, or tell who does."""
@@ -49,38 +54,37 @@ def may_be_in_uncalled_function(package: Package, path: str, line: int) -> bool:
             return (1,)
         if path.endswith("launch.py") and "__main__" in text:
             return (1,)
+        guard = text.find("__main__")
+        at_guard = [text.count("\n", 0, guard) + 1] if guard >= 0 else []
         count = Counter(_WORD.findall(without_comments(text)))
-        return tuple(
+        named_once = (
             text.count("\n", 0, match.start()) + 1
             for match in _DEFINITION.finditer(text)
             if count[match[1]] == 1
         )
+        return (*at_guard, *named_once)
 
     starts = package.remember(("functions named once", path), find)
     return any(start <= line for start in starts)
 
 
 def is_in_uncalled_function(package: Package, module: PythonModule, line: int) -> bool:
-    """Tell whether a line is in a function or class that a program or launch file never mentions.
+    """Tell whether a line is in an uncalled function, unused class, or unused main guard.
 
-    A library is used from elsewhere, but for what helps the programs of its package, or launch
-    files; a class may be called by an unknown base.
+    Those of programs, launch files and tests count. A library is used from elsewhere, but for what
+    helps the programs of its package, or launch files; a class may be called by an unknown base.
     """
-    is_launch_file = module.path.endswith("launch.py")
-    if is_launch_file and _is_in_unused_guard(module, line):
+    if _is_in_unused_guard(package, module, line):
         return True
-    is_program = module.has_main_guard or "main" in module.functions
-    is_helper = not (is_program or is_launch_file)
-    if module.in_tests or (is_helper and not _helps_programs(package, module)):
+    is_helper = not (module.in_tests or _is_startable(module))
+    if is_helper and not _helps_programs(package, module):
         return False
-    if _is_in_unused_class(package, module, line):
+    if not module.in_tests and _is_in_unused_class(package, module, line):
         return True
     function = _outermost_function(module, line)
     if function is None or _is_decorated(function) or not _is_called_by_name(module, function):
         return False
-    is_method_of_helper = is_helper and module.enclosing_class(function) is not None
-    looks_up = module.mentions(*_LOOKUPS) or _COMPUTED.search(module.source.text)
-    if is_method_of_helper or looks_up:
+    if module.mentions(*_LOOKUPS) or _COMPUTED.search(module.source.text):
         return False
     named = _named_in(without_comments(module.source.text), function.name)
     stem = module.path.rpartition("/")[2].removesuffix(".py")
@@ -117,6 +121,12 @@ def _covers(node: ast.stmt, line: int) -> bool:
 def _has_known_bases(module: PythonModule, class_: ast.ClassDef) -> bool:
     bases = {module.qualified_name(base) for base in class_.bases}
     return bases <= {NODE, "rclpy.Node", "object"}
+
+
+def _is_startable(module: PythonModule) -> bool:
+    """Tell whether a module is a launch file, or may be a program."""
+    is_program = module.has_main_guard or "main" in module.functions
+    return is_program or module.path.endswith("launch.py")
 
 
 def is_unused_module(package: Package, path: str) -> bool:
@@ -165,17 +175,29 @@ def _helps_programs(package: Package, module: PythonModule) -> bool:
 def _has_programs(package: Package) -> bool:
     try:
         is_cmake = package.build_type == "ament_cmake"
-        return bool(programs(package) if is_cmake else package.setup_py.console_scripts)
+        if is_cmake:
+            return bool(programs(package))
+        return bool(package.setup_py.console_scripts) or has_program_files(package)
     except ViewError:
         return False
 
 
-def _is_in_unused_guard(module: PythonModule, line: int) -> bool:
-    """Tell whether a line only runs if a launch file is run by Python, which launches nothing."""
+def _is_in_unused_guard(package: Package, module: PythonModule, line: int) -> bool:
+    """Tell whether a line only runs if a file is run by Python, which nobody does.
+
+    A launch file launches nothing then; a module of a Python package is started by entry points.
+    """
     guard = module.main_guard_node
-    if guard is None or module.mentions("LaunchService"):
+    if guard is None or not guard.lineno <= line <= (guard.end_lineno or guard.lineno):
         return False
-    return guard.lineno <= line <= (guard.end_lineno or guard.lineno)
+    path = module.path
+    if path.endswith("launch.py"):
+        return not module.mentions("LaunchService")
+    if module.in_tests or not _is_only_importable(package, path):
+        return False
+    name = path.rpartition("/")[2]
+    dotted = path.removesuffix(".py").replace("/", ".")
+    return not any(is_named(package, path, item, TEXTS) for item in (name, f"-m {dotted}"))
 
 
 def _outermost_function(module: PythonModule, line: int) -> FunctionNode | None:
@@ -195,12 +217,19 @@ def _is_decorated(function: FunctionNode) -> bool:
 
 
 def _is_called_by_name(module: PythonModule, function: FunctionNode) -> bool:
-    """Tell whether a function is not called implicitly by Python, rclpy, or an unknown base."""
+    """Tell whether a function is not called implicitly by Python, rclpy, or an unknown base.
+
+    Methods of modules without a program may be called by any user of their class.
+    """
     if function.name in _ENTRIES or function.name.startswith("__"):
         return False
     class_ = module.enclosing_class(function)
+    if module.in_tests:
+        return class_ is None and _OF_PYTEST.match(function.name) is None
     if class_ is None:
         return True
+    if not _is_startable(module):
+        return False
     if class_.decorator_list or class_.keywords or has(NODE, function.name):
         return False
     return _has_known_bases(module, class_) or bool(_CALLBACK.search(function.name))
@@ -232,6 +261,8 @@ def _is_named_in(
         try:
             text = package.data(path).decode(errors="replace")
         except ViewError:
+            if path.endswith((".cpp", ".hpp")):
+                continue  # too large for code that calls a function of Python
             return True
         if all(name in text for name in names) and _has_names(without_comments(text), names):
             return True

@@ -32,6 +32,11 @@ def node_scripts(package: Package) -> list[EntryPoint]:
     ]
 
 
+def has_program_files(package: Package) -> bool:
+    """Tell whether data_files install files for ``ros2 run``."""
+    return any(_put_into_lib(package))
+
+
 def _put_into_lib(package: Package) -> Iterator[str]:
     """Yield the names of the files that data_files install for ``ros2 run``."""
     for data in package.setup_py.data_files:
