@@ -7,7 +7,12 @@ from collections.abc import Iterator, Sequence
 from scaffold.api import Diagnostic, Effect, Example, Package, Rule
 from scaffold.api.messages import message_paths
 from scaffold.api.parameters import keeps_default_name
-from scaffold.api.programs import NamedEndpoint, services_of, topics_of
+from scaffold.api.programs import (
+    NamedEndpoint,
+    is_named_in_compiled_code,
+    services_of,
+    topics_of,
+)
 
 _NODE = (
     "from rclpy.node import Node\nfrom std_msgs.msg import Bool, String\n"
@@ -52,6 +57,17 @@ class TopicTypeDiffers(Rule):
             "a.py:9: they never connect",
         ),
         Example(
+            "nodes in C++ may be the other sides",
+            {
+                "a.py": _NODE.format("publisher(String, 'chatter', 10)"),
+                "b.py": _NODE.format("subscription(Bool, 'chatter', print, 10)"),
+                "c.py": _NODE.format("service(Trigger, 'reset', print)"),
+                "d.py": _NODE.format("client(Empty, 'reset')"),
+                "src/hear.cpp": 'create_subscription<String>("/robot/chatter", 10, hear);\n'
+                'create_service<Empty>("reset", reset);\n',
+            },
+        ),
+        Example(
             "four files",
             {
                 "a.py": _NODE.format("publisher(String, 'chatter', 10)"),
@@ -88,11 +104,17 @@ class TopicTypeDiffers(Rule):
                 continue
             found = [*self._check(name, *sides)]
             # This is slower to determine than whether the types differ.
-            if found and all(keeps_default_name(package, x) for side in sides for x in side):
+            if (
+                found
+                and all(keeps_default_name(package, x) for side in sides for x in side)
+                and not is_named_in_compiled_code(package, name)
+            ):
                 yield from found
         for name, service in services_of(package).items():
             if service.is_plain and _are_known(package, service.services, service.clients):
-                yield from self._check(name, service.services, service.clients)
+                found = [*self._check(name, service.services, service.clients)]
+                if found and not is_named_in_compiled_code(package, name):
+                    yield from found
 
     def _check(
         self, name: str, side: Sequence[NamedEndpoint], other_side: Sequence[NamedEndpoint]

@@ -89,6 +89,8 @@ def _is_never_reached(package: Package, path: str, texts: tuple[str, ...]) -> bo
             item = pending.pop()
             if not _is_apart(package, item):
                 return False
+            if is_in_tests(item):
+                continue
             for naming in _files_naming(package, item, _stem(item), texts):
                 if not naming.endswith(".py"):
                     return False

@@ -134,8 +134,8 @@ def is_remapped(package: Package, endpoint: NamedEndpoint) -> bool:
 
 
 def is_named_in_compiled_code(package: Package, topic: str) -> bool:
-    """Tell whether C++ or Rust code of the workspace mentions a topic."""
-    texts = [f'"{slash}{topic}"'.encode() for slash in ("", "/")]
+    """Tell whether C++ or Rust code of the workspace mentions a name, in any namespace."""
+    texts = [f'{before}{topic}"'.encode() for before in ('"', "/")]
     return any(text in data for data in _compiled_code(package) for text in texts)
 
 
