@@ -133,6 +133,14 @@ class ModuleUnknown(TypeRule):
             distro="humble",
         ),
         Example(
+            "for other Pythons, asked for with a constant of a library",
+            {
+                "loader.py": "import rclpy\nfrom six import PY3\nfrom torch._six import PY37\n\n"
+                "if PY37:\n    import importlib\nelse:\n    import imp\n"
+                "if not PY3:\n    import asyncore\nrclpy.init()\n",
+            },
+        ),
+        Example(
             "modules that CMake installs next to the code of messages",
             {
                 **_INTERFACES,

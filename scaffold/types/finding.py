@@ -27,11 +27,11 @@ _DECIDING = re.compile(
     r"\b(?:hasattr|getattr|callable|isinstance|issubclass|TYPE_CHECKING|platform|ROS_VERSION)\b"
     r"|\bin dir\(|__slots__|get_fields_and_field_types|signature|find_spec"
     r"|(?:^|[^a-z]|hex)version|distro|_AVAILABLE\b"
-    r"|\b(?:HAS|HAVE)_(?!next\b)",
+    r"|\b(?:HAS|HAVE)_(?!next\b)|\bPY_?[23]\d{0,2}\b",
     re.IGNORECASE,
 )
 """Matches conditions on a version, a module or the type of an object."""
-_LEAVING = re.compile(r"version_info|hexversion|__version__|(?i:distro)|find_spec|importorskip")
+_LEAVING = re.compile(r"version_info|\bPY_?[23]\d{0,2}\b|hexversion|__version__|(?i:distro)|find_spec|importorskip")
 """Matches conditions on a version or a module that may leave a block."""
 _PROBED = frozenset(
     {"AttributeError", "ImportError", "ModuleNotFoundError", "NameError", "TypeError"}

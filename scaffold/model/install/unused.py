@@ -46,7 +46,7 @@ _TAKES_ALL = (
 )
 """Matches code that uses all files of a directory."""
 _BUILDING = ("CMakeLists.txt", "setup.py", "setup.cfg", "pyproject.toml")
-_NAMING = (*_KEPT, ".txt", ".cfg", ".toml", ".cmake", ".sh")
+_NAMING = (*_KEPT, ".txt", ".cfg", ".toml", ".cmake", ".sh", ".bash")
 TEXTS = (".md", ".rst")
 """The endings of texts that tell people what to start."""
 _RUN_AS_THEY_ARE = frozenset({"setup.py", "__init__.py", "__main__.py"})
