@@ -31,7 +31,9 @@ _DECIDING = re.compile(
     re.IGNORECASE,
 )
 """Matches conditions on a version, a module or the type of an object."""
-_LEAVING = re.compile(r"version_info|\bPY_?[23]\d{0,2}\b|hexversion|__version__|(?i:distro)|find_spec|importorskip")
+_LEAVING = re.compile(
+    r"version_info|\bPY_?[23]\d{0,2}\b|hexversion|__version__|(?i:distro)|find_spec|importorskip"
+)
 """Matches conditions on a version or a module that may leave a block."""
 _PROBED = frozenset(
     {"AttributeError", "ImportError", "ModuleNotFoundError", "NameError", "TypeError"}
