@@ -142,7 +142,11 @@ def test_copy_of_a_parameter_file(package: Path, capsys: pytest.CaptureFixture[s
 
 @pytest.mark.parametrize(
     ("path", "text"),
-    [("talker/main.py", "from talker import node_old\n"), ("run.sh", "python3 node_old.py\n")],
+    [
+        ("talker/main.py", "from talker import node_old\n"),
+        ("run.sh", "python3 node_old.py\n"),
+        ("run.bash", "python3 node_old.py\n"),
+    ],
 )
 def test_mentioned_copy_is_used(
     package: Path, capsys: pytest.CaptureFixture[str], path: str, text: str
