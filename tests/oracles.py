@@ -179,12 +179,12 @@ def _run(
 def _parse(report: bytes, linter: str) -> set[Finding]:
     """Read a report; quoted source lines may make it ill-formed, hence ``recover``."""
     suite = etree.fromstring(report, etree.XMLParser(recover=True, huge_tree=True))
-    found: set[Finding] = set()
+    result: set[Finding] = set()
     for case in suite.iter("testcase"):
         failure = case.find("failure")
         if failure is not None:
-            found |= _findings(case.get("name", ""), failure.text or "", linter)
-    return found
+            result |= _findings(case.get("name", ""), failure.text or "", linter)
+    return result
 
 
 def _findings(name: str, text: str, linter: str) -> set[Finding]:

@@ -25,12 +25,12 @@ def test_demo_runs_without_optional_programs(tmp_path: Path) -> None:
 
     programs = tmp_path / "bin"
     link_programs(programs)
-    said = [run(command.split(), tmp_path, programs) for command in commands]
+    output = [run(command.split(), tmp_path, programs) for command in commands]
 
-    assert said[1].endswith("no findings\n")
-    assert re.search(r"/chatter +std_msgs/msg/String +1 publisher +\d+\.\d+ Hz", said[2])
-    assert "warning" not in said[2]
-    assert "exit code 0" in said[2]
+    assert output[1].endswith("no findings\n")
+    assert re.search(r"/chatter +std_msgs/msg/String +1 publisher +\d+\.\d+ Hz", output[2])
+    assert "warning" not in output[2]
+    assert "exit code 0" in output[2]
 
 
 def link_programs(directory: Path) -> None:

@@ -59,8 +59,8 @@ def check(
 ) -> Found:
     """Return code, message and distributions of each finding."""
     main(["check", str(package), "--distro", distro, "--format", "json", "--select", select])
-    found = json.loads(capsys.readouterr().out)["diagnostics"]
-    return [(item["code"], item["message"], item["distributions"]) for item in found]
+    findings = json.loads(capsys.readouterr().out)["diagnostics"]
+    return [(item["code"], item["message"], item["distributions"]) for item in findings]
 
 
 NODE = (
@@ -98,9 +98,9 @@ def test_removed_method_is_reported_for_later_distributions(
 ) -> None:
     package = write(tmp_path, NODE.format("warn"))
     assert check(capsys, package, "jazzy") == []
-    (found,) = check(capsys, package, "lyrical")
-    assert ".warn was removed in Lyrical" in found[1]
-    assert found[2] == ["lyrical"]
+    (finding,) = check(capsys, package, "lyrical")
+    assert ".warn was removed in Lyrical" in finding[1]
+    assert finding[2] == ["lyrical"]
     (same,) = check(capsys, package, "rolling")
     assert same[2] == ["rolling"]
 
@@ -110,11 +110,11 @@ def test_several_distributions_report_each_finding_once(
 ) -> None:
     code = NODE.format("warn") + "        self.get_logger().shout('hello')\n"
     package = write(tmp_path, code)
-    found = {
+    result = {
         re.findall(r"[.'](warn|shout)\b", item[1])[0]: item[2]
         for item in check(capsys, package, "lyrical,jazzy")
     }
-    assert found == {"warn": ["lyrical"], "shout": ["jazzy", "lyrical"]}
+    assert result == {"warn": ["lyrical"], "shout": ["jazzy", "lyrical"]}
     main(["check", str(package), "--distro", "jazzy,lyrical", "--select", "ND,TY"])
     *lines, summary = capsys.readouterr().out.splitlines()
     assert sum("(lyrical)" in line for line in lines) == 1
@@ -149,15 +149,17 @@ def test_name_added_later_is_reported_for_earlier_distributions(
     package = write(
         tmp_path, "import rclpy\n\n\ndef main():\n    with rclpy.init():\n        pass\n"
     )
-    found = {name: [code for code, *_ in check(capsys, package, name, "ND005")] for name in ORDER}
-    assert found == {"humble": ["ND005"], "jazzy": ["ND005"], "kilted": [], "lyrical": []}
+    findings = {
+        name: [code for code, *_ in check(capsys, package, name, "ND005")] for name in ORDER
+    }
+    assert findings == {"humble": ["ND005"], "jazzy": ["ND005"], "kilted": [], "lyrical": []}
 
 
 def test_arguments_depend_on_the_target(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     code = NODE.format("info").replace("'talker'", "'talker', enable_logger_service=True")
     package = write(tmp_path, code)
-    (found,) = check(capsys, package, "humble")
-    assert "enable_logger_service" in found[1]
+    (finding,) = check(capsys, package, "humble")
+    assert "enable_logger_service" in finding[1]
     assert check(capsys, package, "jazzy") == []
 
 
@@ -166,8 +168,8 @@ def test_message_types_depend_on_the_target(
 ) -> None:
     package = write(tmp_path, "from geometry_msgs.msg import Pose2D\n\npose = Pose2D()\n")
     assert check(capsys, package, "kilted") == []
-    (found,) = check(capsys, package, "lyrical")
-    assert found[0] == "TY002"
+    (finding,) = check(capsys, package, "lyrical")
+    assert finding[0] == "TY002"
 
 
 def test_python_syntax_depends_on_the_target(
@@ -175,8 +177,8 @@ def test_python_syntax_depends_on_the_target(
 ) -> None:
     code = "def run(work):\n    try:\n        work()\n    except* ValueError:\n        pass\n"
     package = write(tmp_path, code)
-    (found,) = check(capsys, package, "humble", "SC,E9")
-    assert "3.11" in found[1]
+    (finding,) = check(capsys, package, "humble", "SC,E9")
+    assert "3.11" in finding[1]
     assert check(capsys, package, "jazzy", "E9") == []
 
 
@@ -295,10 +297,10 @@ def test_standard_input_is_checked_and_fixed_for_several_distributions(tmp_path:
     command = [sys.executable, "-m", "scaffold", "check", "--select", "IM,ND,TY"]
     command += ["--distro", "jazzy,lyrical", "--stdin-filename", str(package / "talker/node.py")]
     text = NODE.format("warn")
-    found = subprocess.run(command, input=text, capture_output=True, text=True, check=False)
-    assert found.returncode == 1
-    assert "node.py:8:9: error" in found.stdout
-    assert "(lyrical)" in found.stdout
+    result = subprocess.run(command, input=text, capture_output=True, text=True, check=False)
+    assert result.returncode == 1
+    assert "node.py:8:9: error" in result.stdout
+    assert "(lyrical)" in result.stdout
     fixed = subprocess.run(
         [*command, "--fix"], input=text, capture_output=True, text=True, check=False
     )
@@ -366,15 +368,15 @@ def test_fix_is_offered_only_if_valid_for_all_distributions() -> None:
     package = Package.of({"package.xml": "<package/>"})
     at = Location.start_of("package.xml")
     fix = Fix("write it", (Edit("package.xml", 0, 0, " "),))
-    one, both, always = (
+    entry, both, always = (
         Diagnostic(code, "rule", Severity.ERROR, at, "wrong", fix)
         for code in ("AA001", "AA002", "AA003")
     )
-    found = {
+    actual = {
         named("humble"): [Result(package, 0, [both])],
-        named("lyrical"): [Result(package, 0, [one, both, always])],
+        named("lyrical"): [Result(package, 0, [entry, both, always])],
     }
-    (result,) = merged(found, {"AA003"})
+    (result,) = merged(actual, {"AA003"})
     offered = {item.code: item.fix is not None for item in result.diagnostics}
     assert offered == {"AA001": False, "AA002": True, "AA003": True}
 
@@ -387,12 +389,12 @@ def test_manifest_conditions_depend_on_the_target() -> None:
 
 @pytest.mark.parametrize("name", NAMES)
 def test_each_distribution_has_its_data(name: str) -> None:
-    one = named(name)
-    assert one.python >= (3, 10)
-    assert one.fact("build.package_may_be_installed_twice") in {True, False}
-    assert "create_publisher()" in names_of(one)["rclpy.node.Node"]
-    assert "rclpy/node.pyi" in library_stubs(one)
-    with distributions.targeting(one):
+    item = named(name)
+    assert item.python >= (3, 10)
+    assert item.fact("build.package_may_be_installed_twice") in {True, False}
+    assert "create_publisher()" in names_of(item)["rclpy.node.Node"]
+    assert "rclpy/node.pyi" in library_stubs(item)
+    with distributions.targeting(item):
         definition = Definitions.around(prefixes=()).find("std_msgs/msg/Header")
     assert definition is not None
 
@@ -401,19 +403,19 @@ def test_no_code_compares_distribution_names() -> None:
     exempt = "(?<!distro=)(?<!moved_from=)(?<!did you mean )"  # examples of rules
     pattern = re.compile(rf"""{exempt}["'](?:{"|".join(NAMES)})["']""")
     asking = {
-        str(path.relative_to(ROOT)): found
+        str(path.relative_to(ROOT)): result
         for top in ("rules", "scaffold", "templates")
         for path in sorted((ROOT / top).rglob("*"))
         if path.suffix in {".py", ".yaml", ".jinja"}
-        and (found := pattern.findall(path.read_text()))
+        and (result := pattern.findall(path.read_text()))
     }
     assert asking == {"scaffold/distributions.py": ['"rolling"', '"jazzy"']}
 
 
 def test_distribution_without_data_maps_to_the_nearest() -> None:
-    found = {name: nearest(name).name for name in ("foxy", "iron", "kilted", "rolling", "mellow")}
+    result = {name: nearest(name).name for name in ("foxy", "iron", "kilted", "rolling", "mellow")}
     expected = {"foxy": "humble", "iron": "jazzy", "kilted": "kilted", "rolling": "rolling"}
-    assert found == {**expected, "mellow": ORDER[-1]}
+    assert result == {**expected, "mellow": ORDER[-1]}
 
 
 def test_new_distribution_copies_facts_of_the_previous_one(
@@ -456,8 +458,8 @@ def test_the_data_of_all_distributions_is_small() -> None:
 def test_removed_interface_packages_are_listed_as_removed(name: str) -> None:
     """Packages bundled with an older distribution but not with this one are in the removals."""
     target = named(name)
-    older = [one for one in map(named, ORDER) if one.place < target.place]
-    gone = {package for one in older for package in _bundled(one)} - _bundled(target)
+    older = [item for item in map(named, ORDER) if item.place < target.place]
+    gone = {package for item in older for package in _bundled(item)} - _bundled(target)
     with distributions.targeting(target):
         assert [package for package in gone if changes.removed_package(package) is None] == []
 

@@ -84,7 +84,7 @@ class Action:
         step = self._action["runs"]["steps"][number]
         assert step["shell"] == "bash"
         assert "${{" not in step["run"]
-        given = {name: one["default"] for name, one in self._action["inputs"].items()} | inputs
+        given = {name: item["default"] for name, item in self._action["inputs"].items()} | inputs
         known = self._known | {f"inputs.{name}": value for name, value in given.items()}
         variables = {
             name: re.sub(r"\$\{\{ (.+?) \}\}", lambda match: known[match[1]], text)
@@ -111,9 +111,9 @@ def test_action_installs_the_tool_and_checks(clone: Path, checkout: Path, tmp_pa
     report = json.loads((checkout / "a b.sarif").read_text())
     jsonschema.validate(report, SARIF)
     (uri,) = {
-        one["locations"][0]["physicalLocation"]["artifactLocation"]["uri"]
-        for one in report["runs"][0]["results"]
-        if one["level"] == "error"
+        item["locations"][0]["physicalLocation"]["artifactLocation"]["uri"]
+        for item in report["runs"][0]["results"]
+        if item["level"] == "error"
     }
     assert uri.startswith("my%20packages/talker/")
 
@@ -142,7 +142,7 @@ def test_gitlab_template_checks_and_stores_its_report(
     assert "1 error" in log
     report = json.loads((checkout / job["artifacts"]["reports"]["codequality"]).read_text())
     jsonschema.validate(report, CODE_QUALITY)
-    (path,) = {one["location"]["path"] for one in report}
+    (path,) = {item["location"]["path"] for item in report}
     assert (checkout / path).is_file()
 
 

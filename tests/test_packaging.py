@@ -100,8 +100,8 @@ def test_installed_command_finds_its_rules(command: Path, tmp_path: Path) -> Non
     assert [rule["code"] for rule in rules] == [rule.code for rule in checkout]
 
     program = "from scaffold.configuration import content; print(content.built_in())"
-    found = run(command.parent / "python", "-c", program, cwd=tmp_path).strip()
-    assert Path(found).is_relative_to(command.parent.parent)
+    result = run(command.parent / "python", "-c", program, cwd=tmp_path).strip()
+    assert Path(result).is_relative_to(command.parent.parent)
 
 
 def run(*command: str | Path, cwd: Path = ROOT) -> str:
@@ -137,8 +137,8 @@ def names_in_wheel(wheel: Path) -> set[str]:
 
 def only(directory: Path, pattern: str) -> Path:
     """Return the one path that matches."""
-    (found,) = directory.glob(pattern)
-    return found
+    (item,) = directory.glob(pattern)
+    return item
 
 
 def test_pre_commit_accepts_the_hook() -> None:
@@ -166,21 +166,21 @@ def test_every_dependency_has_a_lower_bound_and_a_reason() -> None:
     text = (ROOT / "pyproject.toml").read_text()
     project = tomllib.loads(text)["project"]
     wanted = [*project["dependencies"], *project["optional-dependencies"]["ros"]]
-    assert [one for one in wanted if not re.search(r"[>=]=", one)] == []
+    assert [item for item in wanted if not re.search(r"[>=]=", item)] == []
     lines = {line.strip() for line in text.splitlines()}
-    reasons = [re.escape(f'"{one}",') + " +# .+" for one in wanted]
-    assert [one for one in reasons if not any(re.fullmatch(one, line) for line in lines)] == []
+    reasons = [re.escape(f'"{item}",') + " +# .+" for item in wanted]
+    assert [item for item in reasons if not any(re.fullmatch(item, line) for line in lines)] == []
 
 
 def test_lower_bounds_include_security_fixes() -> None:
     project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
     groups = [project["dependencies"], *project["optional-dependencies"].values()]
     seen = set()
-    for requirement in [Requirement(one) for group in groups for one in group]:
+    for requirement in [Requirement(item) for group in groups for item in group]:
         name = requirement.name.lower()
         if name in ADVISORIES:
             seen.add(name)
-            bounds = [one.version for one in requirement.specifier if one.operator == ">="]
+            bounds = [item.version for item in requirement.specifier if item.operator == ">="]
             advisory, fixed = ADVISORIES[name]
             (bound,) = bounds
             assert Version(bound) >= Version(fixed), f"{requirement}: {advisory}"

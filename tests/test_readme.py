@@ -99,13 +99,13 @@ def run(command: str, directory: Path) -> str:
 
 
 def assert_same(output: str, step: Step) -> None:
-    said = without_figures(output) if step.is_slow else output
+    text = without_figures(output) if step.is_slow else output
     shown = without_figures(step.output) if step.is_slow else step.output
     pattern = "".join(
         r"(?:.*\n)*" if line == "...\n" else re.escape(line).replace(r"\.\.\.", ".*")
         for line in shown.splitlines(keepends=True)
     )
-    assert re.fullmatch(pattern, said), f"README.md shows:\n{step.output}\nbut it is:\n{output}"
+    assert re.fullmatch(pattern, text), f"README.md shows:\n{step.output}\nbut it is:\n{output}"
 
 
 def without_figures(text: str) -> str:

@@ -53,11 +53,11 @@ BOTH = pytest.mark.parametrize("kind", [Cheap, Real])
 
 @BOTH
 def test_construction_and_fields(kind: Kind) -> None:
-    one = kind(1, y=2.5)
-    assert (one.x, one.y, one.names, one.total) == (1, 2.5, (), 3.5)
-    assert one == (1, 2.5, ())
+    item = kind(1, y=2.5)
+    assert (item.x, item.y, item.names, item.total) == (1, 2.5, (), 3.5)
+    assert item == (1, 2.5, ())
     assert kind.of(4) == (4, 0.5, ("made",))
-    assert kind(*one) == kind._make(one) == one
+    assert kind(*item) == kind._make(item) == item
     assert kind._fields == kind.__match_args__ == ("x", "y", "names")
     assert kind._field_defaults == {"y": 0.5, "names": ()}
     assert kind.__doc__ == "A point."
@@ -76,14 +76,14 @@ def test_invalid_arguments_and_assignments_are_rejected(kind: Kind) -> None:
 
 @BOTH
 def test_replace_pickle_copy_and_repr(kind: Kind) -> None:
-    one = kind(1, 2.0, ("a",))
-    assert one._replace(x=5) == (5, 2.0, ("a",))
-    assert one._asdict() == {"x": 1, "y": 2.0, "names": ("a",)}
-    for twin in (pickle.loads(pickle.dumps(one)), copy.copy(one), copy.deepcopy(one)):  # noqa: S301
-        assert twin == one
+    item = kind(1, 2.0, ("a",))
+    assert item._replace(x=5) == (5, 2.0, ("a",))
+    assert item._asdict() == {"x": 1, "y": 2.0, "names": ("a",)}
+    for twin in (pickle.loads(pickle.dumps(item)), copy.copy(item), copy.deepcopy(item)):  # noqa: S301
+        assert twin == item
         assert type(twin) is kind
-    assert repr(one) == f"{kind.__name__}(x=1, y=2.0, names=('a',))"
-    assert hash(one) == hash((1, 2.0, ("a",)))
+    assert repr(item) == f"{kind.__name__}(x=1, y=2.0, names=('a',))"
+    assert hash(item) == hash((1, 2.0, ("a",)))
 
 
 @BOTH

@@ -103,11 +103,11 @@ def test_cmake_findings_equal_those_of_the_linter(seed: int, tmp_path: Path) -> 
     files["ignored/AMENT_IGNORE"] = ""
     package = write(tmp_path, files)
     ours = {
-        (found.source.path, 0 if name in WHOLE_FILE else found.location.line, name)
+        (finding.source.path, 0 if name in WHOLE_FILE else finding.location.line, name)
         for name in lint_cmake.FILTERS
-        for found in lint_cmake.findings(package, name)
+        for finding in lint_cmake.findings(package, name)
     }
-    assert ours == {tuple(found) for found in _as_tuples(oracles.ament_lint_cmake(tmp_path))}
+    assert ours == {tuple(finding) for finding in _as_tuples(oracles.ament_lint_cmake(tmp_path))}
     assert bool(ours) == bool(runner.check(package, LAYOUT_OF_CMAKE))
 
 
@@ -129,7 +129,7 @@ def test_linter_accepts_fixed_cmake(tmp_path: Path) -> None:
 
 
 def _as_tuples(found: set[oracles.Finding]) -> list[tuple[str, int, str]]:
-    return [(one.path, one.line, one.code) for one in found]
+    return [(finding.path, finding.line, finding.code) for finding in found]
 
 
 # -- ament_copyright
@@ -201,7 +201,7 @@ def test_rejected_headers_equal_those_of_the_linter(seed: int, tmp_path: Path) -
     files |= {f"g{number}.py": header for number, header in enumerate(HEADERS)}
     package = write(tmp_path, files)
     rejected = {header.path for header in notices.headers(package) if not header.is_known}
-    assert rejected == {found.path for found in oracles.ament_copyright(tmp_path)}
+    assert rejected == {finding.path for finding in oracles.ament_copyright(tmp_path)}
     assert runner.check(package, COPYRIGHT)
 
 
@@ -228,12 +228,12 @@ def test_headers_written_by_the_linter_are_accepted(licence: str, tmp_path: Path
 @needs_system_linter("ament_copyright")
 def test_known_license_texts_equal_those_of_the_linter() -> None:
     """Compute scaffold/data/licences.tsv from the installed linter."""
-    found = {
+    result = {
         (kind, known.licence, known.sections)
         for kind, texts in notices.known_texts().items()
         for known in texts
     }
-    assert found == _templates()
+    assert result == _templates()
 
 
 def _templates() -> set[tuple[str, str, tuple[str, ...]]]:
@@ -250,7 +250,7 @@ def _templates() -> set[tuple[str, str, tuple[str, ...]]]:
         "lgplv3": "LGPL-3.0-only",
     }
     (directory,) = Path("/usr/lib").glob("python3*/dist-packages/ament_copyright/template")
-    found: set[tuple[str, str, tuple[str, ...]]] = set()
+    result: set[tuple[str, str, tuple[str, ...]]] = set()
     for kind, name in names.items():
         for prefix, identifier in identifiers.items():
             for path in sorted(directory.glob(f"{prefix}_{name}*.txt")):
@@ -259,8 +259,8 @@ def _templates() -> set[tuple[str, str, tuple[str, ...]]]:
                 sections = [part.strip() for part in parts if part]
                 if kind != "header":
                     sections = [f"{len(s)} {_digest(s)} {s[:24]}" for s in sections]
-                found.add((kind, identifier, tuple(sections)))
-    return found
+                result.add((kind, identifier, tuple(sections)))
+    return result
 
 
 def _digest(text: str) -> str:
@@ -293,8 +293,8 @@ def test_severity_of_copyright_follows_the_tests_of_a_python_package(
 ) -> None:
     files = {"a.py": "import b\n", "lib/c.py": "import d\n"}
     files["test/test_copyright.py"] = TEST_OF_COPYRIGHT.format(*test)
-    said = runner.check(Package.of(files), COPYRIGHT)
-    assert [d.severity for d in said] == severities
+    diagnostics = runner.check(Package.of(files), COPYRIGHT)
+    assert [d.severity for d in diagnostics] == severities
 
 
 @pytest.mark.parametrize(
@@ -354,14 +354,14 @@ def test_unknown_dependencies_may_add_licenses() -> None:
         "a.py": "# Copyright 2026 Ann.\n# All rights reserved. Nobody may copy this file.\n",
         "CMakeLists.txt": "project(a)\nament_lint_auto_find_test_dependencies()\n",
     }
-    found = [
+    result = [
         [d.code for d in runner.check(Package.of({**files, "package.xml": text}), COPYRIGHT)]
         for text in (
             manifest.format(""),
             manifest.format("<test_depend>robots_ament_copyright</test_depend>"),
         )
     ]
-    assert found == [["LY021"], []]
+    assert result == [["LY021"], []]
 
 
 # -- ament_xmllint: well-formedness
@@ -418,8 +418,8 @@ XML_V2 = '<?xml version="2.0"?><a/>'
 @settings(max_examples=300, deadline=None)
 @given(st.binary(max_size=200))
 def test_xml_check_never_raises(data: bytes) -> None:
-    found = check_xml("a.xml", data)
-    assert found is None or found[0].path == "a.xml"
+    result = check_xml("a.xml", data)
+    assert result is None or result[0].path == "a.xml"
 
 
 @needs_system_linter("ament_copyright")
@@ -428,11 +428,11 @@ def test_dangling_symlinks_are_reported(tmp_path: Path) -> None:
     package = write(tmp_path, {"package.xml": MANIFESTS[2]})
     (tmp_path / "a.py").symlink_to("gone.py")
     (tmp_path / "b.xml").symlink_to("gone.xml")
-    assert {found.path for found in oracles.ament_copyright(tmp_path)} == {"a.py"}
+    assert {finding.path for finding in oracles.ament_copyright(tmp_path)} == {"a.py"}
     with pytest.raises(AssertionError, match="ament_xmllint failed"):
         oracles.files_rejected_by_xmllint(tmp_path)
-    said = runner.check(package, [*COPYRIGHT, RULES["PX050"]])
-    assert [d.location.path for d in said] == ["a.py", "b.xml"]
+    diagnostics = runner.check(package, [*COPYRIGHT, RULES["PX050"]])
+    assert [d.location.path for d in diagnostics] == ["a.py", "b.xml"]
 
 
 # -- ament_xmllint: package.xml
@@ -503,8 +503,8 @@ def test_manifest_findings_agree_with_the_schemas(seed: int) -> None:
         if official is None:
             continue
         package = Package.of({"package.xml": text})
-        said = runner.check(package, STRUCTURE)
-        assert (not said) == official, f"{[d.message for d in said]}\n{text}"
+        diagnostics = runner.check(package, STRUCTURE)
+        assert (not diagnostics) == official, f"{[d.message for d in diagnostics]}\n{text}"
         assert (not violations(text.encode(), _format_number(text))) == official, text
 
 
@@ -538,8 +538,8 @@ def _element(tag: str, text: str) -> etree._Element:
 
 def _format_number(text: str) -> int:
     """Return the package format whose schema the linter would use."""
-    found = re.search(r"package_format([123])\.xsd", text) or re.search(r'format="([123])"', text)
-    return int(found[1]) if found else 1
+    result = re.search(r"package_format([123])\.xsd", text) or re.search(r'format="([123])"', text)
+    return int(result[1]) if result else 1
 
 
 def _official_verdict(text: str) -> bool | None:

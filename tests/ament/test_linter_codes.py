@@ -35,12 +35,12 @@ def test_reports_of_case(rule: type[Rule], example: Example) -> None:
 
 @pytest.mark.parametrize("code", CASES)
 def test_cases_cover_the_table(code: str) -> None:
-    row, reports = CODES[code], [report for one in CASES[code] for report in one.reports]
-    assert any(not one.reports for one in CASES[code]), "no accepted case"
+    row, reports = CODES[code], [report for item in CASES[code] for report in item.reports]
+    assert any(not item.reports for item in CASES[code]), "no accepted case"
     shown = {report.severity or row.severity for report in reports}
     assert shown == {row.severity, *(row.other_severities or {})}
     assert row.message in {report.message for report in reports}
-    assert (row.fix is not None) == any(one.fixed is not None for one in CASES[code])
+    assert (row.fix is not None) == any(item.fixed is not None for item in CASES[code])
 
 
 @pytest.mark.parametrize("code", CASES)
@@ -50,5 +50,5 @@ def test_code_is_documented(code: str) -> None:
 
 
 def test_cases_can_be_suppressed() -> None:
-    pairs = [(RULES[code], one) for code, examples in CASES.items() for one in examples]
+    pairs = [(RULES[code], item) for code, examples in CASES.items() for item in examples]
     assert_suppressible(pairs)

@@ -71,15 +71,15 @@ def test_copyright_reports_files(tmp_path: Path) -> None:
 @needs_system_linter("ament_lint_cmake")
 def test_lint_cmake_reports_locations(tmp_path: Path) -> None:
     write(tmp_path, "CMakeLists.txt", "cmake_minimum_required(VERSION 3.8)\nproject (talker)\n")
-    found = oracles.ament_lint_cmake(tmp_path)
-    assert found == {Finding("CMakeLists.txt", 2, "whitespace/extra")}
+    findings = oracles.ament_lint_cmake(tmp_path)
+    assert findings == {Finding("CMakeLists.txt", 2, "whitespace/extra")}
 
 
 @needs_system_linter("ament_xmllint")
 def test_xmllint_reports_lines(tmp_path: Path) -> None:
     write(tmp_path, "package.xml", "<package>\n  <name>\n</package>\n")
-    found = oracles.ament_xmllint(tmp_path)
-    assert Finding("package.xml", 3, "xmllint") in found
+    findings = oracles.ament_xmllint(tmp_path)
+    assert Finding("package.xml", 3, "xmllint") in findings
 
 
 @needs_system_linter("ament_lint_auto")

@@ -106,7 +106,9 @@ CONFIGURATIONS = {
 def test_same_findings_with_a_configuration(tmp_path: Path, options: str) -> None:
     cases = [*MORE_CASES, *style_cases.IMPORTS[:20], *style_cases.CONTINUATION_LINES[:40]]
     cases += [style_cases.DOCSTRING_PLACES[0].format(body) for body in style_cases.DOCSTRINGS[:40]]
-    files = {f"{'sub/' if at % 3 == 1 else ''}case_{at:04}.py": one for at, one in enumerate(cases)}
+    files = {
+        f"{'sub/' if at % 3 == 1 else ''}case_{at:04}.py": item for at, item in enumerate(cases)
+    }
     package = written(
         tmp_path / "a",
         {
@@ -117,7 +119,7 @@ def test_same_findings_with_a_configuration(tmp_path: Path, options: str) -> Non
     )
     own, real = (
         findings(check(package)),
-        {tuple(one) for one in oracles.ament_flake8(tmp_path / "a", "--config", "../own.cfg")},
+        {tuple(item) for item in oracles.ament_flake8(tmp_path / "a", "--config", "../own.cfg")},
     )
     assert (sorted(real - own), sorted(own - real)) == ([], [])
 
@@ -133,12 +135,14 @@ def test_same_findings_with_a_configuration(tmp_path: Path, options: str) -> Non
     ],
 )
 def test_same_docstrings_with_arguments(tmp_path: Path, options: str, paths: str) -> None:
-    files = {f"{'sub/' if at % 2 else ''}case_{at:04}.py": one for at, one in enumerate(MORE_CASES)}
+    files = {
+        f"{'sub/' if at % 2 else ''}case_{at:04}.py": item for at, item in enumerate(MORE_CASES)
+    }
     cmake = f"project(a)\nament_flake8(none.py)\nament_pep257({paths} {options})\n"
     package = written(tmp_path, {**files, "none.py": "", "CMakeLists.txt": cmake})
     places = paths.split() or ["."]
-    found = oracles.ament_pep257(tmp_path, *options.split(), paths=places)
-    own, real = findings(check(package)), {tuple(one) for one in found}
+    result = oracles.ament_pep257(tmp_path, *options.split(), paths=places)
+    own, real = findings(check(package)), {tuple(item) for item in result}
     assert (sorted(real - own), sorted(own - real)) == ([], [])
 
 
@@ -205,8 +209,8 @@ def test_arguments_of_a_test(
     tmp_path: Path, argument: str, expected: Mapping[str, set[str]]
 ) -> None:
     files = {"test/test_flake8.py": TEST.format(argument), "own.cfg": NO_QUOTES}
-    found = flake8_codes(tmp_path, files)
-    assert found == {path: reported for path, reported in expected.items() if reported}
+    result = flake8_codes(tmp_path, files)
+    assert result == {path: reported for path, reported in expected.items() if reported}
 
 
 @pytest.mark.parametrize(
@@ -254,10 +258,10 @@ def test_arguments_of_a_test(
 def test_arguments_in_cmake(
     tmp_path: Path, commands: str, expected: Mapping[str, set[str]]
 ) -> None:
-    found = flake8_codes(
+    result = flake8_codes(
         tmp_path, {"CMakeLists.txt": f"project(a)\n{commands}\n", "../own.cfg": NO_QUOTES}
     )
-    assert found == {path: reported for path, reported in expected.items() if reported}
+    assert result == {path: reported for path, reported in expected.items() if reported}
 
 
 def test_reference_mode_uses_the_configuration_of_ament(tmp_path: Path) -> None:
@@ -280,10 +284,10 @@ def test_docstring_codes_ignored_by_flake8(tmp_path: Path) -> None:
 def test_own_style_reports_docstring_codes_of_flake8(tmp_path: Path) -> None:
     cmake = "project(a)\nament_flake8(CONFIG_FILE own.cfg)\n"
     files = {"a.py": "x = 1\n", "own.cfg": "[flake8]\n", "CMakeLists.txt": cmake}
-    (found,) = check(written(tmp_path, files))
-    assert found.code == "D100"
-    assert runs_linter(Package.at(tmp_path), found)
-    assert not runs_linter(Package.at(tmp_path), found._replace(code="D415"))
+    (finding,) = check(written(tmp_path, files))
+    assert finding.code == "D100"
+    assert runs_linter(Package.at(tmp_path), finding)
+    assert not runs_linter(Package.at(tmp_path), finding._replace(code="D415"))
 
 
 # -- what is not followed
@@ -314,8 +318,8 @@ def test_unsupported_configuration_is_noted(
     files |= {} if configuration is None else {"own.cfg": configuration}
     (note,) = settings_of(written(tmp_path, files)).notes
     assert message in note.message
-    said = [d for d in check(Package.at(tmp_path)) if d.code == "SC006"]
-    assert [(d.message, d.location.path, d.location.line) for d in said] == [
+    diagnostics = [d for d in check(Package.at(tmp_path)) if d.code == "SC006"]
+    assert [(d.message, d.location.path, d.location.line) for d in diagnostics] == [
         (note.message, "CMakeLists.txt", 2)
     ]
     if "using ament's" in note.message:

@@ -70,13 +70,13 @@ def differences(text: str) -> list[tuple[object, ...]]:
     expected = [facts(line) for line in split(read(lines), lines)]
     actual = [facts(line) for line in outline.lines]
     return [
-        (one, two)
-        for one, two in zip(
+        (item, two)
+        for item, two in zip(
             [*expected, *[()] * (len(actual) - len(expected))],
             [*actual, *[()] * (len(expected) - len(actual))],
             strict=True,
         )
-        if one != two
+        if item != two
     ]
 
 

@@ -46,8 +46,8 @@ def check(package: Package) -> list[Diagnostic]:
 
 def theirs(directory: Path) -> Found:
     """Return the findings of both linters; a file that does not parse counts once."""
-    found = oracles.ament_flake8(directory) | oracles.ament_pep257(directory)
-    return {(one.path, one.line, one.code) for one in found if one.line}
+    findings = oracles.ament_flake8(directory) | oracles.ament_pep257(directory)
+    return {(finding.path, finding.line, finding.code) for finding in findings if finding.line}
 
 
 def assert_same(directory: Path, cases: Sequence[str]) -> None:
@@ -58,8 +58,8 @@ def assert_same(directory: Path, cases: Sequence[str]) -> None:
     real, own = theirs(directory), ours(Package.at(directory))
     differing = {
         case: (
-            sorted(one[1:] for one in real - own if one[0] == name),
-            sorted(one[1:] for one in own - real if one[0] == name),
+            sorted(item[1:] for item in real - own if item[0] == name),
+            sorted(item[1:] for item in own - real if item[0] == name),
         )
         for name, case in zip(names, cases, strict=True)
     }
@@ -90,14 +90,14 @@ def test_same_findings_in_functions(tmp_path: Path) -> None:
         *style_cases.WHITESPACE_AND_STATEMENTS[:100],
         *style_cases.CONTINUATION_LINES,
     ]
-    indented = ["".join(f"    {line}\n" for line in one.splitlines()) for one in statements]
+    indented = ["".join(f"    {line}\n" for line in item.splitlines()) for item in statements]
     assert_same(tmp_path, [f"def f():\n{body}" for body in indented if "\n    from " not in body])
 
 
 def test_same_findings_in_calls(tmp_path: Path) -> None:
     calls = style_cases.COMPREHENSIONS
     assert_same(
-        tmp_path, [f"async def f(y, z, x, a, b, k):\n    return ({one})\n" for one in calls]
+        tmp_path, [f"async def f(y, z, x, a, b, k):\n    return ({item})\n" for item in calls]
     )
 
 
@@ -147,8 +147,8 @@ def test_newer_python_syntax_is_no_error() -> None:
 
 def test_syntax_after_python_3_12_is_an_error() -> None:
     package = Package.of({"a.py": "def f[T = int](x):\n    return x\n"})
-    (said,) = check(package)
-    assert (said.code, said.severity, said.location.line) == ("E999", Severity.ERROR, 1)
+    (finding,) = check(package)
+    assert (finding.code, finding.severity, finding.location.line) == ("E999", Severity.ERROR, 1)
 
 
 # -- which files
@@ -177,11 +177,11 @@ def test_selected_files(tmp_path: Path) -> None:
 
 def test_dangling_symlinks_are_unreadable(tmp_path: Path) -> None:
     (tmp_path / "a.py").symlink_to("gone.py")
-    real = {(found.path, found.code) for found in oracles.ament_flake8(tmp_path)}
+    real = {(finding.path, finding.code) for finding in oracles.ament_flake8(tmp_path)}
     assert real == {("a.py", "E902")}
-    (said,) = check(Package.at(tmp_path))
-    assert (said.location.path, said.location.line, said.code) == ("a.py", 1, "E902")
-    assert said.message == "the file cannot be read: broken symbolic link"
+    (item,) = check(Package.at(tmp_path))
+    assert (item.location.path, item.location.line, item.code) == ("a.py", 1, "E902")
+    assert item.message == "the file cannot be read: broken symbolic link"
 
 
 def test_user_configuration_of_ruff_is_ignored(tmp_path: Path) -> None:
@@ -195,13 +195,13 @@ def test_user_configuration_of_ruff_is_ignored(tmp_path: Path) -> None:
 
 def test_locations_names_and_severities() -> None:
     package = Package.of({"pkg/a.py": "import os\nx = undefined;\n", "b.py": "y = 'é' + f(a ,2)\n"})
-    said = {d.code: d for d in check(package)}
-    assert set(said) == {"F401", "F821", "E703", "E203", "E231"}
-    assert said["F821"].severity is Severity.ERROR
-    assert said["F401"].severity is Severity.WARNING
-    assert said["F401"].name == "unused-import"
-    assert said["F821"].location[:3] == ("pkg/a.py", 2, 5)
-    assert said["E203"].location[:3] == ("b.py", 1, 14)
+    diagnostics = {d.code: d for d in check(package)}
+    assert set(diagnostics) == {"F401", "F821", "E703", "E203", "E231"}
+    assert diagnostics["F821"].severity is Severity.ERROR
+    assert diagnostics["F401"].severity is Severity.WARNING
+    assert diagnostics["F401"].name == "unused-import"
+    assert diagnostics["F821"].location[:3] == ("pkg/a.py", 2, 5)
+    assert diagnostics["E203"].location[:3] == ("b.py", 1, 14)
 
 
 @pytest.mark.parametrize(
@@ -226,10 +226,10 @@ def test_undefined_name_is_a_warning_if_it_may_exist_at_run_time(
 
 
 def test_every_code_has_a_name() -> None:
-    names = [one.name for one in codes.STYLE.values()]
+    names = [item.name for item in codes.STYLE.values()]
     assert len(set(names)) == len(names)
     assert list(codes.CODES) == sorted(codes.CODES)
-    assert all(one.summary[-1] != "." for one in codes.CODES.values())
+    assert all(item.summary[-1] != "." for item in codes.CODES.values())
 
 
 FIXED = {
@@ -322,8 +322,8 @@ def test_many_files_are_split_over_several_runs(monkeypatch: pytest.MonkeyPatch)
 def test_several_packages_in_one_run() -> None:
     packages = [Package.of({"a.py": f"import {name}\n"}) for name in ("os", "abc", "ast")]
     style = StyleCheck(packages)
-    found = [style.diagnostics(package) for package in reversed(packages)]
-    assert [d.message.split()[0] for (d,) in found] == ["'ast'", "'abc'", "'os'"]
+    result = [style.diagnostics(package) for package in reversed(packages)]
+    assert [d.message.split()[0] for (d,) in result] == ["'ast'", "'abc'", "'os'"]
 
 
 # -- reference
@@ -339,8 +339,8 @@ def test_reference_mode_agrees() -> None:
 def test_reference_mode_reports_differences(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(docstrings, "check", lambda _: iter(()))
     package = Package.of({"a.py": 'def f():\n    """do"""\n'})
-    said = [difference for _, difference in reference.differences([package])]
-    assert [(d.line, d.code, d.only_reference) for d in said] == [
+    diagnostics = [difference for _, difference in reference.differences([package])]
+    assert [(d.line, d.code, d.only_reference) for d in diagnostics] == [
         (2, "D400", True),
         (2, "D403", True),
         (2, "D415", True),
@@ -353,7 +353,7 @@ def test_reference_mode_reports_differences(monkeypatch: pytest.MonkeyPatch) -> 
 def test_f_strings_are_tokenized_as_in_python_3_12() -> None:
     string = "f'a{{b {x !r:>{w}.2} {y=}' + f''"
     whole = tokenize.TokenInfo(tokenize.STRING, string[:-6], (1, 0), (1, 26), string)
-    parts = [(one.type, one.string, one.start[1]) for one in fstrings.open_up([whole])]
+    parts = [(item.type, item.string, item.start[1]) for item in fstrings.open_up([whole])]
     op, name = tokenize.OP, tokenize.NAME
     assert parts == [
         (FSTRING_START, "f'", 0),
@@ -380,7 +380,7 @@ def test_f_strings_are_tokenized_as_in_python_3_12() -> None:
 
 
 @on_python_3_12
-@pytest.mark.parametrize("text", [one for one in style_cases.PYTHON_3_12 if "{" in one])
+@pytest.mark.parametrize("text", [item for item in style_cases.PYTHON_3_12 if "{" in item])
 def test_f_string_tokens_equal_those_of_python(text: str) -> None:
     tokens = list(tokenize.generate_tokens(StringIO(text).readline))
     strings: list[list[tokenize.TokenInfo]] = []
@@ -402,8 +402,8 @@ def test_f_string_tokens_equal_those_of_python(text: str) -> None:
         inside[0] = inside[0][start[1] :]
         whole = tokenize.TokenInfo(tokenize.STRING, "".join(inside), start, end, "")
         cut = fstrings.open_up([whole])
-        wanted = [one[:4] for one in parts if one.type != tokenize.NL]
-        assert [one[:4] for one in cut if one.type != tokenize.NL] == wanted
+        wanted = [item[:4] for item in parts if item.type != tokenize.NL]
+        assert [item[:4] for item in cut if item.type != tokenize.NL] == wanted
 
 
 # -- whatever the input

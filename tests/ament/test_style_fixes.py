@@ -28,7 +28,7 @@ def check(package: Package) -> list[Diagnostic]:
 
 
 def check_only(code: str) -> Callable[[Package], list[Diagnostic]]:
-    return lambda package: [one for one in check(package) if one.code == code]
+    return lambda package: [finding for finding in check(package) if finding.code == code]
 
 
 FIXED = {
@@ -251,7 +251,7 @@ def test_table_of_fixable_codes() -> None:
 
 
 def cases() -> dict[str, bytes]:
-    found: list[str] = []
+    result: list[str] = []
     for group in (
         "WHITESPACE_AND_STATEMENTS",
         "LINES_AND_NOQA",
@@ -259,15 +259,15 @@ def cases() -> dict[str, bytes]:
         "IMPORTS",
         "COMPREHENSIONS",
     ):
-        found += getattr(style_cases, group)
+        result += getattr(style_cases, group)
     bodies, places = style_cases.DOCSTRINGS, style_cases.DOCSTRING_PLACES
-    found += [
+    result += [
         places[at].format(body)
         for number, body in enumerate(bodies)
         for at in {0, 5, number % len(places)}
         if 'f"""' not in body
     ]
-    return {f"case_{at:04}.py": case.encode() for at, case in enumerate(found) if parsed(case)}
+    return {f"case_{at:04}.py": case.encode() for at, case in enumerate(result) if parsed(case)}
 
 
 def parsed(text: str | bytes) -> ast.Module | None:
@@ -317,7 +317,9 @@ def test_fixes_converge(*, unsafe: bool) -> None:
     assert all(parsed(data) for data in fixed.changed.values())
     again = fixer.fix(fixed.package, check, unsafe=unsafe)
     assert again.changed == {}
-    fixes = {(one.code, one.fix.safety) for one in check(Package.of(cases())) if one.fix}
+    fixes = {
+        (finding.code, finding.fix.safety) for finding in check(Package.of(cases())) if finding.fix
+    }
     wrong = [code for code, safety in fixes if CODES[code].fix not in {safety, Safety.SAFE}]
     assert wrong == []
 
@@ -325,16 +327,20 @@ def test_fixes_converge(*, unsafe: bool) -> None:
 def test_linters_find_nothing_new_after_fixes(tmp_path: Path) -> None:
     before = cases()
     fixed = fixer.fix(Package.of(before), check)
-    found: list[Codes] = []
+    result: list[Codes] = []
     for name, files in (("before", before), ("after", {**before, **fixed.changed})):
         directory = tmp_path / name
         directory.mkdir()
         for path, data in files.items():
             (directory / path).write_bytes(data)
-        said = oracles.ament_flake8(directory) | oracles.ament_pep257(directory)
+        diagnostics = oracles.ament_flake8(directory) | oracles.ament_pep257(directory)
         # One line that became two has its undefined names on both.
-        found.append(Counter((one.path, one.code) for one in said if one.code != "F821"))
-    was, now = found
+        result.append(
+            Counter(
+                (finding.path, finding.code) for finding in diagnostics if finding.code != "F821"
+            )
+        )
+    was, now = result
     new = {key: count for key, count in now.items() if count > was[key]}
     assert {(before[path], code): count for (path, code), count in new.items()} == {}
     assert total(now) < total(was) * 0.8

@@ -16,19 +16,19 @@ def codes_by_file(name: str) -> dict[str, set[str]]:
     """Return the codes found in the files of all cases, for a distribution."""
     with distributions.targeting(named(name)):
         package = Package.of(BY_FILE)
-        found: dict[str, set[str]] = {path: set() for path in BY_FILE}
+        result: dict[str, set[str]] = {path: set() for path in BY_FILE}
         for item in StyleCheck([package]).diagnostics(package):
-            found[item.location.path].add(item.code)
-        return found
+            result[item.location.path].add(item.code)
+        return result
 
 
 @pytest.mark.parametrize("name", ORDER)
 def test_findings_follow_the_linters_of_the_distribution(name: str) -> None:
-    found = codes_by_file(name)
+    result = codes_by_file(name)
     wrong = [
         case
         for case, path in zip(CASES, BY_FILE, strict=True)
-        if (case.code in found[path]) != (name in case.reported_for)
+        if (case.code in result[path]) != (name in case.reported_for)
     ]
     assert wrong == []
 
@@ -47,8 +47,8 @@ def test_docstring_findings_come_from_pep257_without_flake8_plugin() -> None:
     for name in ORDER:
         with distributions.targeting(named(name)):
             package = Package.of(files)
-            found = StyleCheck([package]).diagnostics(package)
-            reported[name] = "D400" in {item.code for item in found}
+            findings = StyleCheck([package]).diagnostics(package)
+            reported[name] = "D400" in {item.code for item in findings}
     assert reported == {"humble": True, "jazzy": True, "kilted": True, "lyrical": False}
 
 

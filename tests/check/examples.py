@@ -55,7 +55,7 @@ def assert_suppressible(examples: Iterable[tuple[type[Rule], Example]]) -> None:
             Example("", files, executable=example.executable, neighbours=example.neighbours)
         )
         with example.targeting():
-            said = runner.check(package, [rule()])
-        assert suppression.apply(package, said, {rule.code}) == [], example.title
-        silenced += bool(said)
+            diagnostics = runner.check(package, [rule()])
+        assert suppression.apply(package, diagnostics, {rule.code}) == [], example.title
+        silenced += bool(diagnostics)
     assert silenced > 0

@@ -63,8 +63,8 @@ def test_conflict_is_reported_once(
     line = conflict(package, path)
     capsys.readouterr()
     assert main(["check", "--format", "json", "talker"]) == 1
-    found = json.loads(capsys.readouterr().out)["diagnostics"]
-    here = [item for item in found if item["path"].endswith(path)]
+    findings = json.loads(capsys.readouterr().out)["diagnostics"]
+    here = [item for item in findings if item["path"].endswith(path)]
     assert [item["message"] for item in here] == [
         f"merge conflict marks at line {line}: resolve the conflict"
     ]

@@ -458,8 +458,8 @@ def test_kinds_of_branches_in_cmake(name: str) -> None:
     form, lines = _FORMS_OF_CMAKE[name]
     text = "project(talker)\n" + form.replace("HERE", "here()")
     with targeting(named("lyrical")):
-        found = lines_not_run(Package.of({"CMakeLists.txt": text}).cmake)
-        assert [line for first, last in found for line in range(first, last + 1)] == lines
+        result = lines_not_run(Package.of({"CMakeLists.txt": text}).cmake)
+        assert [line for first, last in result for line in range(first, last + 1)] == lines
 
 
 def test_versions_of_rolling_may_be_newer_than_known() -> None:

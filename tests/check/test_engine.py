@@ -139,9 +139,9 @@ def test_area_may_have_subdirectories(tmp_path: Path) -> None:
 
 
 def test_crash_is_a_diagnostic_and_other_rules_run() -> None:
-    said = runner.check(Package.of({"CMakeLists.txt": ""}), [Crashing(), Loud()])
-    assert [d.code for d in said] == ["CM900", "CM901", "SC002"]
-    assert "CM901 loud failed: ZeroDivisionError: by zero" in said[-1].message
+    diagnostics = runner.check(Package.of({"CMakeLists.txt": ""}), [Crashing(), Loud()])
+    assert [d.code for d in diagnostics] == ["CM900", "CM901", "SC002"]
+    assert "CM901 loud failed: ZeroDivisionError: by zero" in diagnostics[-1].message
 
 
 def test_rule_is_silent_about_a_missing_file() -> None:
@@ -165,13 +165,13 @@ def test_unreadable_file_of_another_package_is_not_reported(order: tuple[str, st
         workspace.add(packages[name])
     session = Session([ReadsNotesOfListener], Selection(select=("CM",)))
     results = session.run_batch([Target(packages[name]) for name in order])
-    assert [one.diagnostics for one in results] == [[], []]
+    assert [item.diagnostics for item in results] == [[], []]
 
 
 def test_unparsable_file_is_reported_once() -> None:
     package = Package.of({"package.xml": "<package>\n<name>x</nam>\n"})
-    said = runner.check(package, [NeedsManifest(), NeedsManifest()])
-    assert [(d.code, d.location.path, d.location.line) for d in said] == [
+    diagnostics = runner.check(package, [NeedsManifest(), NeedsManifest()])
+    assert [(d.code, d.location.path, d.location.line) for d in diagnostics] == [
         ("SC001", "package.xml", 2)
     ]
 
@@ -192,8 +192,8 @@ def test_undecodable_bytes_are_an_error_only_where_they_matter(
             package.source(path)
             return iter(())
 
-    said = runner.check(Package.of({path: b"# \xb2\xe2\xca\xd4\n"}), [NeedsFile()])
-    assert [(item.code, item.severity) for item in said] == [("SC001", severity)]
+    diagnostics = runner.check(Package.of({path: b"# \xb2\xe2\xca\xd4\n"}), [NeedsFile()])
+    assert [(item.code, item.severity) for item in diagnostics] == [("SC001", severity)]
 
 
 @pytest.mark.parametrize(
@@ -276,8 +276,8 @@ def test_noqa_in_a_file_without_comments_is_ignored() -> None:
 
 def test_finding_after_the_end_of_the_file_is_kept() -> None:
     package = Package.of({"CMakeLists.txt": "# noqa\n"})
-    said = [Loud().report(Location("CMakeLists.txt", 9, 1, 9, 1), "behind the end")]
-    assert suppression.apply(package, said, set()) == said
+    diagnostics = [Loud().report(Location("CMakeLists.txt", 9, 1, 9, 1), "behind the end")]
+    assert suppression.apply(package, diagnostics, set()) == diagnostics
 
 
 def test_unused_suppression_is_reported_at_its_place() -> None:
@@ -296,7 +296,7 @@ def test_edits_are_spliced() -> None:
 
 
 def test_python_rule_works_with_a_broken_cmakelists() -> None:
-    (rule,) = (one for one in registry.load(content.roots("rules")) if one.code == "PX020")
+    (rule,) = (item for item in registry.load(content.roots("rules")) if item.code == "PX020")
     package = Package.of(
         {
             "package.xml": "<package><name>talker</name></package>\n",
@@ -304,5 +304,7 @@ def test_python_rule_works_with_a_broken_cmakelists() -> None:
             "talker/__init__.py": "import rclpy\n",
         }
     )
-    said = runner.check(package, [rule()])
-    assert [one.location.path for one in said if one.code == "PX020"] == ["talker/__init__.py"]
+    diagnostics = runner.check(package, [rule()])
+    assert [item.location.path for item in diagnostics if item.code == "PX020"] == [
+        "talker/__init__.py"
+    ]

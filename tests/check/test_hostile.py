@@ -157,9 +157,9 @@ def _check(package: Path) -> list[dict[str, Any]]:
     """Return the findings about a package."""
     done = _run("--format", "json", package)
     assert done.returncode in {0, 1}, (done.stdout[-1500:], done.stderr[-1500:])
-    found: list[dict[str, Any]] = json.loads(done.stdout)["diagnostics"]
-    assert "SC002" not in {one["code"] for one in found}
-    return found
+    result: list[dict[str, Any]] = json.loads(done.stdout)["diagnostics"]
+    assert "SC002" not in {finding["code"] for finding in result}
+    return result
 
 
 @pytest.mark.parametrize("kind", BYTES)
@@ -172,8 +172,8 @@ def test_bytes_everywhere(tmp_path: Path, kind: str) -> None:
 @pytest.mark.parametrize("kind", BYTES)
 def test_bytes_as_manifest(tmp_path: Path, kind: str) -> None:
     """A manifest that is no XML, or is preceded by odd bytes."""
-    found = _check(_package(tmp_path, {"package.xml": BYTES[kind]}))
-    assert "package.xml" in {one["path"].rpartition("/")[2] for one in found}
+    findings = _check(_package(tmp_path, {"package.xml": BYTES[kind]}))
+    assert "package.xml" in {finding["path"].rpartition("/")[2] for finding in findings}
 
 
 @pytest.mark.parametrize("place", NESTS)
@@ -263,7 +263,7 @@ def test_odd_names(tmp_path: Path) -> None:
     for name in names:
         with open(os.path.join(os.fsencode(package), name), "wb") as file:
             file.write(b"import os\n")
-    paths = {one["path"] for one in _check(package) if one["code"] == "F401"}
+    paths = {finding["path"] for finding in _check(package) if finding["code"] == "F401"}
     assert len(paths) == len(names)
     done = _run(package)
     assert done.returncode == 1
@@ -278,7 +278,7 @@ def test_odd_directories(tmp_path: Path) -> None:
     for name in (b"caf\xe9", b"a\nb", b"a\x1b[31mb"):
         package = Path(os.fsdecode(os.path.join(os.fsencode(tmp_path), name)))
         _package(package, {"hostile/node.py": b"import os\n", "caf\udce9.py": b"x = 1 \n"})
-        assert "F401" in {one["code"] for one in _check(package)}
+        assert "F401" in {finding["code"] for finding in _check(package)}
         for arguments in (("--diff",), ("--fix",)):
             done = _run(*arguments, package)
             assert done.returncode == 1
@@ -315,8 +315,8 @@ def test_control_characters_in_files_are_escaped_on_terminals(tmp_path: Path) ->
 @pytest.mark.parametrize("place", PLACES)
 def test_too_large_file(tmp_path: Path, place: str) -> None:
     """Three megabytes of any kind: the content is not checked."""
-    found = _check(_package(tmp_path, {PLACES[place]: b"# " + b"x \n" * 1_000_000}))
-    here = {one["code"] for one in found if one["path"].endswith(PLACES[place])}
+    findings = _check(_package(tmp_path, {PLACES[place]: b"# " + b"x \n" * 1_000_000}))
+    here = {finding["code"] for finding in findings if finding["path"].endswith(PLACES[place])}
     about_the_file = {"SC004", "E902", "LY006", "LY020", "PX050"}
     assert here <= about_the_file
 
@@ -324,10 +324,10 @@ def test_too_large_file(tmp_path: Path, place: str) -> None:
 @pytest.mark.parametrize("place", ["CMakeLists.txt", "package.xml"])
 def test_too_long_line(tmp_path: Path, place: str) -> None:
     """A line of 60 kB is within the size limit of files, but nobody writes such a line."""
-    found = _check(_package(tmp_path, {place: b"x;" * 30_000}))
-    (told,) = (one for one in found if one["code"] == "SC004")
-    assert told["path"].endswith(place)
-    assert told["message"].startswith("a line of 60 kB; the limit is 20 kB")
+    findings = _check(_package(tmp_path, {place: b"x;" * 30_000}))
+    (item,) = (finding for finding in findings if finding["code"] == "SC004")
+    assert item["path"].endswith(place)
+    assert item["message"].startswith("a line of 60 kB; the limit is 20 kB")
 
 
 TINY = {
@@ -342,9 +342,9 @@ TINY = {
 def test_too_many_words(tmp_path: Path, place: str) -> None:
     """The time depends on the number of words, which has its own limit in code."""
     data, message = TINY[place]
-    found = _check(_package(tmp_path, {PLACES[place]: data}))
-    told = [one["message"] for one in found if one["code"] == "SC004"]
-    assert told == ([f"{message}: the file is not checked"] if message else [])
+    findings = _check(_package(tmp_path, {PLACES[place]: data}))
+    messages = [finding["message"] for finding in findings if finding["code"] == "SC004"]
+    assert messages == ([f"{message}: the file is not checked"] if message else [])
 
 
 @pytest.mark.parametrize("place", ["launch xml", "launch yaml"])
@@ -354,16 +354,19 @@ def test_large_launch_files_are_not_read(tmp_path: Path, place: str) -> None:
     head = {"launch xml": b"<launch>\n", "launch yaml": b"launch:\n"}
     tail = {"launch xml": b"</launch>\n", "launch yaml": b""}
     data = head[place] + node[place] * 60_000 + tail[place]
-    found = _check(_package(tmp_path, {PLACES[place]: data}))
-    said = {one["code"] for one in found if one["path"].endswith(PLACES[place])}
-    assert said == {"SC004"}
+    findings = _check(_package(tmp_path, {PLACES[place]: data}))
+    codes = {finding["code"] for finding in findings if finding["path"].endswith(PLACES[place])}
+    assert codes == {"SC004"}
 
 
 def test_too_many_words_for_style_checks(tmp_path: Path) -> None:
-    found = _check(_package(tmp_path, {"hostile/node.py": b"x\n" * 60_000}))
-    said = [one["message"] for one in found if one["code"] == "SC004"]
-    assert {one["code"] for one in found if one["path"].endswith("node.py")} <= {"SC004", "LY020"}
-    assert said == ["120000 tokens; the limit is 100000: the file is not checked"]
+    findings = _check(_package(tmp_path, {"hostile/node.py": b"x\n" * 60_000}))
+    messages = [finding["message"] for finding in findings if finding["code"] == "SC004"]
+    assert {finding["code"] for finding in findings if finding["path"].endswith("node.py")} <= {
+        "SC004",
+        "LY020",
+    }
+    assert messages == ["120000 tokens; the limit is 100000: the file is not checked"]
 
 
 OVERSIZED = {
@@ -383,32 +386,32 @@ OVERSIZED = {
 def test_too_much_repeated_code(tmp_path: Path, name: str) -> None:
     """A few words repeated thousands of times: one diagnostic for rules and style alike."""
     text, message = OVERSIZED[name]
-    found = _check(_package(tmp_path, {"hostile/node.py": text.encode()}))
-    here = [item for item in found if item["path"].endswith("node.py")]
+    findings = _check(_package(tmp_path, {"hostile/node.py": text.encode()}))
+    here = [item for item in findings if item["path"].endswith("node.py")]
     messages = [item["message"] for item in here if item["code"] != "LY020"]
     assert messages == [f"{message}: the file is not checked"]
 
 
 def test_the_largest_files_that_people_write_are_checked(tmp_path: Path) -> None:
     text = "".join(f"X{at} = {{'key': [{at}, {at}.0], 'name': 'a'}}\n" for at in range(3900))
-    found = _check(_package(tmp_path, {"hostile/node.py": f"{text}import os\n".encode()}))
-    codes = {item["code"] for item in found if item["path"].endswith("node.py")}
+    findings = _check(_package(tmp_path, {"hostile/node.py": f"{text}import os\n".encode()}))
+    codes = {item["code"] for item in findings if item["path"].endswith("node.py")}
     assert "SC004" not in codes
     assert {"E402", "F401"} <= codes
 
 
 def test_too_long_line_for_style_checks(tmp_path: Path) -> None:
-    found = _check(_package(tmp_path, {"hostile/node.py": b"x;" * 30_000}))
-    said = {one["code"] for one in found if one["path"].endswith("node.py")}
-    assert said <= {"SC004", "LY020"}
+    findings = _check(_package(tmp_path, {"hostile/node.py": b"x;" * 30_000}))
+    codes = {finding["code"] for finding in findings if finding["path"].endswith("node.py")}
+    assert codes <= {"SC004", "LY020"}
 
 
 def test_too_many_findings(tmp_path: Path) -> None:
     """The number of findings is limited, with a note."""
-    found = _check(_package(tmp_path, {"hostile/node.py": b"# x  \n" * 6000}))
-    assert sum(one["code"] == "W291" for one in found) == 5000
-    (told,) = (one for one in found if one["code"] == "SC005")
-    assert told["line"] == 5001
+    findings = _check(_package(tmp_path, {"hostile/node.py": b"# x  \n" * 6000}))
+    assert sum(finding["code"] == "W291" for finding in findings) == 5000
+    (item,) = (finding for finding in findings if finding["code"] == "SC005")
+    assert item["line"] == 5001
 
 
 _IMPORTS = "import rclpy\nfrom rclpy.node import Node\nfrom std_msgs.msg import String\n"
@@ -495,10 +498,10 @@ def test_style_steps_are_linear_in_the_length_of_a_line(line: str) -> None:
         before = sys.gettrace()
         sys.settrace(note)
         try:
-            found = style.check("node.py", data, list, [Settings(FLAKE8)])
+            findings = style.check("node.py", data, list, [Settings(FLAKE8)])
         finally:
             sys.settrace(before)
-        assert {one.line for one in found} == {1}
+        assert {item.line for item in findings} == {1}
         return taken
 
     assert steps(800) < 6 * steps(200)
@@ -511,8 +514,8 @@ def test_files_removed_during_the_check(tmp_path: Path) -> None:
     for path in package.files:
         (tmp_path / path).unlink()
     rules = registry.load(content.roots("rules", ()))
-    said = Session(rules, Selection()).check(package)
-    assert "SC002" not in {one.code for one in said}
+    diagnostics = Session(rules, Selection()).check(package)
+    assert "SC002" not in {finding.code for finding in diagnostics}
 
 
 def test_sockets_are_no_files(tmp_path: Path) -> None:
@@ -527,5 +530,5 @@ def test_many_files(tmp_path: Path) -> None:
     """Five thousand files of one package."""
     files = {f"hostile/m{n}/f{n}.py": b"import os\n" for n in range(2500)}
     files |= {f"config/c{n}.yaml": b"a: 1\n" for n in range(2500)}
-    found = _check(_package(tmp_path, files))
-    assert sum(one["code"] == "F401" for one in found) == 2500
+    findings = _check(_package(tmp_path, files))
+    assert sum(finding["code"] == "F401" for finding in findings) == 2500

@@ -165,23 +165,25 @@ def migrate(
     main(["migrate", "--to", "lyrical", "--format", "json", *words])
     data = json.loads(capsys.readouterr().out)
     kinds = ("breaks", "changes", "deprecated")
-    found = {
+    result = {
         kind: sorted(item["code"] for package in data["packages"] for item in package[kind])
         for kind in kinds
     }
-    return found, [one for package in data["packages"] for kind in kinds for one in package[kind]]
+    return result, [
+        entry for package in data["packages"] for kind in kinds for entry in package[kind]
+    ]
 
 
 @pytest.mark.usefixtures("workspace")
 def test_report_of_breaks_changes_and_deprecations(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
-    found, everything = migrate(capsys)
-    assert found["breaks"] == sorted(
+    result, everything = migrate(capsys)
+    assert result["breaks"] == sorted(
         ["CM005", "CM110", "LF080", "SP012", "TY001", "TY002", "MS002", *["IM050"] * 10]
     )
-    assert found["changes"] == ["IM052", "IM052"]
-    assert found["deprecated"] == ["IM050", "IM050", "IM050", "SP005", "SP005"]
+    assert result["changes"] == ["IM052", "IM052"]
+    assert result["deprecated"] == ["IM050", "IM050", "IM050", "SP005", "SP005"]
     assert all(item["distributions"] == ["lyrical"] for item in everything)
     assert main(["migrate", "--to", "lyrical"]) == 1
     *lines, summary = capsys.readouterr().out.splitlines()
@@ -288,7 +290,7 @@ def test_kept_distribution_is_checked_and_recorded_when_nothing_breaks(
     capsys.readouterr()
     assert main([*flags]) == 1
     lines = capsys.readouterr().out.splitlines()
-    (line,) = (one for one in lines if "events.py" in one)
+    (line,) = (item for item in lines if "events.py" in item)
     assert "has no module 'rclpy.event_handler': ModuleNotFoundError (humble)" in line
     assert lines[-1].endswith("1 break, 0 change silently, 0 deprecated")
     assert main([*flags, "--fix"]) == 1
@@ -461,8 +463,8 @@ def test_call_in_a_branch_for_one_distribution_is_no_change(
         lines = "\n".join(f"    {line}" for line in code.splitlines())
         start = "import os\n\nfrom rclpy.action import ActionServer\n\n\ndef serve(*args):\n"
         module.write_text(f"{start}{lines}\n")
-        found, _ = migrate(capsys)
-        assert found["changes"] == ["IM052"] * count
+        result, _ = migrate(capsys)
+        assert result["changes"] == ["IM052"] * count
 
 
 def test_branch_for_the_target_is_no_change(
@@ -475,8 +477,8 @@ def test_branch_for_the_target_is_no_change(
         "def main():\n    rclpy.init()\n    node = Node('talker')\n"
         "    if IS_NEW:\n        rclpy.spin(node)\n"
     )
-    found, _ = migrate(capsys)
-    assert found["changes"] == []
+    result, _ = migrate(capsys)
+    assert result["changes"] == []
 
 
 def test_sorted_imports_stay_sorted(workspace: Path) -> None:
@@ -734,9 +736,9 @@ def test_syntax_and_annotations_unsupported_by_older_python_break(
     capsys.readouterr()
     assert main(["migrate", "--to", "jazzy", "--format", "json"]) == 1
     (package,) = json.loads(capsys.readouterr().out)["packages"]
-    found = {item["path"]: item["code"] for item in package["breaks"]}
-    assert found["talker/talker/later.py"] == "F821"
-    assert found["talker/talker/syntax.py"] == "E999"
+    result = {item["path"]: item["code"] for item in package["breaks"]}
+    assert result["talker/talker/later.py"] == "F821"
+    assert result["talker/talker/syntax.py"] == "E999"
 
 
 def test_paths_outside_of_packages_are_rejected(

@@ -69,17 +69,17 @@ def _codes(*arguments: str | os.PathLike[str]) -> set[tuple[str, str]]:
     """Return file names and codes of the findings of a run."""
     done = _run("--format", "json", *arguments)
     assert done.returncode in {0, 1}, (done.stdout[-1500:], done.stderr[-1500:])
-    found: list[dict[str, Any]] = json.loads(done.stdout)["diagnostics"]
-    return {(entry["path"].rpartition("/")[2], entry["code"]) for entry in found}
+    result: list[dict[str, Any]] = json.loads(done.stdout)["diagnostics"]
+    return {(entry["path"].rpartition("/")[2], entry["code"]) for entry in result}
 
 
 @pytest.mark.parametrize("kind", DEEP)
 def test_deep_file_does_not_hide_the_others(tmp_path: Path, kind: str) -> None:
     deep = _write(tmp_path / "deep", {"a.py": DEEP[kind], "b.py": "import os\n"})
     other = _write(tmp_path / "other", {"c.py": "import os\n"})
-    found = _codes(deep, other)
-    assert {("a.py", "SC001"), ("b.py", "F401"), ("c.py", "F401")} <= found
-    assert "SC002" not in {code for _, code in found}
+    result = _codes(deep, other)
+    assert {("a.py", "SC001"), ("b.py", "F401"), ("c.py", "F401")} <= result
+    assert "SC002" not in {code for _, code in result}
 
 
 def test_deep_file_is_reported_by_style_checks(tmp_path: Path) -> None:
@@ -97,14 +97,14 @@ def test_crash_of_style_checks_is_reported_at_the_file(
     def broken(name: str, *arguments: Any) -> list[Finding]:  # noqa: ANN401  handed on
         if name == "a.py":
             raise KeyError(name)
-        found: list[Finding] = check(name, *arguments)
-        return found
+        findings: list[Finding] = check(name, *arguments)
+        return findings
 
     monkeypatch.setattr(rules, "check", broken)
     monkeypatch.setenv("SCAFFOLD_NO_CACHE", "1")
     package = Package.of({"a.py": "import os\n", "b.py": "import os\n"})
-    found = backend.StyleCheck([package]).diagnostics(package)
-    codes = {(diagnostic.location.path, diagnostic.code) for diagnostic in found}
+    findings = backend.StyleCheck([package]).diagnostics(package)
+    codes = {(diagnostic.location.path, diagnostic.code) for diagnostic in findings}
     assert {("a.py", "SC002"), ("b.py", "F401")} <= codes
 
 
@@ -127,8 +127,8 @@ class _Recursive(Rule):
 
 def test_file_that_exhausts_a_rule_is_skipped_by_it() -> None:
     package = Package.of({"a.py": "# " * 9000, "b.py": "# b\n", "c.py": "# c" * 6000})
-    found = runner.check(package, [_Recursive()])
-    assert [(one.location.path, one.code) for one in found] == [
+    findings = runner.check(package, [_Recursive()])
+    assert [(finding.location.path, finding.code) for finding in findings] == [
         ("a.py", "SC001"),
         ("b.py", "ND990"),
         ("c.py", "SC001"),
@@ -194,10 +194,10 @@ def test_size_is_checked_before_reading(tmp_path: Path, path: str) -> None:
     (package / path).parent.mkdir(parents=True, exist_ok=True)
     (package / path).touch()
     os.truncate(package / path, SPARSE)
-    found = _codes(package)
-    assert ("b.py", "F401") in found
+    result = _codes(package)
+    assert ("b.py", "F401") in result
     name = path.rpartition("/")[2]
-    assert {(name, code) for code in LARGE[path]} <= found
+    assert {(name, code) for code in LARGE[path]} <= result
 
 
 def test_large_file_is_identified_by_its_time_stamp(tmp_path: Path) -> None:
@@ -246,8 +246,8 @@ def _schema_findings(package: Package) -> Sequence[tuple[str, str]]:
     from scaffold.configuration import content
 
     rules = registry.load(content.roots("rules", ()))
-    found = Session(rules, Selection(select=("PX051", "PX052"))).check(package)
-    return [(diagnostic.code, diagnostic.message) for diagnostic in found]
+    findings = Session(rules, Selection(select=("PX051", "PX052"))).check(package)
+    return [(diagnostic.code, diagnostic.message) for diagnostic in findings]
 
 
 @pytest.mark.parametrize(
@@ -271,9 +271,9 @@ def test_schema_cannot_open_other_files(tmp_path: Path, name: str, schema: str) 
     )
     directory = _write(tmp_path / "schemas", {name: schema, "a.xml": use})
     os.mkfifo(directory / "pipe")
-    found = _schema_findings(Package.at(directory))
+    findings = _schema_findings(Package.at(directory))
     message = f"names the schema '{name}', which is not checked: it includes other files"
-    assert found == [("PX052", message)]
+    assert findings == [("PX052", message)]
 
 
 def test_pipe_as_schema_is_not_waited_for(tmp_path: Path) -> None:
@@ -298,9 +298,9 @@ def test_endless_schema_validation_is_stopped() -> None:
     )
     files = {"a.rng": schema, "a.xml": MODEL.format("<b/>" * 60), "b.xml": "<b>\n"}
     message = "names the schema 'a.rng', which is not checked: it takes too long"
-    ((code, told),) = _schema_findings(Package.of(files))
+    ((code, finding),) = _schema_findings(Package.of(files))
     assert code == "PX052"
-    assert told.startswith(message)
+    assert finding.startswith(message)
 
 
 def test_each_document_has_its_own_findings() -> None:
@@ -312,10 +312,10 @@ def test_each_document_has_its_own_findings() -> None:
         "c.rng": "<",
     }
     files["c.xml"] = MODEL.replace("a.rng", "c.rng").format("")
-    found = _schema_findings(Package.of(files))
-    assert [code for code, _ in found] == ["PX051", "PX051"]
-    assert found[0][1].startswith("does not fit a.rng: ")
-    assert found[1][1].startswith("names the schema c.rng, which cannot be used: ")
+    findings = _schema_findings(Package.of(files))
+    assert [code for code, _ in findings] == ["PX051", "PX051"]
+    assert findings[0][1].startswith("does not fit a.rng: ")
+    assert findings[1][1].startswith("names the schema c.rng, which cannot be used: ")
 
 
 class Endless(Rule):

@@ -18,12 +18,12 @@ def types(text: str, taken: Collection[str] = ()) -> list[str]:
         taken: The parameters whose arguments are known for the first function.
     """
     body = text.index(":\n") + 2
-    found = results(text, {body: taken} if taken else {})
-    lines = "\n".join(line for added in found.lines.values() for line in added)
+    result = results(text, {body: taken} if taken else {})
+    lines = "\n".join(line for added in result.lines.values() for line in added)
     values = dict(re.findall(r"global (\w+); \1 = (.*)", lines))
     return [
         re.sub(r"_Ros2TypeOf\[(\w+)\[0\]\]", lambda match: values[match[1]], head[5:-1])
-        for _, _, head in found.heads
+        for _, _, head in result.heads
     ]
 
 

@@ -218,8 +218,8 @@ class Other(Node):
         print(message.anything)
 """
     make_package(source, "listener", {"listener/node.py": node})
-    found = [line.removeprefix("listener/listener/node.py:") for line in check("listener")]
-    assert found == ["17:TY003", "20:TY003", "23:TY003", "27:TY004", "38:TY003"]
+    findings = [line.removeprefix("listener/listener/node.py:") for line in check("listener")]
+    assert findings == ["17:TY003", "20:TY003", "23:TY003", "27:TY004", "38:TY003"]
 
 
 def test_parameter_with_conflicting_values_has_no_type(check: Check, source: Path) -> None:
@@ -284,8 +284,8 @@ class Driver(Node):
 """
     make_package(source, "driver", {"driver/node.py": node})
     for distribution in ("humble", "jazzy"):
-        found = check("driver", "--distro", distribution)
-        assert found == ["driver/driver/node.py:19:TY004"]
+        findings = check("driver", "--distro", distribution)
+        assert findings == ["driver/driver/node.py:19:TY004"]
 
 
 def test_another_finding_on_the_line_hides_nothing(check: Check, source: Path) -> None:
@@ -308,8 +308,8 @@ class Follower(Node):
 """
     make_package(source, "follower", {"follower/node.py": node})
     path = "follower/follower/node.py"
-    found = check("follower", "--select", "TY,ND110")
-    assert found == [f"{path}:15:ND110", f"{path}:15:TY005", f"{path}:16:TY004"]
+    findings = check("follower", "--select", "TY,ND110")
+    assert findings == [f"{path}:15:ND110", f"{path}:15:TY005", f"{path}:16:TY004"]
 
 
 def test_user_annotations_are_ignored(check: Check, source: Path) -> None:
@@ -486,8 +486,8 @@ def test_configuration_and_environments_are_ignored(
     canary = tmp_path / "canary"
     _plant_configuration(source / above, canary)
     monkeypatch.chdir(source / above)
-    (found,) = check(str(source / "talker"))
-    assert found.endswith("talk.py:8:TY004")
+    (finding,) = check(str(source / "talker"))
+    assert finding.endswith("talk.py:8:TY004")
     assert not canary.exists()
 
 

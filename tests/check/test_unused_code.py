@@ -76,8 +76,8 @@ def write(path: Path, text: str) -> None:
 
 def severities(capsys: pytest.CaptureFixture[str], code: str) -> dict[str, str]:
     main(["check", "--no-types", "--format", "json", "--select", code])
-    found = json.loads(capsys.readouterr().out)["diagnostics"]
-    return {item["path"]: item["severity"] for item in found}
+    findings = json.loads(capsys.readouterr().out)["diagnostics"]
+    return {item["path"]: item["severity"] for item in findings}
 
 
 def test_script_only_mentioned_in_a_comment(
@@ -321,8 +321,8 @@ def test_python_test_next_to_one_run_by_cmake(
     lists = "project(talker)\nfind_package(ament_cmake REQUIRED)\n{}ament_package()\n"
     write(package / "test" / "test_a.py", MISTAKE)
     write(package / "test" / "test_b.py", MISTAKE)
-    one = "add_subdirectory(test)\nament_add_pytest_test(a test/test_a.py)  # not test_b\n"
-    write(package / "CMakeLists.txt", lists.format(one))
+    registered = "add_subdirectory(test)\nament_add_pytest_test(a test/test_a.py)  # not test_b\n"
+    write(package / "CMakeLists.txt", lists.format(registered))
     assert severities(capsys, "MS002") == {"test/test_a.py": "error", "test/test_b.py": "warning"}
     write(package / "CMakeLists.txt", lists.format("ament_add_pytest_test(all test)\n"))
     assert severities(capsys, "MS002") == {"test/test_a.py": "error", "test/test_b.py": "error"}
@@ -473,8 +473,8 @@ def test_module_that_nothing_imports_or_starts(
     write(package / "talker" / "node.py", NODE)
     write(package / "talker" / "plan.py", text)
     main(["check", "--format", "json", "--select", "TY003"])
-    found = json.loads(capsys.readouterr().out)["diagnostics"]
-    assert {(item["path"], item["severity"]) for item in found} == {
+    findings = json.loads(capsys.readouterr().out)["diagnostics"]
+    assert {(item["path"], item["severity"]) for item in findings} == {
         ("talker/node.py", "warning"),  # in an uncalled method
         ("talker/plan.py", severity),
     }
@@ -599,8 +599,8 @@ def test_module_imported_as_attribute_of_its_package(
     write(package / "talker" / "__init__.py", "from .talk import *\n\ndel talk\ndel other\n")
     write(package / "talker" / "talk.py", "TOPIC = 'talk'\n")
     main(["check", str(package), "--format", "json", "--select", "F821"])
-    found = json.loads(capsys.readouterr().out)["diagnostics"]
-    assert [(item["line"], item["severity"]) for item in found] == [(3, "warning"), (4, "error")]
+    findings = json.loads(capsys.readouterr().out)["diagnostics"]
+    assert [(item["line"], item["severity"]) for item in findings] == [(3, "warning"), (4, "error")]
 
 
 def test_unevaluated_annotation(package: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -242,8 +242,8 @@ def test_rules_are_selected_by_name_area_and_all(
     words: list[str], codes: set[str], capsys: pytest.CaptureFixture[str]
 ) -> None:
     main(["check", "--format", "json", *words])
-    found = json.loads(capsys.readouterr().out)["diagnostics"]
-    assert {one["code"] for one in found} == codes
+    findings = json.loads(capsys.readouterr().out)["diagnostics"]
+    assert {finding["code"] for finding in findings} == codes
 
 
 def test_rules_verb_accepts_code_prefixes(capsys: pytest.CaptureFixture[str]) -> None:
@@ -255,7 +255,7 @@ def test_rules_verb_accepts_code_prefixes(capsys: pytest.CaptureFixture[str]) ->
     assert capsys.readouterr().out.startswith("E501 ")
     assert main(["rules", "--format", "json", "CM00"]) == 0
     listed = json.loads(capsys.readouterr().out)
-    assert [one["code"] for one in listed] == [line.split()[0] for line in lines]
+    assert [finding["code"] for finding in listed] == [line.split()[0] for line in lines]
     assert main(["rules", "bridge"]) == 0
     assert all(line.startswith("BR") for line in capsys.readouterr().out.splitlines())
 

@@ -34,12 +34,12 @@ TEXT = st.text(st.characters(exclude_characters="/\\~."), max_size=12)
 
 def flags() -> list[str]:
     """Return the flags of all verbs, taken from the parser."""
-    (verbs,) = [one for one in build_parser()._actions if one.dest == "verb"]  # noqa: SLF001
+    (verbs,) = [item for item in build_parser()._actions if item.dest == "verb"]  # noqa: SLF001
     assert isinstance(verbs, argparse._SubParsersAction)  # noqa: SLF001
-    found: set[str] = set()
+    result: set[str] = set()
     for parser in verbs.choices.values():
-        found |= {*parser._option_string_actions}  # noqa: SLF001
-    return sorted(found - LEFT_OUT)
+        result |= {*parser._option_string_actions}  # noqa: SLF001
+    return sorted(result - LEFT_OUT)
 
 
 @pytest.fixture(scope="module")

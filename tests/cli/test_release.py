@@ -42,8 +42,8 @@ def package(generated: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) ->
 def severities(capsys: pytest.CaptureFixture[str], *flags: str) -> Mapping[str, str]:
     capsys.readouterr()
     main(["check", "--format", "json", *flags])
-    found = json.loads(capsys.readouterr().out)["diagnostics"]
-    return {finding["code"]: finding["severity"] for finding in found}
+    findings = json.loads(capsys.readouterr().out)["diagnostics"]
+    return {finding["code"]: finding["severity"] for finding in findings}
 
 
 @pytest.mark.usefixtures("package")
@@ -65,8 +65,8 @@ def test_configured_severity_takes_precedence(
     package: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (package / "ros2-scaffold.toml").write_text(f"[check.severity]\n{PLACEHOLDER} = 'info'\n")
-    found = severities(capsys, "--release")
-    assert (found[PLACEHOLDER], found[PIP]) == ("info", "error")
+    result = severities(capsys, "--release")
+    assert (result[PLACEHOLDER], result[PIP]) == ("info", "error")
 
 
 def test_releasable_package_has_no_findings(

@@ -47,9 +47,9 @@ def check(where: Path, text: str, *words: str) -> subprocess.CompletedProcess[st
 def test_standard_input_replaces_the_file(package: Path) -> None:
     words = ("--stdin-filename", "talker/node.py", "--format", "json", "--select", "PX020,F401")
     run = check(package, "import std_msgs\n", *words, "-")
-    found = json.loads(run.stdout)["diagnostics"]
-    assert {one["path"] for one in found} == {"talker/node.py"}
-    assert {one["code"] for one in found} == {"PX020", "F401"}
+    findings = json.loads(run.stdout)["diagnostics"]
+    assert {finding["path"] for finding in findings} == {"talker/node.py"}
+    assert {finding["code"] for finding in findings} == {"PX020", "F401"}
     assert "std_msgs" in run.stdout
     assert "numpy" not in run.stdout
     assert run.returncode == 1

@@ -56,8 +56,10 @@ def test_mypy_has_no_findings_in_stubs_of_another_distribution(workspace: Path) 
     command = [sys.executable, "-m", "mypy", "--config-file=", "--strict", "program.py"]
     environment = {**os.environ, "MYPYPATH": "typings"}
     done = subprocess.run(command, capture_output=True, text=True, check=False, env=environment)
-    found = [line.partition(": error")[0] for line in done.stdout.splitlines() if ": error" in line]
-    assert found == ["program.py:3"], done.stdout
+    result = [
+        line.partition(": error")[0] for line in done.stdout.splitlines() if ": error" in line
+    ]
+    assert result == ["program.py:3"], done.stdout
 
 
 def test_only_changed_stubs_are_rewritten(

@@ -42,9 +42,11 @@ def team(tmp_path: Path) -> Path:
 
 def test_all_templates_are_listed(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["templates"]) == 0
-    said = capsys.readouterr().out
-    for name, one in loading.load(content.roots("templates")).items():
-        assert any(line.split() == [name, *one.summary.split()] for line in said.split("\n")), name
+    output = capsys.readouterr().out
+    for name, template in loading.load(content.roots("templates")).items():
+        assert any(
+            line.split() == [name, *template.summary.split()] for line in output.split("\n")
+        ), name
 
 
 def test_user_templates_are_listed(team: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -68,10 +70,10 @@ def test_template_of_a_package_with_findings_is_wrong(
     (extra / "{{ package }}").mkdir()
     (extra / "{{ package }}" / "cite.py.jinja").write_text('{{ header }}\n\nX = "x"\n')
     assert main(["templates", "test", str(team)]) == 1
-    said = capsys.readouterr().out
-    assert "citation: plain, ament_cmake: wrong\n    cited_package/cite.py:" in said
-    assert ": Q000 " in said
-    assert said.endswith("2 examples, 2 wrong\n")
+    output = capsys.readouterr().out
+    assert "citation: plain, ament_cmake: wrong\n    cited_package/cite.py:" in output
+    assert ": Q000 " in output
+    assert output.endswith("2 examples, 2 wrong\n")
 
 
 def test_template_that_cannot_be_rendered_is_wrong(
@@ -106,19 +108,19 @@ def test_example_without_its_template_is_wrong(
     manifest.write_text(manifest.read_text().replace("watchdog:", "timer:"))
     capsys.readouterr()
     assert main(["templates", "test", str(tmp_path)]) == 1
-    said = capsys.readouterr().out.splitlines()
-    assert "watchdog: slow, ament_python: ok" in said
-    where = said.index("watchdog: several, ament_python: wrong")
-    assert said[where + 1] == ("    example 'several, ament_python': has no watchdog, but timer")
+    output = capsys.readouterr().out.splitlines()
+    assert "watchdog: slow, ament_python: ok" in output
+    where = output.index("watchdog: several, ament_python: wrong")
+    assert output[where + 1] == ("    example 'several, ament_python': has no watchdog, but timer")
 
 
 def test_template_without_examples_is_wrong(team: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path = team / "templates" / "extras" / "citation" / "template.yaml"
     path.write_text(path.read_text().partition("examples:")[0])
     assert main(["templates", "test", str(team)]) == 1
-    said = capsys.readouterr()
-    assert said.err == "note: citation has no examples: it was not tested\n"
-    assert said.out == "0 examples, 0 wrong\n"
+    captured = capsys.readouterr()
+    assert captured.err == "note: citation has no examples: it was not tested\n"
+    assert captured.out == "0 examples, 0 wrong\n"
 
 
 def test_directory_without_templates_is_an_error(
@@ -132,9 +134,9 @@ def test_directory_without_templates_is_an_error(
 @needs_ros
 def test_build_flag_builds_the_examples(team: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["templates", "test", str(team), "--build"]) == 0
-    said = capsys.readouterr().out
-    assert "citation: plain, ament_cmake: built\n" in said
-    assert "citation: plain, ament_python: built\n" in said
+    output = capsys.readouterr().out
+    assert "citation: plain, ament_cmake: built\n" in output
+    assert "citation: plain, ament_python: built\n" in output
     program = team / "templates" / "programs" / "cpp_broken" / "src"
     program.mkdir(parents=True)
     (program.parent / "template.yaml").write_text(
@@ -146,9 +148,9 @@ def test_build_flag_builds_the_examples(team: Path, capsys: pytest.CaptureFixtur
         "{{ header | slashes }}\n\nint main()\n{\n  return nothing;\n}\n"
     )
     assert main(["templates", "test", str(team), "--build"]) == 1
-    said = capsys.readouterr().out
-    assert "cpp_broken: alone, ament_cmake: does not build\n" in said
-    assert "nothing" in said
+    output = capsys.readouterr().out
+    assert "cpp_broken: alone, ament_cmake: does not build\n" in output
+    assert "nothing" in output
 
 
 def test_single_file_of_a_template_can_be_overridden(tmp_path: Path) -> None:

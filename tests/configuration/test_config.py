@@ -257,8 +257,8 @@ def test_patterns_are_relative_to_the_file_or_to_packages(
     ):
         configuration.write_text(f'[check.per-path-ignores]\n"{pattern}" = ["F401"]\n')
         code, output = check(capsys, *words)
-        found = [line.partition("/")[0] for line in output.splitlines()]
-        assert (found, code) == (reported, 1 if reported else 0), pattern
+        result = [line.partition("/")[0] for line in output.splitlines()]
+        assert (result, code) == (reported, 1 if reported else 0), pattern
 
 
 def test_line_length_applies_where_no_test_configures_it(

@@ -216,17 +216,17 @@ def test_ament_copyright_accepts_a_package_that_is_a_repository(
     files = make(package="talker", extras=["ci"], license=license_)
     talker = write(tmp_path / "talker", files)
     assert oracles.ament_copyright(talker) == set()
-    assert [one.code for one in check(talker) if one.code == "LY022"] == []
+    assert [finding.code for finding in check(talker) if finding.code == "LY022"] == []
     (talker / "CONTRIBUTING.md").unlink()
-    assert {one.path for one in oracles.ament_copyright(talker)} == {"CONTRIBUTING.md"}
-    assert [one.code for one in check(talker) if one.code == "LY022"] == ["LY022"]
+    assert {finding.path for finding in oracles.ament_copyright(talker)} == {"CONTRIBUTING.md"}
+    assert [finding.code for finding in check(talker) if finding.code == "LY022"] == ["LY022"]
 
 
 @oracles.needs_system_linter("ament_copyright")
 @pytest.mark.parametrize("license_", licenses.names(ROOTS))
 def test_check_fix_adds_files_required_in_a_repository(license_: str, tmp_path: Path) -> None:
     talker = write(tmp_path / "talker", make(package="talker", license=license_))
-    assert {one.path for one in oracles.ament_copyright(talker)} == {"CONTRIBUTING.md"}
+    assert {finding.path for finding in oracles.ament_copyright(talker)} == {"CONTRIBUTING.md"}
     assert main(["check", "--fix", str(talker)]) == 0
     assert oracles.ament_copyright(talker) == set()
 

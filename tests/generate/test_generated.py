@@ -76,7 +76,11 @@ def write(destination: Path, **answers: object) -> Path:
 def available(kind: str) -> dict[str, object]:
     """Return answers for a kind of node whose default interfaces may not be installed."""
     questions = TEMPLATES[kind].questions
-    return {one.name: AVAILABLE[one.type] for one in questions if one.type in AVAILABLE}
+    return {
+        question.name: AVAILABLE[question.type]
+        for question in questions
+        if question.type in AVAILABLE
+    }
 
 
 @pytest.fixture(scope="module")
@@ -88,7 +92,7 @@ def combinations(tmp_path_factory: pytest.TempPathFactory) -> Path:
     published = product(BUILD_TYPES, COMMENTS, ["publisher"], TYPES)
     others = product(BUILD_TYPES, COMMENTS, [kind for kind in KINDS if kind != "publisher"])
     for (build_type, comments, kind, name), (license_, quality, description) in zip(
-        [*published, *((*one, name) for one, name in zip(others, cycle(TYPES), strict=False))],
+        [*published, *((*item, name) for item, name in zip(others, cycle(TYPES), strict=False))],
         more,
         strict=False,
     ):
@@ -175,7 +179,7 @@ def test_check_has_no_findings(combinations: Path) -> None:
     session = Session(registry.load(content.roots("rules")), Selection())
     results = list(session.run(targets.find([str(combinations)])))
     assert len(results) == len(os.listdir(combinations)) > len(BUILD_TYPES) * len(KINDS)
-    assert [said for result in results for said in result.diagnostics] == []
+    assert [finding for result in results for finding in result.diagnostics] == []
 
 
 @pytest.mark.filterwarnings("ignore::DeprecationWarning")  # of catkin_pkg and docutils
@@ -187,8 +191,8 @@ def test_catkin_pkg_reads_the_changelog(combinations: Path) -> None:
         label = tag.get_forthcoming_label(text)
         assert label == "Forthcoming"
         released = tag.rename_section(text, label, "0.1.0 (2025-10-09)")
-        found = changelog.populate_changelog_from_rst(changelog.Changelog("x"), released)
-        assert [version for version, _, _ in found.foreach_version()] == ["0.1.0"]
+        result = changelog.populate_changelog_from_rst(changelog.Changelog("x"), released)
+        assert [version for version, _, _ in result.foreach_version()] == ["0.1.0"]
 
 
 # -- colcon
@@ -456,10 +460,10 @@ def test_every_type_is_published(
     script.write_text(OBSERVE)
     packages = [f"cmake_brief_{name.lower()}" for name in TYPES]
     command = [sys.executable, str(script), str(combinations), *packages]
-    said = subprocess.run(command, env=variables, capture_output=True, text=True, check=True)
+    diagnostics = subprocess.run(command, env=variables, capture_output=True, text=True, check=True)
     received = {
         name.removeprefix("cmake_brief_"): messages
-        for name, messages in json.loads(said.stdout.splitlines()[-1]).items()
+        for name, messages in json.loads(diagnostics.stdout.splitlines()[-1]).items()
     }
     for name in ("int8", "int16", "int32", "int64", "uint8", "uint16", "uint32", "uint64", "char"):
         assert_counts([int(value) for value in received[name]])
@@ -487,7 +491,7 @@ def test_executables_exit_with_0_without_output(
     workspace: Workspace, variables: dict[str, str], stop: signal.Signals
 ) -> None:
     sourced = environment.source(workspace.root / "install" / "setup.bash", variables)
-    for name in (one for one in BUILT if "add" not in BUILT[one]):
+    for name in (item for item in BUILT if "add" not in BUILT[item]):
         (executable,) = (workspace.root / "install" / name / "lib" / name).iterdir()
         command = [str(executable), "--ros-args", "-p", "rate:=2.0"]
         with running(command, sourced) as node:
@@ -614,11 +618,11 @@ def stopped(node: subprocess.Popen[str], stop: signal.Signals) -> list[str]:
     assert node.stderr is not None
     assert "]: Publishing: " in node.stderr.readline()
     node.send_signal(stop)
-    said = node.communicate(timeout=PATIENCE)[1]
-    assert node.returncode == 0, said
-    said = re.sub(_IGNORED, "", said)
+    errors = node.communicate(timeout=PATIENCE)[1]
+    assert node.returncode == 0, errors
+    errors = re.sub(_IGNORED, "", errors)
     return [
-        line for line in said.splitlines() if not line.startswith(_LOG) and "]: Pub" not in line
+        line for line in errors.splitlines() if not line.startswith(_LOG) and "]: Pub" not in line
     ]
 
 

@@ -36,9 +36,9 @@ from tests.oracles import needs_system_linter
 ROOTS = content.roots("templates")
 TEMPLATES = loading.load(ROOTS)
 RULES = registry.load(content.roots("rules"))
-KINDS = [name for name, one in TEMPLATES.items() if one.role in PARTS]
+KINDS = [name for name, item in TEMPLATES.items() if item.role in PARTS]
 BUILD_TYPES = template.of_role(TEMPLATES, Role.BUILD_TYPE)
-EXTRAS = [name for name, one in TEMPLATES.items() if one.role is Role.EXTRA]
+EXTRAS = [name for name, item in TEMPLATES.items() if item.role is Role.EXTRA]
 LONGEST_MESSAGE = 1000
 """Characters of a line that says what is wrong; some list every licence or every kind of part."""
 
@@ -657,19 +657,19 @@ def pool(question: Question) -> tuple[Any, ...]:
 
 def accepted(question: Question) -> list[Any]:
     """Return the hostile answers that are valid on their own."""
-    found: list[Any] = []
+    result: list[Any] = []
     for value in pool(question):
         with suppress(InputError):
             questions.parse(question, Given(value, "--x"))
-            found.append(value)
-    return found
+            result.append(value)
+    return result
 
 
 def answers_to(question: Question) -> st.SearchStrategy[Any]:
     """Return a strategy for answers to a question, mostly valid ones."""
     good = st.sampled_from(accepted(question))
     if question.type in {"fields", "dependencies"}:
-        return st.lists(st.sampled_from([one for one in accepted(question) if one]), max_size=5)
+        return st.lists(st.sampled_from([item for item in accepted(question) if item]), max_size=5)
     if question.type in {"text", "person"} and not question.choices:
         return st.one_of(
             good, st.text(max_size=80), st.tuples(good, good).map("{0[0]} {0[1]}".format)
@@ -680,28 +680,28 @@ def answers_to(question: Question) -> st.SearchStrategy[Any]:
 @st.composite
 def requests(draw: st.DrawFn, kind: str) -> dict[str, Any]:
     """Return a strategy for answers with up to three parts, the first of a given kind."""
-    base = {one.name: one for one in TEMPLATES["package"].questions}
-    found: dict[str, Any] = {"package": draw(answers_to(base["package"]))}
+    base = {item.name: item for item in TEMPLATES["package"].questions}
+    result: dict[str, Any] = {"package": draw(answers_to(base["package"]))}
     for name in base.keys() - {"package", "add", "extras", "node_kind"}:
         if draw(st.booleans()):
-            found[name] = draw(answers_to(base[name]))
+            result[name] = draw(answers_to(base[name]))
     if TEMPLATES[kind].build_types:
-        found.pop("build_type", None)
+        result.pop("build_type", None)
     others = [
-        one
-        for one in NEIGHBOURS[TEMPLATES[kind].role]
-        if found.get("build_type", "ament_cmake")
-        in (TEMPLATES[one].build_types or template.of_role(TEMPLATES, Role.BUILD_TYPE))
+        item
+        for item in NEIGHBOURS[TEMPLATES[kind].role]
+        if result.get("build_type", "ament_cmake")
+        in (TEMPLATES[item].build_types or template.of_role(TEMPLATES, Role.BUILD_TYPE))
     ]
-    found["add"] = []
-    for one in [kind, *draw(st.lists(st.sampled_from(others), max_size=2))]:
-        entry: dict[str, Any] = {"kind": one}
-        for question in TEMPLATES[one].questions:
+    result["add"] = []
+    for item in [kind, *draw(st.lists(st.sampled_from(others), max_size=2))]:
+        entry: dict[str, Any] = {"kind": item}
+        for question in TEMPLATES[item].questions:
             if question.name.endswith("_name") or draw(st.booleans()):
                 entry[question.name] = draw(answers_to(question))
-        found["add"].append(entry)
-    found["extras"] = draw(st.lists(st.sampled_from(EXTRAS), max_size=3, unique=True))
-    return found
+        result["add"].append(entry)
+    result["extras"] = draw(st.lists(st.sampled_from(EXTRAS), max_size=3, unique=True))
+    return result
 
 
 def checked_package(wanted: dict[str, Any]) -> draft.Draft | None:
@@ -715,11 +715,11 @@ def checked_package(wanted: dict[str, Any]) -> draft.Draft | None:
     if made.conflicts:
         assert_one_line(made.conflicts[0])
         return None
-    said = [
-        f"{one.location.path}:{one.location.line} {one.code} {one.message}"
-        for one in checking.defects(made, RULES)
+    output = [
+        f"{finding.location.path}:{finding.location.line} {finding.code} {finding.message}"
+        for finding in checking.defects(made, RULES)
     ]
-    assert not said, said
+    assert not output, output
     for path, text in made.rendered.files.items():
         assert_parsable(path, text)
     return made
@@ -759,14 +759,14 @@ FEW = 2
 def answers(kind: str, question: Question) -> list[Any]:
     """Return all hostile answers for the first kind with a question, some for the others."""
     values = list(pool(question))
-    if kind == next(other for other, one in ASKED if one.name == question.name):
+    if kind == next(other for other, item in ASKED if item.name == question.name):
         return values
     start = KINDS.index(kind) % len(values)
     return [values[(start + step * len(values) // FEW) % len(values)] for step in range(FEW)]
 
 
 @pytest.mark.parametrize(
-    ("kind", "question"), [pytest.param(*one, id=f"{one[0]}-{one[1].name}") for one in ASKED]
+    ("kind", "question"), [pytest.param(*item, id=f"{item[0]}-{item[1].name}") for item in ASKED]
 )
 def test_each_hostile_answer_alone(kind: str, question: Question) -> None:
     for value in answers(kind, question):
@@ -823,8 +823,8 @@ def hostile_packages(tmp_path_factory: pytest.TempPathFactory) -> Path:
     base = [question for kind, question in ASKED if kind == "package"]
     number = 0
     for kind in cycle(KINDS):
-        part = {one.name: next(turns[one.name]) for name, one in ASKED if name == kind}
-        wanted = {one.name: next(turns[one.name]) for one in base if one.name != "build_type"}
+        part = {item.name: next(turns[item.name]) for name, item in ASKED if name == kind}
+        wanted = {item.name: next(turns[item.name]) for item in base if item.name != "build_type"}
         wanted["package"] = f"hostile_{number}"
         wanted["build_type"] = (TEMPLATES[kind].build_types or BUILD_TYPES)[-(number % 2)]
         wanted["add"], wanted["extras"] = [{"kind": kind, **part}], EXTRAS[number % 3 :]
@@ -841,7 +841,7 @@ def hostile_packages(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 def typable_answers(question: Question) -> list[Any]:
     """Return the valid answers that can be typed on a command line."""
-    values = [one for one in accepted(question) if isinstance(one, str) and one]
+    values = [item for item in accepted(question) if isinstance(item, str) and item]
     return values or accepted(question)
 
 

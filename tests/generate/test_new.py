@@ -35,8 +35,8 @@ TYPES = (
 COMBINATIONS = list(itertools.product(BUILD_TYPES, COMMENTS, TYPES))
 EXAMPLES = [
     pytest.param(example.answers, id=f"{name}-{example.title}")
-    for name, one in TEMPLATES.items()
-    for example in examples.of(one, TEMPLATES)
+    for name, item in TEMPLATES.items()
+    for example in examples.of(item, TEMPLATES)
 ]
 
 COMMON_FILES = {
@@ -272,11 +272,11 @@ def test_dependencies_of_the_manifest(build_type: str, expected: dict[str, list[
     manifest = etree.fromstring(
         files_of(build_type=build_type, dependencies=wanted)["package.xml"].encode()
     )
-    found: dict[str, list[str]] = {}
+    result: dict[str, list[str]] = {}
     for element in manifest:
         if element.tag.endswith("_depend"):
-            found.setdefault(element.tag, []).append(element.text or "")
-    assert found == expected
+            result.setdefault(element.tag, []).append(element.text or "")
+    assert result == expected
     assert manifest.findtext("export/build_type") == build_type
 
 
@@ -420,11 +420,11 @@ def setup_arguments(text: str) -> dict[str, Any]:
         for node in ast.walk(ast.parse(text))
         if isinstance(node, ast.Call) and getattr(node.func, "id", "") == "setup"
     )
-    found: dict[str, Any] = {}
+    result: dict[str, Any] = {}
     for keyword in call.keywords:
         if keyword.arg and isinstance(keyword.value, ast.Constant):
-            found[keyword.arg] = keyword.value.value
-    return found
+            result[keyword.arg] = keyword.value.value
+    return result
 
 
 # -- names
@@ -721,9 +721,9 @@ def test_login_name_is_used_without_git_settings(
 ) -> None:
     (tmp_path / "home" / ".gitconfig").unlink()
     assert main(["new", "talker"]) == 0
-    said = capsys.readouterr().err
-    assert said.startswith("note: the maintainer is ")
-    assert said.count("\n") == 1
+    errors = capsys.readouterr().err
+    assert errors.startswith("note: the maintainer is ")
+    assert errors.count("\n") == 1
     manifest = etree.parse(tmp_path / "work/talker/package.xml").getroot()
     maintainer = manifest.find("maintainer")
     assert maintainer is not None
@@ -789,7 +789,7 @@ def test_help_lists_every_flag(capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit) as stop:
         main(["new", "--help"])
     assert stop.value.code == 0
-    said = capsys.readouterr().out
+    output = capsys.readouterr().out
     for flag in (
         "--build-type {ament_cmake,ament_python}",
         "--description",
@@ -808,16 +808,16 @@ def test_help_lists_every_flag(capsys: pytest.CaptureFixture[str]) -> None:
         "--force",
         "--answers",
     ):
-        assert flag in said
+        assert flag in output
 
 
 def test_output_of_new(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     source = tmp_path / "ws" / "src"
     source.mkdir(parents=True)
     assert main(["new", "talker", "--destination-directory", str(source)]) == 0
-    said = capsys.readouterr()
-    assert said.err == ""
-    assert said.out == dedent(f"""\
+    captured = capsys.readouterr()
+    assert captured.err == ""
+    assert captured.out == dedent(f"""\
         talker/
             .gitattributes                 how git merges the two .ros2-scaffold files
             .ros2-scaffold.bases           the rendered templates, for `ros2-scaffold update`
@@ -853,9 +853,9 @@ def test_output_names_the_launch_command(
 
 def test_diff_writes_nothing(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["new", "talker", "--diff"]) == 0
-    said = capsys.readouterr().out
-    assert "--- /dev/null\n+++ b/talker/.ros2-scaffold.json\n" in said
-    assert "+++ b/talker/talker/minimal_publisher.py\n" in said
+    output = capsys.readouterr().out
+    assert "--- /dev/null\n+++ b/talker/.ros2-scaffold.json\n" in output
+    assert "+++ b/talker/talker/minimal_publisher.py\n" in output
     assert os.listdir() == []
     assert main(["new", "talker"]) == 0
     (tmp_path / "work" / "talker" / "LICENSE").unlink()
@@ -866,9 +866,9 @@ def test_diff_writes_nothing(tmp_path: Path, capsys: pytest.CaptureFixture[str])
 
 def test_dry_run_writes_nothing(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["new", "talker", "--dry-run"]) == 0
-    said = capsys.readouterr().out
-    assert said.startswith("talker/\n")
-    assert said.endswith("\n\nNothing was written (--dry-run).\n")
+    output = capsys.readouterr().out
+    assert output.startswith("talker/\n")
+    assert output.endswith("\n\nNothing was written (--dry-run).\n")
     assert os.listdir(tmp_path / "work") == []
 
 
@@ -884,9 +884,9 @@ def test_existing_package_is_not_overwritten(
     assert node.read_text() == "mine\n"
 
     assert main(["new", "talker", "--force", "--dry-run"]) == 0
-    said = capsys.readouterr().out
-    assert "the node, overwritten\n" in said
-    assert "\n-mine\n+#!/usr/bin/env python3\n" in said
+    output = capsys.readouterr().out
+    assert "the node, overwritten\n" in output
+    assert "\n-mine\n+#!/usr/bin/env python3\n" in output
     assert node.read_text() == "mine\n"
 
     assert main(["new", "talker", "--force"]) == 0
@@ -952,11 +952,11 @@ def assert_refused(
     """Fail unless a command ends with 2 and one error line, and writes nothing."""
     before = os.listdir()
     assert main(command) == 2
-    said = capsys.readouterr()
-    assert said.out == ""
-    assert said.err.startswith("ros2-scaffold: error: ")
-    assert message in said.err
-    assert said.err.count("\n") == 1
+    captured = capsys.readouterr()
+    assert captured.out == ""
+    assert captured.err.startswith("ros2-scaffold: error: ")
+    assert message in captured.err
+    assert captured.err.count("\n") == 1
     assert not untouched or os.listdir() == before
 
 
@@ -1054,10 +1054,10 @@ def test_template_errors_are_reported(team: Path, path: str, text: str, message:
         "package": Given("talker", "PACKAGE"),
         "node_kind": Given("blinker", "--node-kind"),
     }
-    with pytest.raises(ContentError) as told:
+    with pytest.raises(ContentError) as raised:
         draft.draft(roots, loading.load(roots), given, User("."))
-    assert message in str(told.value)
-    assert "\n" not in str(told.value)
+    assert message in str(raised.value)
+    assert "\n" not in str(raised.value)
 
 
 def test_invalid_dependencies_of_a_template_are_rejected(team: Path) -> None:
@@ -1068,9 +1068,9 @@ def test_invalid_dependencies_of_a_template_are_rejected(team: Path) -> None:
     )
     roots = [*ROOTS, str(team)]
     given = {"package": Given("talker", "PACKAGE"), "extras": Given("listing", "--extras")}
-    with pytest.raises(ContentError) as told:
+    with pytest.raises(ContentError) as raised:
         draft.draft(roots, loading.load(roots), given, User("."))
-    assert str(told.value) == (
+    assert str(raised.value) == (
         f"{extra / 'template.yaml'}: depends: exec: '{{{{ extras }}}}' is \"('listing',)\", "
         "not names separated by spaces; a list needs join(' ')"
     )
@@ -1116,10 +1116,10 @@ def test_invalid_dependencies_of_a_template_are_rejected(team: Path) -> None:
 )
 def test_invalid_template_yaml_is_rejected(team: Path, manifest: str, message: str) -> None:
     (team / "nodes" / "blinker" / "template.yaml").write_text(manifest)
-    with pytest.raises(ContentError) as told:
+    with pytest.raises(ContentError) as raised:
         loading.load([*ROOTS, str(team)])
-    assert message in str(told.value)
-    assert "\n" not in str(told.value)
+    assert message in str(raised.value)
+    assert "\n" not in str(raised.value)
 
 
 @pytest.mark.parametrize(

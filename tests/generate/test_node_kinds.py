@@ -128,9 +128,9 @@ def test_imports_of_one_module_are_merged() -> None:
 
 def test_help_of_shared_flag_covers_each_kind() -> None:
     kinds = [TEMPLATES[kind] for kind in ("publisher", "subscriber", "timer")]
-    found = {one.name: one for one in questions.shared(kinds)}
+    result = {question.name: question for question in questions.shared(kinds)}
     usual = "(default: the usual one of the type, such as scan)"
-    assert found["topic"].help == f"topic to publish on {usual}; topic to subscribe to {usual}"
-    assert found["topic"].default == "{{ message_type.topic }}"
-    assert found["node_name"].help == "name of the node, its module and its executable"
-    assert found["node_name"].default is None
+    assert result["topic"].help == f"topic to publish on {usual}; topic to subscribe to {usual}"
+    assert result["topic"].default == "{{ message_type.topic }}"
+    assert result["node_name"].help == "name of the node, its module and its executable"
+    assert result["node_name"].default is None

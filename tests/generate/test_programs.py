@@ -27,7 +27,7 @@ from tests.oracles import needs_system_linter
 ROOTS = content.roots("templates")
 TEMPLATES = loading.load(ROOTS)
 PROGRAMS = template.of_role(TEMPLATES, Role.PROGRAM)
-NAMES = [one.default for name in PROGRAMS for one in TEMPLATES[name].questions]
+NAMES = [item.default for name in PROGRAMS for item in TEMPLATES[name].questions]
 PACKAGE = "cpp_tutorial"
 
 EXPECTED = {

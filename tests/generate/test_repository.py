@@ -50,8 +50,8 @@ def add(package: Path, *words: str) -> int:
 
 def files(top: Path) -> dict[str, bytes]:
     """Return the files of a repository without those of git."""
-    found = [file for file in top.rglob("*") if file.is_file()]
-    paths = {str(file.relative_to(top)): file.read_bytes() for file in found}
+    result = [file for file in top.rglob("*") if file.is_file()]
+    paths = {str(file.relative_to(top)): file.read_bytes() for file in result}
     return {path: data for path, data in paths.items() if not path.startswith(".git/")}
 
 
@@ -75,9 +75,9 @@ def test_new_writes_extras_at_the_top(workspace: Path, capsys: pytest.CaptureFix
     hidden = [file.name for file in (workspace / "src" / "talker").glob(".*")]
     assert sorted(hidden) == sorted(provenance.PURPOSES)
     assert not (workspace / "src" / "talker" / "CONTRIBUTING.md").exists()
-    said = capsys.readouterr()
-    assert ".github/workflows/talker.yaml" in said.out
-    assert said.err == ""
+    captured = capsys.readouterr()
+    assert ".github/workflows/talker.yaml" in captured.out
+    assert captured.err == ""
     assert main(["check", str(workspace)]) == 0
     assert main(["update", str(workspace / "src" / "talker"), "--diff"]) == 0
     assert capsys.readouterr().out.endswith("no findings\n")
@@ -166,8 +166,8 @@ def test_paths_in_the_workflow_exist(workspace: Path, tmp_path: Path) -> None:
     git(workspace, "add", "-A")
     git(workspace, "commit", "-q", "-m", "work")
     git(tmp_path, "clone", "-q", str(workspace), str(checkout))
-    found = colcon.package_directories(Disk(), str(tmp_path / "job"))
-    assert found == [str(checkout / "src" / "talker")]
+    result = colcon.package_directories(Disk(), str(tmp_path / "job"))
+    assert result == [str(checkout / "src" / "talker")]
     assert "$(colcon list --packages-up-to talker --paths-only)" in steps[1]["run"]
     assert "colcon build --packages-up-to talker" in steps[2]["run"]
     assert "colcon test --packages-select talker" in steps[3]["run"]
@@ -214,8 +214,8 @@ def test_existing_pre_commit_configuration_is_kept(
         assert add(package, "pre_commit") == 1
     assert (package / "package.xml").is_file()
     assert path.read_text() == OF_A_TEAM
-    said = capsys.readouterr().err
-    _, _, line = said.partition(f"{CONFIG}: add to `repos`: ")
+    errors = capsys.readouterr().err
+    _, _, line = errors.partition(f"{CONFIG}: add to `repos`: ")
     entry = line.splitlines()[0]
     assert add(package, "pre_commit", "--force") == 1
     assert path.read_text() == OF_A_TEAM
@@ -354,8 +354,8 @@ def test_update_moves_extras_to_the_top_of_a_later_repository(
     git(tmp_path, "init", "-q")
     assert main(["update", str(tmp_path / "src" / "talker")]) == 0
     assert (tmp_path / ".github" / "workflows" / "talker.yaml").is_file()
-    said = capsys.readouterr().err
-    assert "note: .github/workflows/ci.yaml is no longer in the templates; remove it" in said
+    errors = capsys.readouterr().err
+    assert "note: .github/workflows/ci.yaml is no longer in the templates; remove it" in errors
 
 
 def test_record_cannot_name_files_outside_of_the_repository(

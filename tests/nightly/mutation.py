@@ -195,8 +195,8 @@ def _swap_words(data: bytes, random: Random) -> bytes:
     words = re.split(rb"(\w+)", data)
     places = range(1, len(words), 2)
     for _ in range(random.choice((1, 5, 50)) if len(places) > 1 else 0):
-        one, other = random.choice(places), random.choice(places)
-        words[one], words[other] = words[other], words[one]
+        item, other = random.choice(places), random.choice(places)
+        words[item], words[other] = words[other], words[item]
     return b"".join(words)
 
 
@@ -204,8 +204,8 @@ def _swap_signs(data: bytes, random: Random) -> bytes:
     signs = re.split(rb"([^\w\s])", data)
     places = range(1, len(signs), 2)
     for _ in range(random.choice((1, 5, 50)) if len(places) > 1 else 0):
-        one, other = random.choice(places), random.choice(places)
-        signs[one], signs[other] = signs[other], signs[one]
+        item, other = random.choice(places), random.choice(places)
+        signs[item], signs[other] = signs[other], signs[item]
     return b"".join(signs)
 
 

@@ -80,18 +80,18 @@ def test_the_report_agrees_with_rclpy(base: str, tmp_path: Path) -> None:
     def compared(run: tuple[str, Any]) -> list[str]:
         package, report = run
         name = report["name"]
-        for said in (*report["problems"], *report["notes"]):
-            print(f"{package}/{name}: {said}")  # noqa: T201  likewise
+        for finding in (*report["problems"], *report["notes"]):
+            print(f"{package}/{name}: {finding}")  # noqa: T201  likewise
         path = workspace / "install" / package / "lib" / package / name
         seen = _seen(path, sourced, tmp / f"{package}-{name}")
         return [f"{package}/{name}: {line}" for line in disagreements(report, seen)]
 
     with ThreadPoolExecutor(2) as pool:
-        found = [line for lines in pool.map(compared, runs) for line in lines]
-    print(*found, sep="\n")  # noqa: T201  likewise
+        result = [line for lines in pool.map(compared, runs) for line in lines]
+    print(*result, sep="\n")  # noqa: T201  likewise
     print(f"{len(packages)} packages, {len(runs)} executables")  # noqa: T201  likewise
     assert runs
-    assert found == []
+    assert result == []
     assert processes_of(tmp) == []
 
 
@@ -106,8 +106,8 @@ def _sourced(install: Path) -> dict[str, str]:
         text=True,
         check=True,
     )
-    found = dict(item.split("=", 1) for item in done.stdout.split("\0") if item)
-    return {**found, "WITNESS_PYTHON": chosen.python}
+    result = dict(item.split("=", 1) for item in done.stdout.split("\0") if item)
+    return {**result, "WITNESS_PYTHON": chosen.python}
 
 
 def _seen(path: Path, sourced: Mapping[str, str], tmp: Path) -> dict[str, Any]:

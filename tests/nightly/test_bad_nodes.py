@@ -142,8 +142,8 @@ def problems(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
     root = tmp_path_factory.mktemp("zoo")
     package = python_package(root / "src", "zoo", NODES)
     (package / "smoke.yaml").write_text("executables: {dies: {duration: 14}}\n")
-    found = executables_of(package, root, "--jobs", "2")
-    return {item["name"]: "\n".join(item["problems"]) for item in found}
+    result = executables_of(package, root, "--jobs", "2")
+    return {item["name"]: "\n".join(item["problems"]) for item in result}
 
 
 @pytest.mark.parametrize(

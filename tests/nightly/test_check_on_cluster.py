@@ -103,8 +103,8 @@ def test_report_equals_local_check_when_a_worker_is_killed(tmp_path: Path) -> No
     ):
         victim = first_busy(running.workers)
         victim.process.send_signal(signal.SIGKILL)
-        out, said = run.communicate(timeout=PATIENCE)
+        out, errors = run.communicate(timeout=PATIENCE)
         wait_until(lambda: processes_of(victim.tmp) == [])
-    assert (out, said, run.returncode) == (alone.stdout, alone.stderr, alone.returncode)
+    assert (out, errors, run.returncode) == (alone.stdout, alone.stderr, alone.returncode)
     for member in running.workers:
         assert [name for name in os.listdir(member.tmp) if name.startswith("ros2-")] == []

@@ -54,9 +54,9 @@ def test_every_package_has_one_result_when_a_worker_is_killed(
         victim = running.workers[1]
         wait_until(lambda: "talker" in " ".join(processes_of(victim.tmp)))
         victim.process.send_signal(signal.SIGKILL)
-        out, said = run.communicate(timeout=PATIENCE)
+        out, errors = run.communicate(timeout=PATIENCE)
 
-    assert run.returncode == 0, said
+    assert run.returncode == 0, errors
     packages = json.loads(out)["packages"]
     assert Counter(package["name"] for package in packages) == Counter(names)
     workers = Counter(package["worker"] for package in packages)
@@ -65,7 +65,7 @@ def test_every_package_has_one_result_when_a_worker_is_killed(
     for package in packages:
         (executable,) = package["executables"]
         assert executable["topics"][0]["count"] > 0
-    assert f"({PACKAGES} of {PACKAGES})" in said
+    assert f"({PACKAGES} of {PACKAGES})" in errors
     for member in running.workers:
         if member is victim:
             monkeypatch.setenv("XDG_STATE_HOME", f"{member.tmp}-state")

@@ -109,10 +109,10 @@ def test_scheduler_dies_during_the_run(tmp_path: Path) -> None:
         (worker,) = running.workers
         wait_until(lambda: "batch_process" in " ".join(processes_of(worker.tmp)))
         running.scheduler.process.kill()
-        out, said = run.communicate(timeout=PATIENCE)
+        out, errors = run.communicate(timeout=PATIENCE)
     assert run.returncode == 2
-    assert "Traceback" not in said
-    (line,) = (line for line in said.splitlines() if "error:" in line)
+    assert "Traceback" not in errors
+    (line,) = (line for line in errors.splitlines() if "error:" in line)
     assert " not checked: the connection to the scheduler was lost: " in line
     for name in names:
         assert (f" {name}," in f"{line},") != (f"{name}/package.xml:" in out)

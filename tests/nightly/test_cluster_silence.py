@@ -57,8 +57,8 @@ class Proxy:
 
     def close(self) -> None:
         self._server.close()
-        for one in self._open:
-            one.close()
+        for item in self._open:
+            item.close()
 
     def _accept(self) -> None:
         while True:
@@ -116,16 +116,16 @@ def test_packages_of_silent_worker_run_elsewhere(tmp_path: Path) -> None:
         victim = running.workers[1]
         wait_until(is_busy(running, 1))
         victim.process.send_signal(signal.SIGSTOP)
-        out, said = run.communicate(timeout=PATIENCE)
-    assert run.returncode == 0, said
+        out, errors = run.communicate(timeout=PATIENCE)
+    assert run.returncode == 0, errors
     packages = json.loads(out)["packages"]
     assert Counter(item["name"] for item in packages) == Counter(
         f"cut_{number}" for number in range(PACKAGES)
     )
     address = re.search(r"worker at: +'?(tcp://[\d.:]+)", victim.log.read_text())
     assert address is not None
-    assert f"{address[1]} has not been heard for " in said
-    assert said.count("has not been heard") == 1
+    assert f"{address[1]} has not been heard for " in errors
+    assert errors.count("has not been heard") == 1
     wait_until(lambda: processes_of(victim.tmp) == [])
 
 
@@ -140,12 +140,12 @@ def test_packages_of_disconnected_worker_run_elsewhere(tmp_path: Path) -> None:
             with run_of(tmp_path, running.address) as run:
                 wait_until(is_busy(running, 1))
                 proxy.cut()
-                out, said = run.communicate(timeout=PATIENCE)
+                out, errors = run.communicate(timeout=PATIENCE)
         proxy.close()
-    assert run.returncode == 0, said
+    assert run.returncode == 0, errors
     names = Counter(item["name"] for item in json.loads(out)["packages"])
     assert names == Counter(f"cut_{number}" for number in range(PACKAGES))
-    assert "has not been heard for " in said
+    assert "has not been heard for " in errors
 
 
 def test_reconnected_worker_delivers_its_results(tmp_path: Path) -> None:
@@ -159,14 +159,14 @@ def test_reconnected_worker_delivers_its_results(tmp_path: Path) -> None:
                 proxy.cut()
                 time.sleep(SILENCE + 10)
                 proxy.restore()
-                out, said = run.communicate(timeout=PATIENCE)
+                out, errors = run.communicate(timeout=PATIENCE)
         proxy.close()
-    assert run.returncode == 0, said
+    assert run.returncode == 0, errors
     packages = json.loads(out)["packages"]
     names = Counter(item["name"] for item in packages)
     assert names == Counter(f"cut_{number}" for number in range(PACKAGES))
     assert len({item["worker"] for item in packages}) == 2
-    assert said.count("has not been heard for ") == 1
+    assert errors.count("has not been heard for ") == 1
 
 
 def test_silent_scheduler_ends_the_run(tmp_path: Path) -> None:
@@ -175,10 +175,10 @@ def test_silent_scheduler_ends_the_run(tmp_path: Path) -> None:
         with run_of(tmp_path, f"tcp://127.0.0.1:{proxy.port}") as run:
             wait_until(is_busy(running, 0))
             proxy.cut()
-            out, said = run.communicate(timeout=PATIENCE)
+            out, errors = run.communicate(timeout=PATIENCE)
         proxy.close()
-    assert run.returncode == 1, said
-    assert "Traceback" not in said
+    assert run.returncode == 1, errors
+    assert "Traceback" not in errors
     packages = json.loads(out)["packages"]
     assert len(packages) == PACKAGES
     for package in packages:

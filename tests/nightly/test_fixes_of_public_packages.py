@@ -53,12 +53,14 @@ def test_fix(tmp_path: Path, base: str, flags: tuple[str, ...]) -> None:
 
 def findings(root: Path) -> Counter[tuple[str, str]]:
     """Count the findings of the linters by linter and file."""
-    found: Counter[tuple[str, str]] = Counter()
+    result: Counter[tuple[str, str]] = Counter()
     for directory in map(Path, colcon.package_directories(Disk(), str(root))):
         for linter in LINTERS:
             below = os.path.relpath(directory, root)
-            found.update((linter.__name__, f"{below}/{one.path}") for one in linter(directory))
-    return found
+            result.update(
+                (linter.__name__, f"{below}/{finding.path}") for finding in linter(directory)
+            )
+    return result
 
 
 def files(root: Path) -> list[str]:

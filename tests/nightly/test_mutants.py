@@ -63,17 +63,17 @@ def _read(directory: Path) -> Files:
 def bases(tmp_path_factory: pytest.TempPathFactory) -> list[Files]:
     """Return good packages."""
     home = tmp_path_factory.mktemp("bases")
-    found: list[Files] = []
+    result: list[Files] = []
     for at, arguments in enumerate(_KINDS):
         name = f"base_{at}"
         words = ["new", name, "--destination-directory", str(home), *arguments]
         assert main(words) == 0
-        found.append(_read(home / name))
+        result.append(_read(home / name))
     for directory in os.environ.get("SCAFFOLD_MUTANT_BASES", "").split(":"):
         manifests = sorted(Path(directory).rglob("package.xml")) if directory else []
-        found.extend(_read(manifest.parent) for manifest in manifests)
-    assert found
-    return [files for files in found if len(files) < 200]
+        result.extend(_read(manifest.parent) for manifest in manifests)
+    assert result
+    return [files for files in result if len(files) < 200]
 
 
 def _seconds() -> float:
@@ -106,10 +106,14 @@ def _problem(session: Session, files: Files, *, fix: bool) -> str:
         if fix:
             workspace_fixer.fix([Target(package)], session, _NoProgress(), unsafe=True)
             return ""
-        found = session.check(package)
+        findings = session.check(package)
     except Exception:  # noqa: BLE001  whatever it is, it is what the test looks for
         return traceback.format_exc()
-    return "; ".join(f"{one.location.path}: {one.message}" for one in found if one.code == "SC002")
+    return "; ".join(
+        f"{finding.location.path}: {finding.message}"
+        for finding in findings
+        if finding.code == "SC002"
+    )
 
 
 def _check_seeds(

@@ -69,12 +69,12 @@ def test_interrupted_run_is_cleaned_up(
         if way != "timeout":
             time.sleep(delay)
             run.send_signal(signal.Signals[way])
-        _, said = run.communicate(timeout=PATIENCE)
+        _, errors = run.communicate(timeout=PATIENCE)
     if way in {"SIGINT", "SIGTERM", "SIGHUP"} and run.returncode:
         number = signal.Signals[way]
         assert run.returncode in {128 + number, -number}
         # Before Python has read its modules, the signal just ends it.
-        assert said.startswith("ros2-scaffold: interrupted") or run.returncode == -number
+        assert errors.startswith("ros2-scaffold: interrupted") or run.returncode == -number
     else:
         wait_until(lambda: processes_of(tmp) == [])
         monkeypatch.setenv("XDG_STATE_HOME", str(state))

@@ -107,8 +107,8 @@ class Oracle:
                 return set()
             half = len(paths) // 2
             return self._flake8(directory, paths[:half]) | self._flake8(directory, paths[half:])
-        found = re.findall(r"(?m)^(\S+?):(\d+):\d+: ([A-Z]+\d+)", done.stdout)
-        return {(path, int(line), code) for path, line, code in found}
+        result = re.findall(r"(?m)^(\S+?):(\d+):\d+: ([A-Z]+\d+)", done.stdout)
+        return {(path, int(line), code) for path, line, code in result}
 
     def _pydocstyle(self, directory: Path) -> Found:
         select = f"--select={','.join(sorted(PEP257_CODES))}"
@@ -117,8 +117,8 @@ class Oracle:
             if linters.of_target().since("pydocstyle", 6, 2):
                 words.append("--property-decorators=")  # ament_pep257 names none
         done = self._call(directory, "pydocstyle", *words, ".")
-        found = re.findall(r"(?m)^\./(\S+?):(\d+) .*\n\s+(D\d+):", done.stdout)
-        return {(path, int(line), code) for path, line, code in found}
+        result = re.findall(r"(?m)^\./(\S+?):(\d+) .*\n\s+(D\d+):", done.stdout)
+        return {(path, int(line), code) for path, line, code in result}
 
     def _call(self, directory: Path, module: str, *words: str) -> subprocess.CompletedProcess[str]:
         # Not with -m: modules of the cases, such as logging.py, would hide those of Python.
@@ -133,8 +133,8 @@ def ours(oracle: Oracle, directory: Path) -> Found:
     """Return our findings for the distribution."""
     with distributions.targeting(oracle.distribution):
         package = Package.at(directory)
-        found = StyleCheck([package]).diagnostics(package)
-    return {(item.location.path, item.location.line, item.code) for item in found}
+        findings = StyleCheck([package]).diagnostics(package)
+    return {(item.location.path, item.location.line, item.code) for item in findings}
 
 
 def differences(oracle: Oracle, directory: Path) -> dict[str, tuple[Found, Found]]:

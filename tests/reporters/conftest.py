@@ -56,5 +56,5 @@ def check(repository: Path, capsys: pytest.CaptureFixture[str]) -> Callable[...,
 @pytest.fixture
 def diagnostics(check: Callable[..., str]) -> list[dict[str, Any]]:
     """Return the findings as the format ``json`` has them, which every other one has to hold."""
-    found: list[dict[str, Any]] = json.loads(check("--format", "json"))["diagnostics"]
-    return found
+    result: list[dict[str, Any]] = json.loads(check("--format", "json"))["diagnostics"]
+    return result

@@ -121,10 +121,10 @@ def test_git_merges_baselines_of_two_branches(
     capsys.readouterr()
     head, *entries, end = (talker.parent / "base.json").read_text().splitlines()
     assert (head, end) == ('{"version": 1, "findings": [', "]}")
-    found = [json.loads(entry.removesuffix(",")) for entry in entries]
-    places = [(item["path"], item["code"]) for item in found]
+    findings = [json.loads(entry.removesuffix(",")) for entry in entries]
+    places = [(item["path"], item["code"]) for item in findings]
     assert places == sorted(places)
-    assert str(talker.parent) not in json.dumps(found)
+    assert str(talker.parent) not in json.dumps(findings)
 
 
 @pytest.mark.usefixtures("talker")

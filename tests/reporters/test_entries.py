@@ -72,8 +72,8 @@ def test_build_failures_come_before_crashes() -> None:
 def test_missing_packages_come_before_harmless_findings() -> None:
     results = [_result(".", code, "a") for code in ("LY020", "PX001", "CM020", "PX020", "LF005")]
     for result in results[2:]:
-        (found,) = result.diagnostics
-        result.diagnostics[:] = [found._replace(cause=f"dependency {found.code}")]
+        (finding,) = result.diagnostics
+        result.diagnostics[:] = [finding._replace(cause=f"dependency {finding.code}")]
     ordered = in_order([entry for result in results for entry in by_cause(result)])
     assert [entry.first.code for entry in ordered] == ["CM020", "PX020", "LF005", "PX001", "LY020"]
 
@@ -118,11 +118,11 @@ def test_different_messages_of_one_cause_are_not_merged() -> None:
 
 def test_missing_dependencies_and_missing_imports_are_one_entry_each() -> None:
     result = _result("talker", "PX020", "a.py")
-    (found,) = result.diagnostics
+    (finding,) = result.diagnostics
     names = ("rclpy", "std_msgs", "yaml")
     result.diagnostics[:] = [
-        *(found._replace(message=name, cause=f"dependency {name}") for name in names),
-        *(found._replace(code="F821", message=name) for name in names),
+        *(finding._replace(message=name, cause=f"dependency {name}") for name in names),
+        *(finding._replace(code="F821", message=name) for name in names),
     ]
     assert [len(entry.places) for entry in by_cause(result)] == [3, 3]
     assert [len(entry.places) for entry in by_cause(result, everything=True)] == [1] * 6

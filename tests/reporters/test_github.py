@@ -36,12 +36,12 @@ def test_annotations_have_place_severity_and_message(
     check: Check, diagnostics: list[dict[str, Any]]
 ) -> None:
     commands = {"error": "error", "warning": "warning", "info": "notice"}
-    found = [read(line) for line in check("--format", "github").splitlines()]
-    assert f"src/talker/{ODD_NAME}" in {properties["file"] for _, properties, _ in found}
+    findings = [read(line) for line in check("--format", "github").splitlines()]
+    assert f"src/talker/{ODD_NAME}" in {properties["file"] for _, properties, _ in findings}
     order = ["error", "warning", "info"]
     expected = sorted(diagnostics, key=lambda one: order.index(one["severity"]))
-    assert len(found) == len(expected)
-    for (command, properties, message), one in zip(found, expected, strict=True):
+    assert len(findings) == len(expected)
+    for (command, properties, message), one in zip(findings, expected, strict=True):
         assert command == commands[one["severity"]]
         assert properties["file"] == one["path"]
         assert properties["line"] == str(one["line"])
@@ -71,7 +71,7 @@ def test_job_summary_is_appended(
     ]
     levels = ["error", "warning", "info"]
     shown = [line.split(" ")[1] for line in table]
-    assert shown == sorted((one["severity"] for one in diagnostics), key=levels.index)
+    assert shown == sorted((item["severity"] for item in diagnostics), key=levels.index)
     assert "| F401 | unused-import | warning | 2 |" in text
     check("--format", "github")  # a remembered run adds its summary, too
     assert summary.read_text().count("### ros2-scaffold check") == 2

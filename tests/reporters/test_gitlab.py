@@ -49,8 +49,12 @@ def test_every_finding_has_the_documented_fields(
     report = json.loads(text)
     jsonschema.validate(report, SCHEMA)
     severities = {"error": "major", "warning": "minor", "info": "info"}
-    assert [(one["check_name"], one["severity"], one["location"]["path"]) for one in report] == [
-        (one["code"], severities[one["severity"]], one["path"]) for one in diagnostics
+    assert [
+        (finding["check_name"], finding["severity"], finding["location"]["path"])
+        for finding in report
+    ] == [
+        (finding["code"], severities[finding["severity"]], finding["path"])
+        for finding in diagnostics
     ]
 
 
@@ -58,13 +62,13 @@ def test_fingerprints_are_unique_and_independent_of_line_numbers(
     check: Check, repository: Path
 ) -> None:
     before = json.loads(check("--format", "gitlab"))
-    names = [one["fingerprint"] for one in before]
+    names = [item["fingerprint"] for item in before]
     assert len({*names}) == len(names)
     path = repository / "src" / "talker" / "talker" / "talk.py"
     path.write_text(path.read_text().replace("import os\n", "import os\n\n\nLIMIT = 1\n"))
     after = json.loads(check("--format", "gitlab"))
-    assert [one["fingerprint"] for one in after] == names
-    assert [one["location"] for one in after] != [one["location"] for one in before]
+    assert [item["fingerprint"] for item in after] == names
+    assert [item["location"] for item in after] != [item["location"] for item in before]
 
 
 def test_clean_package_gives_an_empty_array(check: Check) -> None:

@@ -41,11 +41,13 @@ def _apply(edit: dict[str, Any]) -> None:
 
 
 def test_a_fix_names_the_files_that_it_creates(check: Check, diagnostics: list[Finding]) -> None:
-    (creating,) = [one for one in diagnostics if one["fix"] and one["fix"]["creates"]]
+    (creating,) = [
+        finding for finding in diagnostics if finding["fix"] and finding["fix"]["creates"]
+    ]
     for file in creating["fix"]["creates"]:
         Path(file["path"]).write_text(file["text"])
     remaining = json.loads(check("--format", "json"))["diagnostics"]
-    assert creating["code"] not in {one["code"] for one in remaining}
+    assert creating["code"] not in {finding["code"] for finding in remaining}
 
 
 def test_a_fix_of_a_whole_file_is_written_once(check: Check, repository: Path) -> None:
@@ -56,7 +58,7 @@ def test_a_fix_of_a_whole_file_is_written_once(check: Check, repository: Path) -
         f"cmake_minimum_required(VERSION 3.8)\nproject(talker)\n{commands}ament_package()\n"
     )
     report = json.loads(check("--format", "json", "--select", "CM076"))["diagnostics"]
-    first, *others = [one["fix"] for one in report]
+    first, *others = [item["fix"] for item in report]
     assert len(first["edits"]) == len(report) == count
     assert others == [{"title": first["title"], "safety": "safe", "same_as": 0}] * len(others)
 
@@ -64,7 +66,7 @@ def test_a_fix_of_a_whole_file_is_written_once(check: Check, repository: Path) -
 def test_a_rule_has_no_url_where_nothing_names_the_repository(
     diagnostics: list[Finding],
 ) -> None:
-    assert {one["url"] for one in diagnostics} == {None}
+    assert {item["url"] for item in diagnostics} == {None}
 
 
 def test_the_url_of_a_rule_is_its_page_in_the_repository(repository: Path, tmp_path: Path) -> None:
@@ -85,7 +87,7 @@ def test_the_url_of_a_rule_is_its_page_in_the_repository(repository: Path, tmp_p
     )
     report = json.loads(done.stdout)["diagnostics"]
     assert report
-    for one in report:
-        assert one["url"] == f"https://example.org/tool/blob/HEAD/docs/rules/{one['code']}.md"
-        page = f"docs/rules/{one['code']}.md"
+    for item in report:
+        assert item["url"] == f"https://example.org/tool/blob/HEAD/docs/rules/{item['code']}.md"
+        page = f"docs/rules/{item['code']}.md"
         assert (Path(__file__).parents[2] / page).is_file()

@@ -43,15 +43,22 @@ def test_colcon_counts_a_case_per_rule_and_file(
     build = tmp_path / "build"
     build.mkdir()
     check("--format", "junit", "--output-file", str(build / "check.xunit.xml"))
-    cases = {(one["code"], one["path"]) for one in diagnostics}
-    failures = {(one["code"], one["path"]) for one in diagnostics if one["severity"] != "info"}
+    cases = {(finding["code"], finding["path"]) for finding in diagnostics}
+    failures = {
+        (finding["code"], finding["path"])
+        for finding in diagnostics
+        if finding["severity"] != "info"
+    }
     code, output = test_result(build, "--verbose")
     assert code == 1
     assert f"{len(cases)} tests, 0 errors, {len(failures)} failures, 0 skipped" in output
-    for one in diagnostics:
-        if one["severity"] == "info":
+    for finding in diagnostics:
+        if finding["severity"] == "info":
             continue
-        assert f"{one['line']}:{one['column']}: {one['code']} {one['message']}" in output
+        assert (
+            f"{finding['line']}:{finding['column']}: {finding['code']} {finding['message']}"
+            in output
+        )
 
 
 def test_a_clean_package_is_a_case_that_passes(check: Check, tmp_path: Path) -> None:

@@ -31,7 +31,7 @@ def test_file_equals_standard_output(
     assert str(path) in output.err
     assert path.read_text() == expected
     assert os.listdir(tmp_path).count("report") == 1
-    assert not [one for one in os.listdir(tmp_path) if one.endswith(".tmp")]
+    assert not [item for item in os.listdir(tmp_path) if item.endswith(".tmp")]
 
 
 def test_text_for_a_file_has_no_colors(repository: Path, tmp_path: Path) -> None:

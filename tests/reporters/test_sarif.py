@@ -27,9 +27,9 @@ def run(check: Check) -> dict[str, Any]:
 def _run(text: str) -> dict[str, Any]:
     report = json.loads(text)
     jsonschema.validate(report, SCHEMA)
-    (found,) = report["runs"]
-    assert isinstance(found, dict)
-    return found
+    (item,) = report["runs"]
+    assert isinstance(item, dict)
+    return item
 
 
 def test_every_finding_has_its_location(
@@ -38,18 +38,18 @@ def test_every_finding_has_its_location(
     levels = {"error": "error", "warning": "warning", "info": "note"}
     expected = [
         {
-            "rule": one["code"],
-            "level": levels[one["severity"]],
-            "message": one["message"],
-            "path": one["path"],
-            "region": [one[name] for name in ("line", "column", "end_line", "end_column")],
+            "rule": finding["code"],
+            "level": levels[finding["severity"]],
+            "message": finding["message"],
+            "path": finding["path"],
+            "region": [finding[name] for name in ("line", "column", "end_line", "end_column")],
         }
-        for one in diagnostics
+        for finding in diagnostics
     ]
-    found = []
+    actual = []
     for result in run["results"]:
         place = result["locations"][0]["physicalLocation"]
-        found.append(
+        actual.append(
             {
                 "rule": result["ruleId"],
                 "level": result["level"],
@@ -58,8 +58,8 @@ def test_every_finding_has_its_location(
                 "region": [*place["region"].values()],
             }
         )
-    assert found == expected
-    assert found
+    assert actual == expected
+    assert actual
 
 
 def test_rules_of_findings_are_documented(run: dict[str, Any]) -> None:
@@ -74,7 +74,7 @@ def test_rules_of_findings_are_documented(run: dict[str, Any]) -> None:
 
 
 def test_edits_of_a_fix_are_replacements(run: dict[str, Any], repository: Path) -> None:
-    (quotes,) = [one for one in run["results"] if one["ruleId"] == "Q000"]
+    (quotes,) = [item for item in run["results"] if item["ruleId"] == "Q000"]
     (fix,) = quotes["fixes"]
     (change,) = fix["artifactChanges"]
     path = repository / unquote(change["artifactLocation"]["uri"])
@@ -94,7 +94,9 @@ def test_edits_of_a_fix_are_replacements(run: dict[str, Any], repository: Path) 
 def test_fix_that_creates_a_file_is_omitted(
     run: dict[str, Any], diagnostics: list[dict[str, Any]]
 ) -> None:
-    creating = {one["code"] for one in diagnostics if one["fix"] and one["fix"]["creates"]}
+    creating = {
+        finding["code"] for finding in diagnostics if finding["fix"] and finding["fix"]["creates"]
+    }
     assert creating
     for result in run["results"]:
         assert ("fixes" in result) <= (result["ruleId"] not in creating)
@@ -106,9 +108,9 @@ def test_moved_lines_keep_their_fingerprints(check: Check, repository: Path) -> 
     text = path.read_text()
     path.write_text(text.replace("import os\n", "import os\n\n\nLIMIT = 1\n"))
     after = _run(check("--format", "sarif"))["results"]
-    assert [_line(one) for one in before] != [_line(one) for one in after]
-    names = [one["partialFingerprints"]["finding/v1"] for one in before]
-    assert names == [one["partialFingerprints"]["finding/v1"] for one in after]
+    assert [_line(item) for item in before] != [_line(item) for item in after]
+    names = [item["partialFingerprints"]["finding/v1"] for item in before]
+    assert names == [item["partialFingerprints"]["finding/v1"] for item in after]
     assert len({*names}) == len(names)
 
 
@@ -123,7 +125,7 @@ def test_identical_findings_have_distinct_fingerprints(check: Check, repository:
     path.write_text(path.read_text() + '    print("hällo")\n')
     results = _run(check("--format", "sarif", "--select", "Q000"))["results"]
     assert len(results) == 2
-    assert len({one["partialFingerprints"]["finding/v1"] for one in results}) == 2
+    assert len({item["partialFingerprints"]["finding/v1"] for item in results}) == 2
 
 
 @pytest.mark.parametrize(
@@ -159,8 +161,8 @@ def test_paths_are_relative_to_the_repository(
 
 def _paths(text: str) -> set[str]:
     return {
-        one["locations"][0]["physicalLocation"]["artifactLocation"]["uri"]
-        for one in _run(text)["results"]
+        item["locations"][0]["physicalLocation"]["artifactLocation"]["uri"]
+        for item in _run(text)["results"]
     }
 
 

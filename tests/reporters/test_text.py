@@ -106,7 +106,9 @@ def test_terminal_folds_style_findings_while_there_are_errors(workspace: Path) -
     code, lines = on_terminal(workspace, "robot")
     assert code == 1
     assert not [line for line in findings(lines) if " Q000 " in line]
-    assert any(re.match(r"robot: \d+ style findings, \d+ fixable with --fix", one) for one in lines)
+    assert any(
+        re.match(r"robot: \d+ style findings, \d+ fixable with --fix", item) for item in lines
+    )
     assert lines[-1].startswith("1 package, ")
     _, shown = on_terminal(workspace, "--style", "robot", lines=200)
     assert [line for line in findings(shown) if " Q000 " in line]

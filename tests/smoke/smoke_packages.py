@@ -280,7 +280,7 @@ def write(root: Path, files: Mapping[str, str]) -> Path:
 
 def python_package(root: Path, name: str, modules: Mapping[str, str]) -> Path:
     """Write an ament_python package with one executable for each module."""
-    scripts = "\n".join(f"            '{one} = {name}.{one}:main'," for one in modules)
+    scripts = "\n".join(f"            '{item} = {name}.{item}:main'," for item in modules)
     return write(
         root / name,
         {
@@ -296,7 +296,7 @@ def python_package(root: Path, name: str, modules: Mapping[str, str]) -> Path:
 
 def cmake_package(root: Path, name: str, modules: Mapping[str, str]) -> Path:
     """Write an ament_cmake package with one executable for each module."""
-    scripts = "\n".join(f"    {name}/{one}.py" for one in modules)
+    scripts = "\n".join(f"    {name}/{item}.py" for item in modules)
     buildtool = "<buildtool_depend>ament_cmake_python</buildtool_depend>"
     return write(
         root / name,

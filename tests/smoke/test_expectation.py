@@ -127,11 +127,11 @@ def test_rate_and_certainty_of_publications(
     init: str, methods: str, rate: float | None, publishes: str
 ) -> None:
     certain, never = publishes == "certain", publishes == "never"
-    found = expectations(node(init, methods))["run"]
-    (publication,) = found.publications
+    result = expectations(node(init, methods))["run"]
+    (publication,) = result.publications
     assert (publication.topic, publication.type) == ("/words", STRING)
     assert (publication.rate_hz, publication.certain, publication.never) == (rate, certain, never)
-    assert (found.is_node, found.source) == (True, "demo/run.py")
+    assert (result.is_node, result.source) == (True, "demo/run.py")
 
 
 @pytest.mark.parametrize(
@@ -147,7 +147,7 @@ def test_rate_and_certainty_of_publications(
 )
 def test_full_name_of_topics(name: str, arguments: str, topic: str) -> None:
     source = talker(name).replace("('talker')", f"('talker'{arguments})")
-    assert [one.topic for one in expectations(python(source))["run"].publications] == [topic]
+    assert [item.topic for item in expectations(python(source))["run"].publications] == [topic]
 
 
 @pytest.mark.parametrize("arguments", [", namespace=unknown()", ", cli_args=[]", ", **options"])
@@ -162,8 +162,8 @@ def test_unknown_node_name_gives_no_expectation(arguments: str) -> None:
 )
 def test_program_with_own_ros_arguments_gives_no_names(words: str) -> None:
     source = talker("words").replace("rclpy.init(args=args)", f"rclpy.init(args={words})")
-    found = expectations(python(source))["run"]
-    assert (found.publications, found.is_node) == ((), True)
+    result = expectations(python(source))["run"]
+    assert (result.publications, result.is_node) == ((), True)
 
 
 def test_node_class_that_is_not_instantiated_is_ignored() -> None:
@@ -175,8 +175,8 @@ def test_node_of_another_module() -> None:
     main = (
         "import rclpy\nfrom demo.nodes import Talker\n\n\ndef main():\n    rclpy.spin(Talker())\n"
     )
-    found = expectations(python(main, nodes=talker("/words")))["run"]
-    assert [(one.topic, one.type) for one in found.publications] == [("/words", STRING)]
+    result = expectations(python(main, nodes=talker("/words")))["run"]
+    assert [(item.topic, item.type) for item in result.publications] == [("/words", STRING)]
 
 
 @pytest.mark.parametrize(
@@ -191,8 +191,8 @@ def test_node_of_another_module() -> None:
 def test_publications_in_constructor_and_main(
     init: str, main: str, rate: float | None, certain: bool
 ) -> None:
-    one = expectations(node(init, TICK, main))["run"].publications[0]
-    assert (one.rate_hz, one.certain, one.never) == (rate, certain, False)
+    item = expectations(node(init, TICK, main))["run"].publications[0]
+    assert (item.rate_hz, item.certain, item.never) == (rate, certain, False)
 
 
 def test_publisher_attribute_initialized_with_none() -> None:
@@ -229,9 +229,9 @@ def test_script_that_never_calls_main_runs_nothing(guard: bool, runs_nothing: bo
         },
         executable=("scripts/run.py",),
     )
-    found = expectations(package)["run"]
-    assert found.runs_nothing is runs_nothing
-    assert len(found.publications) == (1 if guard else 0)
+    result = expectations(package)["run"]
+    assert result.runs_nothing is runs_nothing
+    assert len(result.publications) == (1 if guard else 0)
 
 
 @pytest.mark.parametrize(

@@ -138,8 +138,8 @@ def test_cpp_is_only_generated_for_dependencies_of_interfaces(
     made = Package.of({"package.xml": manifest, "msg/Made.msg": "bool it\n"})
     result, announced = provided(wheels(tmp_path), package_depending_on("std_srvs"), tmp_path, made)
     assert announced == []
-    found = result.variables["AMENT_PREFIX_PATH"].split(os.pathsep)
-    assert [os.path.basename(prefix) for prefix in found[:2]] == ["std_srvs", "ackermann_msgs"]
+    actual = result.variables["AMENT_PREFIX_PATH"].split(os.pathsep)
+    assert [os.path.basename(prefix) for prefix in actual[:2]] == ["std_srvs", "ackermann_msgs"]
 
 
 # -- CMake

@@ -98,9 +98,9 @@ def test_interrupted_run_reports_its_observations(tmp_path: Path) -> None:
     ) as run:  # fmt: skip
         wait_until(heard.exists)
         run.send_signal(signal.SIGINT)
-        _, said = run.communicate(timeout=PATIENCE)
+        _, errors = run.communicate(timeout=PATIENCE)
 
-    assert (run.returncode, said) == (130, "ros2-scaffold: interrupted by SIGINT\n")
+    assert (run.returncode, errors) == (130, "ros2-scaffold: interrupted by SIGINT\n")
     data = json.loads(report.read_text(encoding="utf-8"))
     jsonschema.validate(data, schema())
     (executable,) = data["packages"][0]["executables"]

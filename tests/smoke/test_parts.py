@@ -55,16 +55,16 @@ def test_environment_of_wheels_inherits_nothing(tmp_path: Path) -> None:
         "RMW_IMPLEMENTATION": "rmw_no_such_thing", "ROS_DOMAIN_ID": "5", "LD_PRELOAD": "x.so",
         "COLCON_DEFAULTS_FILE": "/elsewhere",
     }  # fmt: skip
-    found = environment.select(user, installed=tmp_path)
-    assert (found.kind, found.prefix, found.rmw) == ("wheels", sys.prefix, "rmw_fastrtps_cpp")
-    assert found.notes == ()
-    assert found.variables["PATH"] == f"{BINARIES}:/usr/bin"
-    assert found.variables["AMENT_PREFIX_PATH"] == sys.prefix
-    assert found.variables["RMW_IMPLEMENTATION"] == "rmw_fastrtps_cpp"
-    assert found.variables["HOME"] == "/home/user"
-    assert found.variables["LC_ALL"] == "C.UTF-8"
+    result = environment.select(user, installed=tmp_path)
+    assert (result.kind, result.prefix, result.rmw) == ("wheels", sys.prefix, "rmw_fastrtps_cpp")
+    assert result.notes == ()
+    assert result.variables["PATH"] == f"{BINARIES}:/usr/bin"
+    assert result.variables["AMENT_PREFIX_PATH"] == sys.prefix
+    assert result.variables["RMW_IMPLEMENTATION"] == "rmw_fastrtps_cpp"
+    assert result.variables["HOME"] == "/home/user"
+    assert result.variables["LC_ALL"] == "C.UTF-8"
     gone = {"PYTHONPATH", "ROS_DOMAIN_ID", "LD_PRELOAD", "COLCON_DEFAULTS_FILE"}
-    assert gone.isdisjoint(found.variables)
+    assert gone.isdisjoint(result.variables)
 
 
 @needs_wheels
@@ -73,11 +73,11 @@ def test_sourced_environment_takes_precedence(tmp_path: Path) -> None:
         "PATH": f"{BINARIES}:/usr/bin:/bin", "AMENT_PREFIX_PATH": sys.prefix, "MINE": "kept",
         "ROS_STATIC_PEERS": "10.0.0.1", "RMW_IMPLEMENTATION": "rmw_fastrtps_cpp",
     }  # fmt: skip
-    found = environment.select(user, installed=tmp_path)
-    assert (found.kind, found.prefix) == ("sourced", sys.prefix)
-    assert (found.python, found.colcon) == (f"{BINARIES}/python3", f"{BINARIES}/colcon")
-    assert found.variables["MINE"] == "kept"
-    assert "ROS_STATIC_PEERS" not in found.variables
+    result = environment.select(user, installed=tmp_path)
+    assert (result.kind, result.prefix) == ("sourced", sys.prefix)
+    assert (result.python, result.colcon) == (f"{BINARIES}/python3", f"{BINARIES}/colcon")
+    assert result.variables["MINE"] == "kept"
+    assert "ROS_STATIC_PEERS" not in result.variables
 
 
 @needs_wheels
@@ -87,8 +87,8 @@ def test_middleware_that_is_not_installed_is_replaced(tmp_path: Path) -> None:
         "AMENT_PREFIX_PATH": sys.prefix,
         "RMW_IMPLEMENTATION": "rmw_no_such_thing",
     }
-    found = environment.select(user, installed=tmp_path)
-    assert (found.kind, found.rmw) == ("sourced", "rmw_fastrtps_cpp")
+    result = environment.select(user, installed=tmp_path)
+    assert (result.kind, result.rmw) == ("sourced", "rmw_fastrtps_cpp")
 
 
 @needs_wheels
@@ -100,10 +100,10 @@ def test_installation_is_sourced(tmp_path: Path) -> None:
             f"export PATH={BINARIES}:/usr/bin:/bin\n"
         )
     user = {"PATH": "/usr/bin:/bin", "RMW_IMPLEMENTATION": "rmw_no_such_thing", "MINE": "kept"}
-    found = environment.select(user, installed=tmp_path)
-    assert (found.kind, found.prefix, found.rmw) == ("installed", sys.prefix, "rmw_fastrtps_cpp")
-    assert found.variables["ROS_DISTRO"] == "jazzy"
-    assert found.variables["MINE"] == "kept"
+    result = environment.select(user, installed=tmp_path)
+    assert (result.kind, result.prefix, result.rmw) == ("installed", sys.prefix, "rmw_fastrtps_cpp")
+    assert result.variables["ROS_DISTRO"] == "jazzy"
+    assert result.variables["MINE"] == "kept"
 
 
 @needs_wheels
@@ -112,9 +112,9 @@ def test_unusable_environments_are_noted(tmp_path: Path) -> None:
     (tmp_path / "jazzy" / "setup.bash").write_text("echo no such file >&2; exit 3\n")
     user = {"PATH": str(tmp_path), "AMENT_PREFIX_PATH": "/nowhere"}
     user["PATH"] += ":/usr/bin:/bin"
-    found = environment.select(user, installed=tmp_path)
-    assert found.kind == "wheels"
-    sourced, installed = found.notes
+    result = environment.select(user, installed=tmp_path)
+    assert result.kind == "wheels"
+    sourced, installed = result.notes
     assert sourced.startswith("the sourced environment (AMENT_PREFIX_PATH is set) ")
     assert installed == f"{tmp_path}/jazzy/setup.bash cannot be sourced: no such file"
 
@@ -133,9 +133,9 @@ def test_no_environment_is_an_error(tmp_path: Path) -> None:
 
 
 def test_reserved_domains_are_distinct() -> None:
-    with domain.reserved() as one, domain.reserved() as other:
-        assert one != other
-        assert {one, other} <= set(range(1, 102))
+    with domain.reserved() as item, domain.reserved() as other:
+        assert item != other
+        assert {item, other} <= set(range(1, 102))
 
 
 def test_domains_reserved_by_other_processes_are_skipped() -> None:
@@ -158,8 +158,8 @@ def test_domain_of_a_process() -> None:
         first = 7400 + 250 * number + 12
         for port in (0, first, first + 1):
             assert number not in domain.domains_of([os.getpid()])
-            one = stack.enter_context(socket.socket(socket.AF_INET, socket.SOCK_DGRAM))
-            one.bind(("127.0.0.1", port))
+            item = stack.enter_context(socket.socket(socket.AF_INET, socket.SOCK_DGRAM))
+            item.bind(("127.0.0.1", port))
         assert number in domain.domains_of([os.getpid()])
         assert number not in domain.domains_of([1, 2**30])
 
@@ -299,7 +299,7 @@ def test_sweep_finds_orphaned_processes(tmp_path: Path) -> None:
         finally:
             await running.close()
 
-    assert [one.endswith("time.sleep(600)") for one in run_async(run)] == [True]
+    assert [item.endswith("time.sleep(600)") for item in run_async(run)] == [True]
     assert marks.marked(mark) == {}
 
 

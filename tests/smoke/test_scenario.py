@@ -237,8 +237,8 @@ def test_expected_values_of_a_field(
 ) -> None:
     scenario = Scenario(topics=(TopicExpectation("/t", fields=(expected,)),))
     observation = Observation(fields={"/t": {} if seen is None else {"x": seen}})
-    found = [str(item) for item in problems(scenario, observation)]
-    assert found == ([] if problem is None else [problem])
+    findings = [str(item) for item in problems(scenario, observation)]
+    assert findings == ([] if problem is None else [problem])
 
 
 @pytest.mark.parametrize(
@@ -256,8 +256,8 @@ def test_expected_response_of_a_service(
 ) -> None:
     scenario = Scenario(calls=(Call("service", "/add", "demo/srv/Add", answer=expected),))
     observation = Observation(answers={("service", "/add"): answer})
-    found = [str(item) for item in problems(scenario, observation)]
-    assert found == ([] if problem is None else [f"service /add{problem}"])
+    findings = [str(item) for item in problems(scenario, observation)]
+    assert findings == ([] if problem is None else [f"service /add{problem}"])
 
 
 # -- nodes
@@ -371,11 +371,11 @@ def test_node_that_misses_its_expectations(tmp_path: Path) -> None:
         "data of /doubled is 4.5: smoke.yaml expects at least 5",
         'service /switch returned message: "on": smoke.yaml expects "off"',
     )
-    found = server["problems"]
-    assert isinstance(found, list)
-    assert len(found) == len(expected)
+    findings = server["problems"]
+    assert isinstance(findings, list)
+    assert len(findings) == len(expected)
     for text in expected:
-        assert any(text in problem for problem in found), text
+        assert any(text in problem for problem in findings), text
 
 
 def test_documented_example_is_valid() -> None:

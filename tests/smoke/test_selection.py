@@ -42,8 +42,8 @@ def selected(workspace: Path, *words: str) -> tuple[list[str], list[str] | None]
     parser = argparse.ArgumentParser()
     verb.add_arguments(parser)
     options = parser.parse_args([str(workspace / "src"), *words])
-    found = targets.find(options.paths)
-    packages, names = verb._selected(options, found, packages_of(found))  # noqa: SLF001
+    result = targets.find(options.paths)
+    packages, names = verb._selected(options, result, packages_of(result))  # noqa: SLF001
     return [item.name for item in packages], None if names is None else sorted(names)
 
 

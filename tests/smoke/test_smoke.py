@@ -76,8 +76,8 @@ def packages(
         patch.setattr("tempfile.tempdir", None)
         patch.setenv("RMW_IMPLEMENTATION", "rmw_no_such_thing")
         patch.setenv("ROS_DOMAIN_ID", "232")
-        found = packages_of(targets.find([str(sources)]))
-        result = smoke(found, Options(duration=2.0, timeout=TIMEOUT, jobs=6))
+        actual = packages_of(targets.find([str(sources)]))
+        result = smoke(actual, Options(duration=2.0, timeout=TIMEOUT, jobs=6))
     assert processes_of(tmp) == []
     assert list(tmp.iterdir()) == []
     assert shared_memory.segments() - before - shared_memory.used_by_anybody() == set()
@@ -91,16 +91,16 @@ def is_about_10(rate: float) -> bool:
 
 
 def executable(packages: dict[str, Result], package: str, name: str) -> Result:
-    found: list[Result] = packages[package]["executables"]
-    return next(one for one in found if one["name"] == name)
+    result: list[Result] = packages[package]["executables"]
+    return next(item for item in result if item["name"] == name)
 
 
 def failed_executable(packages: dict[str, Result], name: str) -> tuple[Result, str]:
     """Return the report of a failed executable, and its only problem."""
-    found = executable(packages, "bad_py", name)
-    assert not found["ok"]
-    (problem,) = found["problems"]
-    return found, problem
+    result = executable(packages, "bad_py", name)
+    assert not result["ok"]
+    (problem,) = result["problems"]
+    return result, problem
 
 
 @pytest.mark.parametrize(("package", "name"), [("good_py", "talker"), ("good_cmake", "talker.py")])
@@ -109,10 +109,10 @@ def test_good_publisher_has_no_problems(
 ) -> None:
     assert packages[package]["build"]["ok"]
     assert packages[package]["build"]["warnings"] == []
-    found = executable(packages, package, name)
+    result = executable(packages, package, name)
 
-    assert (found["ok"], found["problems"], found["nodes"]) == (True, [], ["/talker"])
-    (topic,) = found["topics"]
+    assert (result["ok"], result["problems"], result["nodes"]) == (True, [], ["/talker"])
+    (topic,) = result["topics"]
     assert (topic["name"], topic["type"]) == ("/numbers", "std_msgs/msg/String")
     assert (topic["publishers"], topic["subscribers"]) == (1, 0)
     assert is_about_10(topic["rate_hz"])
@@ -120,8 +120,8 @@ def test_good_publisher_has_no_problems(
     texts = [message["data"] for message in topic["messages"]]
     first = int(texts[0].removeprefix("number "))
     assert texts == [f"number {first + step}" for step in range(5)]
-    assert (found["stop"]["signal"], found["stop"]["exit_code"]) == ("SIGINT", 0)
-    assert found["stop"]["traceback"] is None
+    assert (result["stop"]["signal"], result["stop"]["exit_code"]) == ("SIGINT", 0)
+    assert result["stop"]["traceback"] is None
 
 
 def test_keys_of_the_report(packages: dict[str, Result]) -> None:
@@ -130,57 +130,57 @@ def test_keys_of_the_report(packages: dict[str, Result]) -> None:
         "name", "dependency", "worker", "build", "executables", "together", "launches", "tests",
     }  # fmt: skip
     assert set(package["build"]) == {"ok", "interrupted", "seconds", "errors", "warnings"}
-    found = executable(packages, "good_py", "talker")
-    assert set(found) == {
+    result = executable(packages, "good_py", "talker")
+    assert set(result) == {
         "name", "ok", "interrupted", "nodes", "topics", "services", "actions", "parameters",
         "transitions", "log", "usage", "stop", "problems", "notes",
     }  # fmt: skip
-    assert set(found["topics"][0]) == {
+    assert set(result["topics"][0]) == {
         "name", "type", "publishers", "subscribers", "rate_hz", "count", "messages", "endpoints",
         "first_after", "lost", "interval", "bytes", "size", "bandwidth", "delay", "transport",
         "rates",
     }  # fmt: skip
-    assert set(found["stop"]) == {"signal", "exit_code", "seconds", "traceback"}
+    assert set(result["stop"]) == {"signal", "exit_code", "seconds", "traceback"}
 
 
 def test_namespace_latched_message_and_relay(packages: dict[str, Result]) -> None:
-    found = executable(packages, "good_py", "listener")
-    assert (found["ok"], found["nodes"]) == (True, ["/deep/listener"])
-    topics = {topic["name"]: topic for topic in found["topics"]}
+    result = executable(packages, "good_py", "listener")
+    assert (result["ok"], result["nodes"]) == (True, ["/deep/listener"])
+    topics = {topic["name"]: topic for topic in result["topics"]}
     assert set(topics) == {"/deep/listener/kept", "/deep/relayed", "/heard"}
     kept = topics["/deep/listener/kept"]
     assert (kept["type"], kept["count"]) == ("std_msgs/msg/Float32MultiArray", 1)
     assert kept["rate_hz"] is None
     assert kept["messages"][0]["data"] == [0.1] * 16 + ["..."]
     assert (topics["/heard"]["publishers"], topics["/heard"]["subscribers"]) == (0, 1)
-    assert found["notes"] == ["no message on /deep/relayed: it is only published on some event"]
-    assert found["services"] == [
+    assert result["notes"] == ["no message on /deep/relayed: it is only published on some event"]
+    assert result["services"] == [
         {"name": "/deep/answers", "type": "rcl_interfaces/srv/ListParameters"}
     ]
 
 
 def test_program_that_is_no_node(packages: dict[str, Result]) -> None:
-    found = executable(packages, "good_py", "once")
-    assert (found["ok"], found["nodes"], found["topics"]) == (True, [], [])
-    assert (found["stop"]["signal"], found["stop"]["exit_code"]) == (None, 0)
-    assert found["notes"][0].startswith("exited by itself after ")
+    result = executable(packages, "good_py", "once")
+    assert (result["ok"], result["nodes"], result["topics"]) == (True, [], [])
+    assert (result["stop"]["signal"], result["stop"]["exit_code"]) == (None, 0)
+    assert result["notes"][0].startswith("exited by itself after ")
 
 
 def test_crash_at_start(packages: dict[str, Result]) -> None:
-    found, problem = failed_executable(packages, "crashes")
+    result, problem = failed_executable(packages, "crashes")
     assert problem.splitlines()[0] == (
         "crashed at start, exit code 1: RuntimeError: no configuration found"
     )
     assert '  File "bad_py/crashes.py", line 8, in read_configuration' in problem
-    assert (found["nodes"], found["stop"]["exit_code"]) == ([], 1)
+    assert (result["nodes"], result["stop"]["exit_code"]) == ([], 1)
 
 
 def test_crash_after_start(packages: dict[str, Result]) -> None:
-    found, problem = failed_executable(packages, "crashes_later")
+    result, problem = failed_executable(packages, "crashes_later")
     assert problem.splitlines()[0].endswith("s, exit code 1: ValueError: the counter is worn out")
     assert problem.startswith("crashed after ")
-    assert found["nodes"] == ["/talker"]
-    assert 1 <= found["topics"][0]["count"] <= 8
+    assert result["nodes"] == ["/talker"]
+    assert 1 <= result["topics"][0]["count"] <= 8
 
 
 def test_program_that_hangs_before_creating_a_node(packages: dict[str, Result]) -> None:
@@ -191,9 +191,9 @@ def test_program_that_hangs_before_creating_a_node(packages: dict[str, Result]) 
 
 
 def test_program_that_ignores_signals(packages: dict[str, Result]) -> None:
-    found, problem = failed_executable(packages, "ignores")
+    result, problem = failed_executable(packages, "ignores")
     assert problem == "ignored SIGINT: still running after 5 s, SIGKILL ended it"
-    assert (found["stop"]["signal"], found["stop"]["exit_code"]) == ("SIGKILL", -9)
+    assert (result["stop"]["signal"], result["stop"]["exit_code"]) == ("SIGKILL", -9)
 
 
 def test_program_that_leaves_a_process(packages: dict[str, Result]) -> None:
@@ -203,37 +203,37 @@ def test_program_that_leaves_a_process(packages: dict[str, Result]) -> None:
 
 
 def test_node_that_never_publishes(packages: dict[str, Result]) -> None:
-    found, problem = failed_executable(packages, "silent")
+    result, problem = failed_executable(packages, "silent")
     assert problem == "no message on /silent: no running code calls publish()"
-    assert found["topics"][0]["count"] == 0
+    assert result["topics"][0]["count"] == 0
 
 
 def test_node_with_wrong_rate(packages: dict[str, Result]) -> None:
-    found, problem = failed_executable(packages, "slow")
+    result, problem = failed_executable(packages, "slow")
     # How slow the machine is decides whether the rate or the count is reported.
     assert problem.startswith(("/slow comes at ", "only "))
     assert problem.endswith(": bad_py/slow.py publishes std_msgs/msg/String at 10 Hz")
-    assert (found["topics"][0]["rate_hz"] or 0) < 6.0
+    assert (result["topics"][0]["rate_hz"] or 0) < 6.0
 
 
 def test_wrong_rate_in_one_of_two_runs_is_a_note(packages: dict[str, Result]) -> None:
-    found = executable(packages, "bad_py", "late_once")
-    assert (found["ok"], found["problems"]) == (True, [])
-    (note,) = found["notes"]
+    result = executable(packages, "bad_py", "late_once")
+    assert (result["ok"], result["problems"]) == (True, [])
+    (note,) = result["notes"]
     # How late the first run is decides whether its rate or its count is reported.
     reported = ("/late_once comes at ", "only ")
     assert note.removeprefix("in the first of two runs only: ").startswith(reported)
     assert note.endswith(": bad_py/late_once.py publishes std_msgs/msg/String at 10 Hz")
-    assert is_about_10(found["topics"][0]["rate_hz"])
+    assert is_about_10(result["topics"][0]["rate_hz"])
 
 
 def test_traceback_on_shutdown(packages: dict[str, Result]) -> None:
-    found, problem = failed_executable(packages, "traceback")
+    result, problem = failed_executable(packages, "traceback")
     assert problem.splitlines()[0] == (
         "does not stop cleanly on SIGINT, killed by SIGINT: KeyboardInterrupt"
     )
-    assert found["stop"]["exit_code"] == -2
-    assert found["stop"]["traceback"].endswith("\nKeyboardInterrupt")
+    assert result["stop"]["exit_code"] == -2
+    assert result["stop"]["traceback"].endswith("\nKeyboardInterrupt")
 
 
 def test_node_that_is_not_spun(packages: dict[str, Result]) -> None:
@@ -243,12 +243,12 @@ def test_node_that_is_not_spun(packages: dict[str, Result]) -> None:
 
 
 def test_node_that_exits_before_publishing(packages: dict[str, Result]) -> None:
-    found, problem = failed_executable(packages, "leaves")
+    result, problem = failed_executable(packages, "leaves")
     assert problem.startswith("exited by itself after ")
     assert problem.endswith(
         "before a message on /leaves: bad_py/leaves.py publishes std_msgs/msg/String at 2 Hz"
     )
-    assert (found["stop"]["signal"], found["stop"]["exit_code"]) == (None, 0)
+    assert (result["stop"]["signal"], result["stop"]["exit_code"]) == (None, 0)
 
 
 def test_package_that_does_not_build(packages: dict[str, Result]) -> None:
@@ -292,18 +292,18 @@ def test_package_with_a_broken_manifest(tmp_path: Path) -> None:
 
 
 def test_build_timeout(sources: Path) -> None:
-    found = packages_of(targets.find([str(sources / "good_py")]))
-    result = smoke(found, Options(build_timeout=0.1))
+    actual = packages_of(targets.find([str(sources / "good_py")]))
+    result = smoke(actual, Options(build_timeout=0.1))
     assert not result.ok
     assert result.packages[0].build.errors[-1] == "the build did not finish within 0.1 s"
 
 
 def test_executable_not_found_by_ros2_run(packages: dict[str, Result]) -> None:
-    found = executable(packages, "uninstalled", "once")
-    assert found["problems"] == [
+    result = executable(packages, "uninstalled", "once")
+    assert result["problems"] == [
         "ros2 run does not find it: it is declared, but not in lib/uninstalled"
     ]
-    assert found["stop"]["exit_code"] is None
+    assert result["stop"]["exit_code"] is None
 
 
 def test_sources_are_not_changed(
@@ -382,14 +382,14 @@ def test_interrupted_while_running(
         stdout=subprocess.PIPE,
         text=True,
     ) as run:
-        wait_until(lambda: any("lib/good_py/talker" in one for one in processes_of(tmp_path)))
+        wait_until(lambda: any("lib/good_py/talker" in item for item in processes_of(tmp_path)))
         run.send_signal(number)
-        report, said = run.communicate(timeout=PATIENCE)
+        report, errors = run.communicate(timeout=PATIENCE)
     assert run.returncode == code
     wait_until(lambda: processes_of(tmp_path) == [])
     if number != signal.SIGKILL:
         assert f"\nended early: interrupted by {number.name}\n" in report
-        assert said == f"ros2-scaffold: interrupted by {number.name}\n"
+        assert errors == f"ros2-scaffold: interrupted by {number.name}\n"
         assert list(tmp_path.iterdir()) == []
 
 
@@ -397,7 +397,7 @@ def test_interrupted_during_the_build(sources: Path, tmp_path: Path) -> None:
     with subprocess.Popen(
         command_line(sources / "good_py"), env=variables(tmp_path), stderr=subprocess.PIPE
     ) as run:
-        wait_until(lambda: any("setup.py" in one for one in processes_of(tmp_path)))
+        wait_until(lambda: any("setup.py" in item for item in processes_of(tmp_path)))
         run.send_signal(signal.SIGINT)
         run.communicate(timeout=PATIENCE)
     assert run.returncode == 130

@@ -274,10 +274,10 @@ def test_process_of_killed_run_is_killed(state: Path, monkeypatch: pytest.Monkey
     line = first_line(state, None)
     with subprocess.Popen(["sleep", "600"]) as ours, subprocess.Popen(["sleep", "600"]) as other:
         entries = []
-        for one, shift in ((ours, 0), (other, 1)):
-            listed = table.of_pid(one.pid)
+        for item, shift in ((ours, 0), (other, 1)):
+            listed = table.of_pid(item.pid)
             assert listed is not None
-            entries.append((one.pid, listed.started + shift))
+            entries.append((item.pid, listed.started + shift))
         path = write_orphaned_ledger(state, "3" * 32, line, {"processes": entries})
         leftovers.sweep()
         assert ours.wait(PATIENCE) == -signal.SIGKILL
@@ -309,11 +309,11 @@ def test_run_without_a_writable_ledger_directory(state: Path) -> None:
 
 
 def test_locked_workspace_is_an_error(tmp_path: Path) -> None:
-    told: list[str] = []
+    messages: list[str] = []
     with (
-        locked(tmp_path, 0.0, told.append),
+        locked(tmp_path, 0.0, messages.append),
         pytest.raises(InputError) as caught,
-        locked(tmp_path, 0.2, told.append),
+        locked(tmp_path, 0.2, messages.append),
     ):
         pass
     holder = f"process {os.getpid()}"
@@ -321,7 +321,7 @@ def test_locked_workspace_is_an_error(tmp_path: Path) -> None:
         f"'{tmp_path}' is in use by another smoke ({holder}): wait for it, or choose another "
         "--workspace"
     )
-    assert told == [f"waiting for another smoke ({holder}) in '{tmp_path}'"]
+    assert messages == [f"waiting for another smoke ({holder}) in '{tmp_path}'"]
     assert list(tmp_path.iterdir()) == []
 
 
@@ -423,9 +423,9 @@ def test_interrupted_run_is_cleaned_up(
     tmp = tmp_path / "tmp"
     segments = segments_in_use(tmp)
     run.send_signal(number)
-    report, said = run.communicate(timeout=PATIENCE)
+    report, errors = run.communicate(timeout=PATIENCE)
     assert f"\nended early: interrupted by {number.name}\n" in report
-    assert said == f"ros2-scaffold: interrupted by {number.name}\n"
+    assert errors == f"ros2-scaffold: interrupted by {number.name}\n"
     assert run.returncode == 128 + number
     assert (processes_of(tmp), list(tmp.iterdir()), remaining_segments(segments)) == ([], [], set())
     assert list(tmp_path.glob("state/*/*/*")) == []
@@ -489,8 +489,8 @@ def test_interrupted_while_searching_for_ros(package: Path, tmp_path: Path) -> N
     ) as run:
         wait_until(lambda: "sleep 600" in " ".join(processes_of(tmp_path / "tmp")))
         run.send_signal(signal.SIGTERM)
-        _, said = run.communicate(timeout=PATIENCE)
-    assert (run.returncode, said) == (143, "ros2-scaffold: interrupted by SIGTERM\n")
+        _, errors = run.communicate(timeout=PATIENCE)
+    assert (run.returncode, errors) == (143, "ros2-scaffold: interrupted by SIGTERM\n")
     assert processes_of(tmp_path / "tmp") == []
     assert list((tmp_path / "tmp").iterdir()) == []
 

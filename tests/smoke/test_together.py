@@ -80,9 +80,11 @@ def subscription(kind: str = STRING, **changes: object) -> Endpoint:
 def test_incompatible_qos_is_reported(
     offered: Endpoint, wanted: Endpoint, reason: str | None
 ) -> None:
-    found = [str(item) for item in connections(Observation(topics=(topic("/t", offered, wanted),)))]
+    result = [
+        str(item) for item in connections(Observation(topics=(topic("/t", offered, wanted),)))
+    ]
     expected = f"/t: /listener receives nothing from /talker: {reason}"
-    assert found == ([expected] if reason else [])
+    assert result == ([expected] if reason else [])
 
 
 def test_misspelled_topic_is_reported() -> None:

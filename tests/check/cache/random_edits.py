@@ -138,12 +138,12 @@ def _copy(top: Path, random: Random) -> str:
 
 
 def _swap(top: Path, random: Random) -> str:
-    one, other = _random_file(top, random), _random_file(top, random)
-    first, second = one.read_bytes(), other.read_bytes()
-    if one.suffix == other.suffix:
-        one.write_bytes(second)
+    item, other = _random_file(top, random), _random_file(top, random)
+    first, second = item.read_bytes(), other.read_bytes()
+    if item.suffix == other.suffix:
+        item.write_bytes(second)
         other.write_bytes(first)
-    return f"{one} with {other}"
+    return f"{item} with {other}"
 
 
 def _touch(top: Path, random: Random) -> str:

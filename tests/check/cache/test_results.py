@@ -323,7 +323,8 @@ def test_changed_definitions_in_ament_prefix_path_are_noticed(
             '    """Say it."""\n    rclpy.init()\n'
             "    print(State(number=1))\n",
             "package.xml": MANIFEST.format(
-                "talker", "".join(f"  <depend>{one}</depend>\n" for one in ("rclpy", "robot_msgs"))
+                "talker",
+                "".join(f"  <depend>{item}</depend>\n" for item in ("rclpy", "robot_msgs")),
             ),
         },
     )
@@ -425,7 +426,7 @@ def test_partial_run_reports_the_same_as_a_full_one(
     for number in range(count):
         make_package(workspace, f"more_{number}")
     runs.settle(".")
-    for change, one in (
+    for change, item in (
         (edit, "alone"),
         (rename_module, "called"),
         (rename_package, "lonely"),
@@ -433,7 +434,7 @@ def test_partial_run_reports_the_same_as_a_full_one(
         (remove_licence, "caller"),
         (new_neighbour, "caller"),
     ):
-        change(workspace / one)
+        change(workspace / item)
         reported = runs(".")
         with monkeypatch.context() as context:
             context.setenv(cache.SWITCH, "1")
@@ -448,7 +449,7 @@ def test_change_in_packages_that_are_not_checked_is_noticed(
     """Only some packages are checked; the one that a launch file needs is not."""
     write_launch(workspace)
     more = [make_package(workspace, f"more_{number}") for number in range(count)]
-    given = ["caller", "alone", *(one.name for one in more)]
+    given = ["caller", "alone", *(item.name for item in more)]
     runs.settle(*given)
     for change in (rename_module, new_executable, shutil.rmtree):
         change(workspace / "called")
@@ -677,20 +678,20 @@ RUNS_A_PROGRAM = "xmllint.py"
 
 def _unrecorded_calls(path: Path) -> set[str]:
     """Return the calls that access the file system without recording it."""
-    found: set[str] = set()
+    result: set[str] = set()
     for node in ast.walk(ast.parse(path.read_text())):
         if isinstance(node, ast.Call):
             match node.func:
                 case ast.Name(id="open"):
-                    found.add("open")
+                    result.add("open")
                 case ast.Attribute(value=ast.Name("os" | "io"), attr=name) if name in ASKS:
-                    found.add(name)
+                    result.add(name)
                 case ast.Attribute(value=ast.Attribute(ast.Name("os")), attr=name) if name in ASKS:
-                    found.add(name)
+                    result.add(name)
         elif isinstance(node, ast.Import | ast.ImportFrom):
             names = [getattr(node, "module", None), *(alias.name for alias in node.names)]
-            found |= {"pathlib", "subprocess", "glob", "shutil"}.intersection(filter(None, names))
-    return found
+            result |= {"pathlib", "subprocess", "glob", "shutil"}.intersection(filter(None, names))
+    return result
 
 
 @pytest.mark.parametrize(

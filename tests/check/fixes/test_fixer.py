@@ -110,7 +110,7 @@ def test_fix_that_breaks_a_file_is_skipped() -> None:
     fixed = fixer.fix(Package.of({"a.py": before}), check)
     assert fixed.changed == {"a.py": b"x = 1\nb = 1\ny = 1\n"}
     assert fixed.applied == 2
-    assert [(one.message, one.fix) for one in fixed.diagnostics] == [("'b'", None)]
+    assert [(finding.message, finding.fix) for finding in fixed.diagnostics] == [("'b'", None)]
     assert not fixed.unsettled
 
 

@@ -62,9 +62,9 @@ def test_check_is_clean_afterwards_and_second_run_changes_nothing(
 ) -> None:
     before = {path: path.read_text() for path in talker.rglob("*") if path.is_file()}
     assert main(["check"]) == 1
-    found = capsys.readouterr().out
+    result = capsys.readouterr().out
     for name in ("extra.py", "other.py", "package.xml", "CMakeLists.txt"):
-        assert name in found
+        assert name in result
     assert main(["check", "--add-noqa"]) == 0
     captured = capsys.readouterr()
     assert captured.err.startswith("noqa added to ")

@@ -75,8 +75,8 @@ def start() -> Iterator[Callable[..., Terminal]]:
         return started[-1]
 
     yield begin
-    for one in started:
-        one.child.close(force=True)
+    for item in started:
+        item.child.close(force=True)
 
 
 @pytest.fixture
@@ -106,17 +106,17 @@ def answer_remaining_questions(terminal: Terminal, mail: str = "ada@example.com"
     terminal.answer("Who maintains the package:", "\x15Ada" + ENTER)
     terminal.answer("Mail address:", "\x15" + mail + ENTER)
     terminal.answer("Write the package?", ENTER)
-    said, code = terminal.end()
-    assert code == 0, said
-    return said
+    output, code = terminal.end()
+    assert code == 0, output
+    return output
 
 
 def test_shown_command_creates_the_same_package(
     terminal: Terminal, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     answer_publisher_questions(terminal)
-    said = answer_remaining_questions(terminal)
-    command = command_in(said)
+    output = answer_remaining_questions(terminal)
+    command = command_in(output)
     assert shlex.split(command) == [
         "ros2-scaffold",
         "new",
@@ -353,8 +353,8 @@ def test_files_are_previewed_before_writing(terminal: Terminal, tmp_path: Path) 
     assert not (tmp_path / "talker").exists()
     terminal.answer("Mail address:", "\x15eve@example.com" + ENTER)
     terminal.answer("Write the package?", ENTER)
-    said, code = terminal.end()
-    assert code == 0, said
+    output, code = terminal.end()
+    assert code == 0, output
     assert "eve@example.com" in (tmp_path / "talker" / "package.xml").read_text()
 
 
@@ -405,10 +405,10 @@ def test_dumb_terminal_takes_choices_by_name(
     terminal.answer("Who maintains the package:", "Ada\n")
     terminal.answer("Mail address:", "ada@example.com\n")
     terminal.answer("Write the package? [write]", "\n")
-    said, code = terminal.end()
-    assert code == 0, said
-    assert "\x1b" not in said
-    assert "--extras gitignore launch --license MIT" in said
+    output, code = terminal.end()
+    assert code == 0, output
+    assert "\x1b" not in output
+    assert "--extras gitignore launch --license MIT" in output
     assert (tmp_path / "talker" / "launch" / "talker.launch.py").exists()
 
 
@@ -420,9 +420,9 @@ def test_unencodable_characters_are_escaped(start: Callable[..., Terminal]) -> N
     terminal.answer("What else to add:", ENTER)
     terminal.answer("License of the package:", ENTER)
     terminal.answer("Write the package?", ENTER)
-    said, code = terminal.end()
-    assert code == 0, said
-    assert "--maintainer-name 'Zo\\xeb'" in said
+    output, code = terminal.end()
+    assert code == 0, output
+    assert "--maintainer-name 'Zo\\xeb'" in output
 
 
 def test_shown_command_includes_given_flags(start: Callable[..., Terminal], tmp_path: Path) -> None:
@@ -433,9 +433,9 @@ def test_shown_command_includes_given_flags(start: Callable[..., Terminal], tmp_
     terminal.answer("Who maintains the package:", "\x15O'Brien" + ENTER)
     terminal.answer("Mail address:", "\x15ada@example.com" + ENTER)
     terminal.answer("Write the package?", ENTER)
-    said, code = terminal.end()
-    assert code == 0, said
-    command = command_in(said)
+    output, code = terminal.end()
+    assert code == 0, output
+    command = command_in(output)
     made = tmp_path / "a b" / "talker"
     asked = {path.relative_to(made): path.read_bytes() for path in made.rglob("*.*")}
     (tmp_path / "bin").mkdir()
@@ -446,7 +446,7 @@ def test_shown_command_includes_given_flags(start: Callable[..., Terminal], tmp_
     for shell in filter(shutil.which, SHELLS):
         shutil.rmtree(made)
         subprocess.run([shell, "-c", command], check=True, env={**os.environ, "PATH": path})
-        assert {one.relative_to(made): one.read_bytes() for one in made.rglob("*.*")} == asked
+        assert {item.relative_to(made): item.read_bytes() for item in made.rglob("*.*")} == asked
 
 
 @pytest.mark.parametrize("shell", SHELLS)

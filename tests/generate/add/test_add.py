@@ -25,7 +25,7 @@ from tests import oracles
 from tests.generate.test_generated import Workspace, counts, needs_ros
 
 TEMPLATES = loading.load(content.roots("templates"))
-EXTRAS = [name for name, one in TEMPLATES.items() if one.role is Role.EXTRA]
+EXTRAS = [name for name, template in TEMPLATES.items() if template.role is Role.EXTRA]
 PERSON = ("--maintainer-name", "Ada", "--maintainer-email", "ada@example.com")
 CMAKE = {
     "package.xml": """\
@@ -169,20 +169,20 @@ def test_new_then_add_equals_new_with_both_for_other_kinds(
     first: str, kind: str, name: str, more: list[str], tmp_path: Path, *, is_changed: bool
 ) -> None:
     words = ["new", "demo", *PERSON, "--description", "Both", *more, "--add", first]
-    both, one = tmp_path / "both", tmp_path / "one"
+    both, single = tmp_path / "both", tmp_path / "one"
     assert main([*words, "--add", f"{kind}:{name}", "--destination-directory", str(both)]) == 0
-    assert main([*words, "--destination-directory", str(one)]) == 0
+    assert main([*words, "--destination-directory", str(single)]) == 0
     if is_changed:
-        with (one / "demo" / "package.xml").open("a") as file:
+        with (single / "demo" / "package.xml").open("a") as file:
             file.write("<!-- mine -->\n")
-    assert add(one / "demo", kind, name) == 0
-    after, expected = read(one / "demo"), read(both / "demo")
+    assert add(single / "demo", kind, name) == 0
+    after, expected = read(single / "demo"), read(both / "demo")
     assert after.keys() == expected.keys()
     if not is_changed:
         assert after == expected
-    assert add(one / "demo", kind, name) == 0
-    assert read(one / "demo") == after
-    assert main(["check", str(one / "demo")]) == 0
+    assert add(single / "demo", kind, name) == 0
+    assert read(single / "demo") == after
+    assert main(["check", str(single / "demo")]) == 0
 
 
 def test_part_that_does_not_fit_the_package_is_rejected(
@@ -242,23 +242,23 @@ def test_user_defined_extra_can_be_added(tmp_path: Path, *, is_changed: bool) ->
     answers = write(tmp_path, {"answers.yaml": "base_image: osrf/ros\n"}) / "answers.yaml"
     more = ["--content", str(team), "--answers", str(answers)]
     words = ["new", "demo", *PERSON, "--add", "publisher:talker", "--content", str(team)]
-    both, one = tmp_path / "both", tmp_path / "one"
-    assert main([*words, "--destination-directory", str(one)]) == 0
+    both, single = tmp_path / "both", tmp_path / "one"
+    assert main([*words, "--destination-directory", str(single)]) == 0
     words += ["--extras", "docker", "--answers", str(answers)]
     assert main([*words, "--destination-directory", str(both)]) == 0
     if is_changed:
-        with (one / "demo" / "package.xml").open("a") as file:
+        with (single / "demo" / "package.xml").open("a") as file:
             file.write("<!-- mine -->\n")
-    assert add(one / "demo", "docker", *more) == 0
-    assert (one / "demo" / "Dockerfile").read_text() == "FROM osrf/ros\n# talker\n"
-    assert "<exec_depend>ros2launch</exec_depend>" in (one / "demo" / "package.xml").read_text()
-    after, expected = read(one / "demo"), read(both / "demo")
+    assert add(single / "demo", "docker", *more) == 0
+    assert (single / "demo" / "Dockerfile").read_text() == "FROM osrf/ros\n# talker\n"
+    assert "<exec_depend>ros2launch</exec_depend>" in (single / "demo" / "package.xml").read_text()
+    after, expected = read(single / "demo"), read(both / "demo")
     record, other = (json.loads(files.pop(NAME)) for files in (after, expected))
     assert record["answers"] == other["answers"]
     if not is_changed:
         assert (after, record["files"]) == (expected, other["files"])
-    assert main(["update", str(one / "demo"), "--content", str(team)]) == 0
-    assert (one / "demo" / "Dockerfile").read_bytes() == after["Dockerfile"]
+    assert main(["update", str(single / "demo"), "--content", str(team)]) == 0
+    assert (single / "demo" / "Dockerfile").read_bytes() == after["Dockerfile"]
 
 
 def test_default_description_follows_the_parts(tmp_path: Path) -> None:
@@ -618,8 +618,8 @@ def test_no_header_without_license(tmp_path: Path, capsys: pytest.CaptureFixture
     demo = write(tmp_path / "demo", files)
     assert add(demo, "publisher", "talker") == 0
     assert (demo / "scripts" / "talker.py").read_text().startswith('#!/usr/bin/env python3\n"""\n')
-    said = capsys.readouterr().err
-    assert "the license of demo is 'TODO'; --license adds one" in said
+    errors = capsys.readouterr().err
+    assert "the license of demo is 'TODO'; --license adds one" in errors
     assert add(demo, "publisher", "other", "--license", "MIT") == 0
     assert "governed by an MIT-style" in (demo / "scripts" / "other.py").read_text()
 
@@ -648,8 +648,8 @@ def test_ambiguous_license_is_resolved_by_the_license_file(
     if clause is not None:
         (tmp_path / place / "LICENSE.txt").write_text(f"{text}{clause}\n")
     assert add(demo, "publisher", "talker") == 0
-    said, written = capsys.readouterr().err, (demo / "scripts" / "talker.py").read_text()
-    assert ("the license of demo is 'BSD'" in said) is (clause is None)
+    output, written = capsys.readouterr().err, (demo / "scripts" / "talker.py").read_text()
+    assert ("the license of demo is 'BSD'" in output) is (clause is None)
     assert ("Acme Robotics Inc.\n" in written) is bool(expected)
     assert ("Neither the name of" in written) is (expected == "BSD-3-Clause")
 
@@ -688,13 +688,13 @@ def test_manual_edits_are_listed(tmp_path: Path, capsys: pytest.CaptureFixture[s
     before = (demo / "CMakeLists.txt").read_bytes()
     assert add(demo, "publisher", "talker") == 1
     assert (demo / "CMakeLists.txt").read_bytes() == before
-    said = capsys.readouterr().err
+    errors = capsys.readouterr().err
     assert (
         f"    {demo}/CMakeLists.txt: find_package(ament_cmake_pytest REQUIRED) and "
         "ament_add_pytest_test(test_talker test/test_talker.py TIMEOUT 300) "
         "inside if(BUILD_TESTING)\n"
         "        because there is no ament_package() at the top level\n"
-    ) in said
+    ) in errors
 
 
 @pytest.mark.parametrize("kind", parts.kinds(TEMPLATES))
@@ -812,8 +812,8 @@ def test_nodes_with_mismatched_topics_are_noted(
     assert read(demo) == before
     words = ["--action", "count", "--action-type", "tf2_msgs/action/LookupTransform"]
     assert add(demo, "action_client", "asker", *words) == 0
-    said = capsys.readouterr().err
-    assert "the action /count is tf2_msgs/action/LookupTransform in asker, scripts/" in said
+    errors = capsys.readouterr().err
+    assert "the action /count is tf2_msgs/action/LookupTransform in asker, scripts/" in errors
 
 
 DRIVER = """\
@@ -879,18 +879,18 @@ NODE = """\
 
 def with_nodes(files: Mapping[str, str], directory: str, *names: str) -> dict[str, str]:
     """Return a package with nodes, given as ``program=node name``."""
-    found = dict(files)
+    result = dict(files)
     build = "CMakeLists.txt" if "CMakeLists.txt" in files else "setup.py"
     for word in reversed(names):
         program, _, name = word.partition("=")
-        found[f"{directory}/{program}.py"] = NODE.format(cls=program.title(), name=name)
+        result[f"{directory}/{program}.py"] = NODE.format(cls=program.title(), name=name)
         if build == "setup.py":
             more = f"'hello = demo.hello:main', '{program} = demo.{program}:main'"
-            found[build] = found[build].replace("'hello = demo.hello:main'", more)
+            result[build] = result[build].replace("'hello = demo.hello:main'", more)
         else:
             more = f"scripts/hello.py scripts/{program}.py"
-            found[build] = found[build].replace("scripts/hello.py", more)
-    return found
+            result[build] = result[build].replace("scripts/hello.py", more)
+    return result
 
 
 def launch_arguments(demo: Path) -> list[str]:
@@ -924,9 +924,9 @@ def test_launch_starts_all_nodes_of_a_package(
         assert f"<exec_depend>{name}</exec_depend>" in (demo / "package.xml").read_text()
     capsys.readouterr()
     main(["check", str(demo)])
-    said = capsys.readouterr().out
-    assert "/demo/launch/" not in said
-    assert "/demo/config/" not in said
+    output = capsys.readouterr().out
+    assert "/demo/launch/" not in output
+    assert "/demo/config/" not in output
     after = read(demo)
     assert add(demo, "launch") == 0
     assert read(demo) == after
@@ -1051,8 +1051,8 @@ def test_launch_starts_programs_that_use_rclcpp(
     demo = write(tmp_path / "demo", {**CMAKE, "CMakeLists.txt": lists})
     assert add(demo, "launch") == 0
     assert launch_arguments(demo) == ["executable='one'", "executable='two'"]
-    said = capsys.readouterr().err
-    assert "launch/demo.launch.py does not start hello.py, three: not known to be nodes" in said
+    errors = capsys.readouterr().err
+    assert "launch/demo.launch.py does not start hello.py, three: not known to be nodes" in errors
 
 
 def test_launch_starts_the_nodes_that_setup_cfg_declares(tmp_path: Path) -> None:
@@ -1167,11 +1167,11 @@ def test_extra_consisting_of_files_is_written(
     assert read(demo) == before
     capsys.readouterr()
     assert add(demo, extra) == 0
-    said = capsys.readouterr()
-    unread = "read only at the top of a git repository" in said.err
-    assert (said.err == "") is not unread
+    captured = capsys.readouterr()
+    unread = "read only at the top of a git repository" in captured.err
+    assert (captured.err == "") is not unread
     assert unread is bool(TEMPLATES[extra].repository)
-    assert "colcon" not in said.out
+    assert "colcon" not in captured.out
     after = read(demo)
     assert before.items() < after.items()
     assert add(demo, extra) == 0
@@ -1180,8 +1180,8 @@ def test_extra_consisting_of_files_is_written(
 
 def test_extra_does_not_overwrite_files(demo: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (demo / ".gitignore").write_text("mine\n")
-    said = error_of(demo, capsys, "gitignore")
-    assert said == (f".gitignore in {demo} already exists and differs; overwrite it with --force")
+    errors = error_of(demo, capsys, "gitignore")
+    assert errors == (f".gitignore in {demo} already exists and differs; overwrite it with --force")
     assert add(demo, "gitignore", "--force") == 0
     assert "__pycache__/" in (demo / ".gitignore").read_text()
 
@@ -1230,8 +1230,8 @@ def test_existing_file_is_not_overwritten_without_force(
     directory = "scripts" if (demo / "scripts").exists() else "demo"
     path = demo / directory / "talker.py"
     path.write_text("mine = True\n")
-    said = error_of(demo, capsys, "publisher", "talker")
-    assert said == (
+    errors = error_of(demo, capsys, "publisher", "talker")
+    assert errors == (
         f"{directory}/talker.py in {demo} already exists and differs; "
         "choose another name, or overwrite it with --force"
     )
@@ -1301,8 +1301,8 @@ def test_directory_without_a_package_is_rejected(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (tmp_path / "demo").mkdir()
-    said = error_of(tmp_path / "demo", capsys, "publisher", "talker")
-    assert said == f"{tmp_path}/demo is not a package: it has no package.xml"
+    errors = error_of(tmp_path / "demo", capsys, "publisher", "talker")
+    assert errors == f"{tmp_path}/demo is not a package: it has no package.xml"
 
 
 def test_ros_1_package_is_rejected(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -1319,11 +1319,11 @@ def test_ros_1_package_is_rejected(tmp_path: Path, capsys: pytest.CaptureFixture
 def test_dependency_with_find_package_is_declared_as_depend(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    found = "find_package(rclpy REQUIRED)\n        find_package(ament_index_python REQUIRED)\n"
+    result = "find_package(rclpy REQUIRED)\n        find_package(ament_index_python REQUIRED)\n"
     files = {
         **CMAKE,
         "package.xml": CMAKE["package.xml"].replace("<exec_depend>rclpy</exec_depend>", ""),
-        "CMakeLists.txt": CMAKE["CMakeLists.txt"].replace("install(", f"{found}        install("),
+        "CMakeLists.txt": CMAKE["CMakeLists.txt"].replace("install(", f"{result}        install("),
     }
     demo = write(tmp_path / "demo", files)
     assert add(demo, "publisher", "talker") == 0

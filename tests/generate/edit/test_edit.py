@@ -26,13 +26,13 @@ def source(path: str, text: str) -> Source:
 def added(before: Source, after: Source) -> str:
     """Return the lines that an edit added; fail if any line was removed."""
     lines = after.text.splitlines(keepends=True)
-    found: list[str] = []
+    result: list[str] = []
     for line in before.text.splitlines(keepends=True):
         while lines and lines[0] != line:
-            found.append(lines.pop(0))
+            result.append(lines.pop(0))
         assert lines, f"{line!r} is gone or has moved"
         lines.pop(0)
-    return "".join([*found, *lines])
+    return "".join([*result, *lines])
 
 
 # -- package.xml
@@ -391,7 +391,7 @@ def test_directory_is_installed_to_share(before: str, after: str) -> None:
 def test_unsafe_edits_are_left_to_the_user(text: str, reason: str) -> None:
     outcome = cmake_edit(text, Addition("demo", SCRIPT, test="test/test_talker.py"))
     assert outcome.source.text == text
-    assert [one.line for one in outcome.by_hand] == [
+    assert [step.line for step in outcome.by_hand] == [
         "install(PROGRAMS scripts/talker.py DESTINATION lib/${PROJECT_NAME})",
         (
             "find_package(ament_cmake_pytest REQUIRED) and "
@@ -399,7 +399,7 @@ def test_unsafe_edits_are_left_to_the_user(text: str, reason: str) -> None:
             "inside if(BUILD_TESTING)"
         ),
     ]
-    assert all(reason in one.reason and one.is_needed for one in outcome.by_hand)
+    assert all(reason in step.reason and step.is_needed for step in outcome.by_hand)
 
 
 def test_install_reached_only_by_tests_is_left_to_the_user() -> None:
@@ -407,7 +407,9 @@ def test_install_reached_only_by_tests_is_left_to_the_user() -> None:
     text = f"project(demo)\nfind_package(ament_cmake REQUIRED)\n{early}ament_package()\n"
     outcome = cmake_edit(text, Addition("demo", SCRIPT, test="test/test_talker.py"))
     assert "(test_talker test/test_talker.py TIMEOUT 300)" in outcome.source.text
-    assert [one.reason for one in outcome.by_hand] == ["the end of the file is not always reached"]
+    assert [step.reason for step in outcome.by_hand] == [
+        "the end of the file is not always reached"
+    ]
 
 
 def test_broken_file_is_rejected() -> None:
@@ -465,7 +467,9 @@ def test_interfaces_generated_only_for_tests_are_left_to_the_user() -> None:
     text = "project(demo)\nif(NOT BUILD_TESTING)\n  return()\nendif()\nament_package()\n"
     outcome = cmake_edit(text, Addition("demo", interfaces=["msg/C.msg"]))
     assert outcome.source.text == text
-    assert [one.reason for one in outcome.by_hand] == ["the end of the file is not always reached"]
+    assert [step.reason for step in outcome.by_hand] == [
+        "the end of the file is not always reached"
+    ]
 
 
 def test_first_interface_adds_rosidl_commands() -> None:
@@ -652,7 +656,7 @@ def test_unknown_entry_points_are_left_to_the_user() -> None:
     text = "from setuptools import setup\nfrom x import y\nsetup(packages=['demo'], **y)\n"
     outcome = setup_edit(text, Addition("demo", MODULE))
     assert outcome.source.text == text
-    assert [one.line for one in outcome.by_hand] == ["'talker = demo.talker:main',"]
+    assert [step.line for step in outcome.by_hand] == ["'talker = demo.talker:main',"]
 
 
 @pytest.mark.parametrize(
@@ -737,7 +741,7 @@ def test_executables_in_bin_are_not_moved() -> None:
         Source("setup.cfg", ""), Addition("demo", MODULE), has_others=True
     )
     assert outcome.source.text == ""
-    assert [one.line for one in outcome.by_hand] == [
+    assert [step.line for step in outcome.by_hand] == [
         "[develop] script_dir=$base/lib/demo",
         "[install] install_scripts=$base/lib/demo",
     ]
@@ -897,12 +901,12 @@ def test_complex_launch_file_is_left_to_the_user(body: str) -> None:
     text = dedent(LAUNCH).partition("    return")[0] + indent(body, "    ")
     outcome = launch_edit(text)
     assert outcome.source.text == text
-    assert [one.line for one in outcome.by_hand] == ["Node(package='demo', executable='talker'),"]
+    assert [step.line for step in outcome.by_hand] == ["Node(package='demo', executable='talker'),"]
 
 
 def test_launch_file_for_other_packages_is_left_to_the_user() -> None:
     outcome = launch_edit(LAUNCH.replace("package='demo'", "package='other'"))
-    assert [one.reason for one in outcome.by_hand] == ["it starts no node of demo that shows how"]
+    assert [step.reason for step in outcome.by_hand] == ["it starts no node of demo that shows how"]
     assert "talker" not in outcome.source.text
 
 
@@ -912,7 +916,7 @@ def test_launch_file_without_a_list_is_left_to_the_user() -> None:
     )
     text = text.replace("Node(package='demo'", "n := Node(package='demo'")
     outcome = launch_edit(text)
-    assert [one.line for one in outcome.by_hand] == ["Node(package='demo', executable='talker'),"]
+    assert [step.line for step in outcome.by_hand] == ["Node(package='demo', executable='talker'),"]
     assert not outcome.by_hand[0].is_needed
 
 
@@ -932,8 +936,10 @@ def test_launch_file_without_a_list_is_left_to_the_user() -> None:
     ],
 )
 def test_xml_and_yaml_launch_files_are_left_to_the_user(path: str, text: str, line: str) -> None:
-    assert [one.line for one in launch_edit(text, path).by_hand] == [line]
-    assert [one.line for one in launch_edit(text.replace("demo", "other"), path).by_hand] == [line]
+    assert [step.line for step in launch_edit(text, path).by_hand] == [line]
+    assert [step.line for step in launch_edit(text.replace("demo", "other"), path).by_hand] == [
+        line
+    ]
     assert launch_edit(text.replace("exec", "talker"), path).by_hand == ()
 
 
@@ -1089,8 +1095,8 @@ def test_cmake_packages_keep_their_layout(
     text: str, files: tuple[str, ...], expected: Layout
 ) -> None:
     lists = f"project(demo)\n{text}\nament_package()\n"
-    found = package("ament_cmake", {"CMakeLists.txt": lists, **dict.fromkeys(files, "")})
-    assert layout_of(found) == expected
+    result = package("ament_cmake", {"CMakeLists.txt": lists, **dict.fromkeys(files, "")})
+    assert layout_of(result) == expected
 
 
 @pytest.mark.parametrize(
@@ -1112,8 +1118,8 @@ def test_python_packages_keep_their_layout(
     arguments: str, files: tuple[str, ...], expected: Layout
 ) -> None:
     text = f"from setuptools import find_packages, setup\nsetup({arguments})\n"
-    found = package("ament_python", {"setup.py": text, **dict.fromkeys(files, "")})
-    assert layout_of(found) == expected
+    result = package("ament_python", {"setup.py": text, **dict.fromkeys(files, "")})
+    assert layout_of(result) == expected
 
 
 def test_other_build_types_are_rejected() -> None:

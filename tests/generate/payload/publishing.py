@@ -124,7 +124,7 @@ def receive(
         try:
             assert observer.stdin is not None
             assert observer.stdout is not None
-            observer.stdin.write(json.dumps([_wanted(one) for one in publishers]) + "\n")
+            observer.stdin.write(json.dumps([_wanted(item) for item in publishers]) + "\n")
             observer.stdin.flush()
             yield from _run(publishers, variables, scratch, observer.stdout, jobs)
         finally:
@@ -166,17 +166,17 @@ def _run(
     try:
         while waiting or running:
             while waiting and len(running) < jobs:
-                one = waiting.pop()
+                item = waiting.pop()
                 deadline = time.monotonic() + PATIENCE
-                running[one.topic] = (one, _start(one, variables, scratch), deadline)
+                running[item.topic] = (item, _start(item, variables, scratch), deadline)
             with news:
                 news.wait_for(lambda: any(topic in reports for topic in running), timeout=1.0)
-            for topic, (one, process, deadline) in list(running.items()):
+            for topic, (item, process, deadline) in list(running.items()):
                 if topic in reports or process.poll() is not None or time.monotonic() > deadline:
                     process.kill()
                     process.wait()
                     del running[topic]
-                    yield _received(one, reports.get(topic), _output(one, scratch))
+                    yield _received(item, reports.get(topic), _output(item, scratch))
     finally:
         for _, process, _ in running.values():
             process.kill()

@@ -204,7 +204,7 @@ def run(section: SectionPayload, names: dict[str, Any], node: Node, **scope: Any
     own = section.statements and method(names, head, section.statements, f"f'{section.log}'")
     if own:
         assert len(own(node, **scope)) < 200
-    name = next(one for one in ("result", "response", *scope) if one in scope)
+    name = next(item for item in ("result", "response", *scope) if item in scope)
     return {**scope, name: round_trip(scope[name])}
 
 
@@ -277,7 +277,7 @@ def test_every_publisher_passes_every_rule(packages: Path) -> None:
     session = Session(registry.load(content.roots("rules")), Selection())
     results = list(session.run(discovery.find([str(packages)])))
     assert len(results) == len(os.listdir(packages))
-    assert [said for result in results for said in result.diagnostics] == []
+    assert [finding for result in results for finding in result.diagnostics] == []
 
 
 def test_every_publisher_passes_ament_flake8(packages: Path) -> None:
@@ -314,7 +314,7 @@ def test_messages_are_received_in_another_process(tmp_path: Path) -> None:
     with domain.reserved() as number:
         variables["ROS_DOMAIN_ID"] = str(number)
         received = list(receive(wanted, variables, tmp_path, jobs=len(wanted)))
-    assert [one for one in received if not one.is_good] == []
+    assert [item for item in received if not item.is_good] == []
     assert len(received) == len(SAMPLE)
 
 
@@ -333,12 +333,12 @@ def own(tmp_path: Path) -> Fill:
         (directory / "msg").mkdir(parents=True, exist_ok=True)
         (directory / "package.xml").write_text("<package><name>robot_msgs</name></package>")
         files = {name: text, **others}
-        listed = " ".join(f'"msg/{one}.msg"' for one in files)
+        listed = " ".join(f'"msg/{item}.msg"' for item in files)
         (directory / "CMakeLists.txt").write_text(
             f"project(robot_msgs)\nrosidl_generate_interfaces(${{PROJECT_NAME}} {listed})\n"
         )
-        for one, lines in files.items():
-            (directory / "msg" / f"{one}.msg").write_text(lines)
+        for item, lines in files.items():
+            (directory / "msg" / f"{item}.msg").write_text(lines)
         targets = discovery.find([str(tmp_path)])
         workspace = Workspace([target.package for target in targets])
         return payload.payload(f"robot_msgs/{name}", Definitions.around(workspace, prefixes=[]))
@@ -573,9 +573,9 @@ def test_accepted_spellings_of_types(text: str, type_: str) -> None:
     ],
 )
 def test_rejected_spellings_of_types(text: str, message: str) -> None:
-    with pytest.raises(InputError) as told:
+    with pytest.raises(InputError) as raised:
         payload.payload(text, BUNDLED)
-    assert str(told.value) == message
+    assert str(raised.value) == message
 
 
 def test_services_and_actions_by_short_name() -> None:
@@ -590,31 +590,31 @@ def test_services_and_actions_by_short_name() -> None:
 
 def test_broken_definition_is_reported_with_its_line(own: Fill, tmp_path: Path) -> None:
     file = tmp_path / "robot_msgs" / "msg" / "Sample.msg"
-    with pytest.raises(InputError) as told:
+    with pytest.raises(InputError) as raised:
         own("int32 good\nint33 bad\n")
-    assert str(told.value).startswith(f"robot_msgs/msg/Sample: {file}:2: 'int33' is neither")
-    with pytest.raises(InputError) as told:
+    assert str(raised.value).startswith(f"robot_msgs/msg/Sample: {file}:2: 'int33' is neither")
+    with pytest.raises(InputError) as raised:
         own("int32 good\nWheel[] wheels\n", Wheel="float32 Speed\n")
     wheel = file.with_name("Wheel.msg")
-    assert f"{file}:2: the field 'wheels' cannot be filled: " in str(told.value)
-    assert f"{wheel}:1: 'Speed' is not a valid field name" in str(told.value)
-    with pytest.raises(InputError) as told:
+    assert f"{file}:2: the field 'wheels' cannot be filled: " in str(raised.value)
+    assert f"{wheel}:1: 'Speed' is not a valid field name" in str(raised.value)
+    with pytest.raises(InputError) as raised:
         own("geometry_msgs/Pont place\n")
-    assert f"{file}:1: " in str(told.value)
-    assert "did you mean geometry_msgs/msg/Point" in str(told.value)
+    assert f"{file}:1: " in str(raised.value)
+    assert "did you mean geometry_msgs/msg/Point" in str(raised.value)
 
 
 def test_cyclic_definition_is_reported_with_its_line(own: Fill, tmp_path: Path) -> None:
     directory = tmp_path / "robot_msgs" / "msg"
-    with pytest.raises(InputError) as told:
+    with pytest.raises(InputError) as raised:
         own("int32 number\nTree[] children\n", name="Tree")
-    assert str(told.value) == (
+    assert str(raised.value) == (
         f"{directory / 'Tree.msg'}:2: the field 'children' makes a message contain itself: "
         "robot_msgs/msg/Tree -> robot_msgs/msg/Tree"
     )
-    with pytest.raises(InputError) as told:
+    with pytest.raises(InputError) as raised:
         own("B b\n", name="A", B="\nA a\n")
-    assert str(told.value) == (
+    assert str(raised.value) == (
         f"{directory / 'B.msg'}:2: the field 'a' makes a message contain itself: "
         "robot_msgs/msg/A -> robot_msgs/msg/B -> robot_msgs/msg/A"
     )

@@ -81,7 +81,7 @@ EVALUATE = dedent("""\
 
 @needs_ros
 def test_rclpy_profile_has_the_requested_settings() -> None:
-    code = ["\n".join((*one.imports, one.assignment)) for one in map(qos, SETTINGS)]
+    code = ["\n".join((*item.imports, item.assignment)) for item in map(qos, SETTINGS)]
     done = subprocess.run(
         [sys.executable, "-c", EVALUATE],
         input=json.dumps(code),
@@ -90,8 +90,8 @@ def test_rclpy_profile_has_the_requested_settings() -> None:
         text=True,
         check=True,
     )
-    found = dict(zip(SETTINGS, json.loads(done.stdout), strict=True))
-    assert found == {text: {**DEFAULTS, **wanted} for text, wanted in SETTINGS.items()}
+    findings = dict(zip(SETTINGS, json.loads(done.stdout), strict=True))
+    assert findings == {text: {**DEFAULTS, **wanted} for text, wanted in SETTINGS.items()}
 
 
 def test_depth_or_predefined_profile_needs_no_constant() -> None:

@@ -84,7 +84,7 @@ def test_template_error_is_one_line(
 ) -> None:
     (beacon / path).write_text(text, errors="surrogateescape")
     assert new(beacon) == USAGE_ERROR
-    said = capsys.readouterr().err
-    assert line.replace("BEACON", str(beacon)).replace("PATH", PATH) in said
-    assert said.count("\n") == 1
+    errors = capsys.readouterr().err
+    assert line.replace("BEACON", str(beacon)).replace("PATH", PATH) in errors
+    assert errors.count("\n") == 1
     assert not (beacon.parents[2] / "lighthouse").exists()

@@ -187,8 +187,8 @@ def test_sandboxed_rendering_equals_direct_rendering(tmp_path: Path) -> None:
     own = content.roots("templates")
     templates = loading.load(own)
     answers = {"maintainer_name": "Ada Lovelace", "maintainer_email": "ada@example.com"}
-    for one in templates.values():
-        for example in list(examples.of(one, templates))[:1]:
+    for item in templates.values():
+        for example in list(examples.of(item, templates))[:1]:
             given = {
                 name: Given(value, name) for name, value in {**answers, **example.answers}.items()
             }

@@ -64,12 +64,12 @@ def node_of(team: Path) -> str:
 
 def test_new_records_answers_and_files(package: Path) -> None:
     text = (package / provenance.NAME).read_text()
-    found = update.read(DiskTree(str(package)), "here")
+    result = update.read(DiskTree(str(package)), "here")
     assert "Answers and hashes of the files" in text.split("\n")[1]
-    assert found.answers["maintainer_name"] == "Ada"
-    assert found.answers["add"][0]["rate"] == 2.0
-    assert found.date.isoformat() == "2023-11-14"
-    for path, written in found.rendered.items():
+    assert result.answers["maintainer_name"] == "Ada"
+    assert result.answers["add"][0]["rate"] == 2.0
+    assert result.date.isoformat() == "2023-11-14"
+    for path, written in result.rendered.items():
         assert (package / path).read_text() == written
 
 
@@ -107,8 +107,8 @@ def test_conflict_is_marked_and_reported(
     node.write_text(node.read_text().replace("Log the next message", "Log and count the message"))
     change(team, node_of(team), "Log the next message", "Tell the next message")
     assert main(["update", "talker", "--content", str(team)]) == 1
-    said = capsys.readouterr().out
-    assert said.startswith(f"{NODE}: merged, 1 conflict to resolve\n")
+    output = capsys.readouterr().out
+    assert output.startswith(f"{NODE}: merged, 1 conflict to resolve\n")
     lines = [line.strip() for line in node.read_text().split("\n")]
     start = lines.index("<<<<<<< yours")
     assert lines[start : start + 7] == [
@@ -147,8 +147,8 @@ def test_dry_run_and_diff_change_nothing(
     change(team, node_of(team), "Log the next message", "Tell the next message")
     before = {path: path.read_bytes() for path in package.rglob("*") if path.is_file()}
     assert main(["update", "talker", "--content", str(team), flag]) == 0
-    said = capsys.readouterr().out
-    assert f"{NODE}: merged\n" in said or f"+++ b/talker/{NODE}\n" in said
+    output = capsys.readouterr().out
+    assert f"{NODE}: merged\n" in output or f"+++ b/talker/{NODE}\n" in output
     assert {path: path.read_bytes() for path in package.rglob("*") if path.is_file()} == before
 
 

@@ -263,7 +263,7 @@ def test_keyword_sections_of_a_command() -> None:
         "DESTINATION": ["c"],
         "OPTIONAL": [],
     }
-    assert [one.value for one in command.keyword("DESTINATION", keywords)] == ["c"]
+    assert [item.value for item in command.keyword("DESTINATION", keywords)] == ["c"]
     assert command.keyword("RENAME", keywords) == []
     assert command.has("OPTIONAL")
 
@@ -453,14 +453,14 @@ def test_command_guarded_by_build_testing(text: str, guarded: bool) -> None:
 
 
 def test_packages_found_by_find_package() -> None:
-    found = read(TALKER).found_packages
-    assert [(one.name, one.required, one.in_testing) for one in found] == [
+    result = read(TALKER).found_packages
+    assert [(item.name, item.required, item.in_testing) for item in result] == [
         ("ament_cmake", True, False),
         ("rclpy", True, False),
         ("std_msgs", True, False),
         ("ament_lint_auto", True, True),
     ]
-    assert found[1].location[1:] == (6, 14, 6, 19)
+    assert result[1].location[1:] == (6, 14, 6, 19)
 
 
 @pytest.mark.parametrize(
@@ -475,7 +475,7 @@ def test_packages_found_by_find_package() -> None:
 )
 def test_packages_found_in_a_loop(loop: str) -> None:
     lists = read(f"{loop}\nfind_package(${{d}} QUIET)\nendforeach()")
-    assert [(one.name, one.required) for one in lists.found_packages] == [
+    assert [(item.name, item.required) for item in lists.found_packages] == [
         ("a", False),
         ("b", False),
     ]
@@ -518,18 +518,18 @@ def test_installed_files_and_directories() -> None:
 
 
 def install(text: str, path: str = "CMakeLists.txt") -> Install:
-    (found,) = read(f"project(p)\n{text}", path).installs
-    return found
+    (item,) = read(f"project(p)\n{text}", path).installs
+    return item
 
 
 def test_install_targets() -> None:
-    found = install(
+    result = install(
         "install(TARGETS a b EXPORT e ARCHIVE DESTINATION lib LIBRARY DESTINATION lib "
         "RUNTIME DESTINATION lib/${PROJECT_NAME} INCLUDES DESTINATION include)"
     )
-    assert [item.value for item in found.items] == ["a", "b"]
-    assert [item.path for item in found.items] == [None, None]
-    assert found.destinations == {
+    assert [item.value for item in result.items] == ["a", "b"]
+    assert [item.path for item in result.items] == [None, None]
+    assert result.destinations == {
         "ARCHIVE": "lib",
         "LIBRARY": "lib",
         "RUNTIME": "lib/p",
@@ -538,29 +538,29 @@ def test_install_targets() -> None:
 
 
 def test_install_with_rename_and_patterns() -> None:
-    found = install("install(PROGRAMS a.py DESTINATION lib/p RENAME b)")
-    assert (found.rename, found.patterns) == ("b", [])
-    found = install(
+    result = install("install(PROGRAMS a.py DESTINATION lib/p RENAME b)")
+    assert (result.rename, result.patterns) == ("b", [])
+    result = install(
         'install(DIRECTORY d/ DESTINATION s FILES_MATCHING PATTERN "*.py" PATTERN x EXCLUDE)'
     )
-    assert (found.patterns, found.excludes) == (["*.py"], ["x"])
-    assert install_items(found) == [("d/", "d")]
+    assert (result.patterns, result.excludes) == (["*.py"], ["x"])
+    assert install_items(result) == [("d/", "d")]
 
 
 def test_install_of_unknown_values() -> None:
-    found = install("install(FILES ${A} ${CMAKE_CURRENT_BINARY_DIR}/b c DESTINATION ${D})")
-    assert install_items(found) == [(None, None), (None, None), ("c", "c")]
-    assert found.destination is None
-    assert found.destination_argument is not None
+    result = install("install(FILES ${A} ${CMAKE_CURRENT_BINARY_DIR}/b c DESTINATION ${D})")
+    assert install_items(result) == [(None, None), (None, None), ("c", "c")]
+    assert result.destination is None
+    assert result.destination_argument is not None
 
 
 def test_install_paths() -> None:
-    found = install(
+    result = install(
         "install(FILES x ./y ../z ${CMAKE_SOURCE_DIR}/v /w DESTINATION ${CMAKE_INSTALL_PREFIX}/a)",
         "sub/CMakeLists.txt",
     )
-    assert [item.path for item in found.items] == ["sub/x", "sub/y", "z", "sub/v", "/w"]
-    assert found.destination == "a"
+    assert [item.path for item in result.items] == ["sub/x", "sub/y", "z", "sub/v", "/w"]
+    assert result.destination == "a"
 
 
 def test_install_in_a_loop() -> None:
@@ -568,7 +568,7 @@ def test_install_in_a_loop() -> None:
         "project(p)\nforeach(d launch config)\n"
         "install(DIRECTORY ${d}/ DESTINATION share/${PROJECT_NAME}/${d})\nendforeach()"
     )
-    assert [(install_items(one), one.destination) for one in lists.installs] == [
+    assert [(install_items(item), item.destination) for item in lists.installs] == [
         ([("launch/", "launch")], "share/p/launch"),
         ([("config/", "config")], "share/p/config"),
     ]
@@ -576,9 +576,9 @@ def test_install_in_a_loop() -> None:
 
 @pytest.mark.parametrize("name", ["ament_auto_package", "autoware_ament_auto_package"])
 def test_directories_of_ament_auto_package(name: str) -> None:
-    found = install(f"{name}(INSTALL_TO_SHARE launch config)")
-    assert (found.kind, found.destination) == ("DIRECTORY", "share/p")
-    assert install_items(found) == [("launch", "launch"), ("config", "config")]
+    result = install(f"{name}(INSTALL_TO_SHARE launch config)")
+    assert (result.kind, result.destination) == ("DIRECTORY", "share/p")
+    assert install_items(result) == [("launch", "launch"), ("config", "config")]
     assert read(f"project(p)\n{name}()").installs == []
 
 
@@ -688,7 +688,7 @@ def test_missing_parenthesis_is_reported_once() -> None:
 
     def said(text: str) -> list[str]:
         package = Package.of({"CMakeLists.txt": text})
-        return [found.code for found in runner.check(package, rules)]
+        return [finding.code for finding in runner.check(package, rules)]
 
     assert said("project(talker)\nament_package(\n") == ["SC001"]
     assert said('set(COLOUR "#fff")\n') == ["CM083"]

@@ -66,8 +66,8 @@ def check(capsys: pytest.CaptureFixture[str]) -> Check:
     def run(*words: str) -> tuple[list[str], list[str]]:
         assert main(["check", "--select", "F", "--no-types", *words]) in (0, 1)
         *lines, _ = capsys.readouterr().out.splitlines()
-        found = [line.partition(":")[0] for line in lines if " F401 " in line]
-        return found, [line for line in lines if " F401 " not in line]
+        result = [line.partition(":")[0] for line in lines if " F401 " in line]
+        return result, [line for line in lines if " F401 " not in line]
 
     return run
 
@@ -112,8 +112,8 @@ def test_foreign_packages_are_checked_if_there_are_no_others(
 ) -> None:
     make(workspace)
     (workspace / "own/package.xml").unlink()
-    (found,), notes = check()
-    assert (Path(found).parts[1:], notes) == (("msgs", "node.py"), [])
+    (result,), notes = check()
+    assert (Path(result).parts[1:], notes) == (("msgs", "node.py"), [])
 
 
 def test_foreign_packages_are_known_to_other_packages(
@@ -155,13 +155,13 @@ def test_foreign_files_are_not_checked(workspace: Path, check: Check) -> None:
             "own/venv/lib/module.py": FLAWED,
         },
     )
-    found, notes = check("own")
-    assert found == ["own/made_up.py", "own/node.py", "own/vendor/mine.py"]
+    result, notes = check("own")
+    assert result == ["own/made_up.py", "own/node.py", "own/vendor/mine.py"]
     left_out = "3 files ignored by git, 2 files of vendored code"
     copies = "1 file left by editors or synchronization"
     assert notes == [f"excluded by default: {left_out}, {copies} {HINT}, 1 virtual environment"]
     assert check("own/generated/a.py") == (["own/generated/a.py"], [])
-    assert len(check("own", "--include-all")[0]) == len(found) + 5
+    assert len(check("own", "--include-all")[0]) == len(result) + 5
     git(workspace, "add", "-f", "own/generated/a.py")
     assert "own/generated/a.py" in check("own")[0], "git tracks it now"
 

@@ -43,5 +43,5 @@ def test_requirements_of_the_repository(
         (tmp_path / path).parent.mkdir(parents=True, exist_ok=True)
         (tmp_path / path).write_text(text)
     main(["check", str(package), "--select", "PX020", "--format", "json"])
-    (found,) = json.loads(capsys.readouterr().out)["diagnostics"]
-    assert found["severity"] == expected
+    (finding,) = json.loads(capsys.readouterr().out)["diagnostics"]
+    assert finding["severity"] == expected

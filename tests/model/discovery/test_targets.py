@@ -141,13 +141,13 @@ def test_setup_py_without_manifest(tmp_path: Path) -> None:
 def test_whole_packages_of_given_files(workspace: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(workspace)
     (workspace / "loose.py").touch()
-    packages = [os.path.normpath(one.package.directory) for one in discovery.find(["."])]
-    files = [str(Path(one) / "package.xml") for one in packages]
+    packages = [os.path.normpath(item.package.directory) for item in discovery.find(["."])]
+    files = [str(Path(item) / "package.xml") for item in packages]
     chosen = discovery.find([files[0], "loose.py", files[0]], whole_packages=True)
-    assert [(one.package.directory, one.only) for one in chosen] == [(packages[0], None)]
+    assert [(item.package.directory, item.only) for item in chosen] == [(packages[0], None)]
     assert discovery.find(["loose.py"], whole_packages=True) == []
     everything = discovery.find([*files, "loose.py"], whole_packages=True)
-    assert [one.package.directory for one in everything] == packages
+    assert [item.package.directory for item in everything] == packages
 
 
 def test_files_below_an_ignored_directory_select_nothing(

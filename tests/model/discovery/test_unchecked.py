@@ -76,12 +76,12 @@ def found_package(path: Path, name: str = "bringup") -> Package:
 
 
 def findings(package: Package, *codes: str) -> list[Diagnostic]:
-    return [found for found in runner.check(package, RULES) if found.code in codes]
+    return [finding for finding in runner.check(package, RULES) if finding.code in codes]
 
 
 def test_findings_are_the_same_with_and_without_the_workspace(workspace: Path) -> None:
     alone = findings(found_package(workspace / "src/bringup"), "LF005", "LF006")
-    assert [found.code for found in alone] == ["LF006"]
+    assert [finding.code for finding in alone] == ["LF006"]
     assert "driver" in alone[0].message
     assert alone == findings(found_package(workspace), "LF005", "LF006")
     assert alone == findings(
@@ -188,8 +188,8 @@ def test_message_types_of_a_package_next_to_this_one(repository: Path) -> None:
     node = "from driver.msg import Speed\n\nspeed = Speed(value=1.0, unit='m/s')\n"
     write(repository / "robot/driver", {"msg/Speed.msg": "float64 value\n"})
     write(repository / "robot/bringup", {"bringup/__init__.py": "", "bringup/go.py": node})
-    (found,) = findings(found_package(repository / "robot/bringup"), "MS003")
-    assert "'unit'" in found.message
+    (finding,) = findings(found_package(repository / "robot/bringup"), "MS003")
+    assert "'unit'" in finding.message
 
 
 def test_nested_source_directory(workspace: Path) -> None:

@@ -74,8 +74,8 @@ def test_constants_have_values_and_locations() -> None:
     (section,) = definition(
         "uint8   MAX = 0xff  # all\nstring TEXT='it\\'s'\nbool ON=TRUE\n"
     ).sections
-    found = [(str(c.type), c.name, c.value, c.comment) for c in section.constants]
-    assert found == [
+    result = [(str(c.type), c.name, c.value, c.comment) for c in section.constants]
+    assert result == [
         ("uint8", "MAX", 255, "all"),
         ("string", "TEXT", "it's", ""),
         ("bool", "ON", True, ""),
@@ -327,10 +327,10 @@ def test_bundle_equals_installed_definitions() -> None:
     names = [name for name in installed.all_names() if name.split("/")[0] in bundled.packages()]
     assert len(names) > 50
     for name in names:
-        one, other = installed.find(name), bundled.find(name)
-        assert one is not None
+        item, other = installed.find(name), bundled.find(name)
+        assert item is not None
         assert other is not None
-        assert _facts(one) == _facts(other)
+        assert _facts(item) == _facts(other)
 
 
 def test_bundle_lists_its_interfaces() -> None:
@@ -508,7 +508,7 @@ def _facts(interface: Interface) -> list[object]:
         (
             section.name,
             [(field.type, field.name, field.default) for field in section.fields],
-            [(one.type, one.name, one.value) for one in section.constants],
+            [(item.type, item.name, item.value) for item in section.constants],
         )
         for section in interface.sections
     ]

@@ -62,7 +62,7 @@ def generate_launch_description():
     ])
 """
 MANIFEST = '<package format="3"><name>demo</name></package>\n'
-RULES = [one for one in registry.load(content.roots("rules")) if one.code[:2] in {"LF", "PF"}]
+RULES = [rule for rule in registry.load(content.roots("rules")) if rule.code[:2] in {"LF", "PF"}]
 ORACLE = """\
 import sys, rclpy
 from rclpy.node import Node
@@ -103,8 +103,8 @@ def test_nodes_and_arguments() -> None:
 
 def test_paths_below_share_directories() -> None:
     _, launch = launch_of(LAUNCH)
-    found = [(path.package, path.path, path.location.line) for path in launch.share_paths]
-    assert found == [
+    result = [(path.package, path.path, path.location.line) for path in launch.share_paths]
+    assert result == [
         ("demo", "config/demo.yaml", 17),
         ("other", "launch/x.launch.py", 24),
         ("other", "y.launch.py", 26),
@@ -191,8 +191,8 @@ def test_share_directory_of_both_build_types() -> None:
 def test_programs_of_cmake(commands: str, names: set[str], *, complete: bool) -> None:
     lists = f"project(demo)\nfind_package(ament_cmake)\n{commands}\nament_package()\n"
     files = {"package.xml": MANIFEST, "CMakeLists.txt": lists, "demo/e.py": ""}
-    found = programs_of(Package.of(files))
-    assert (set(found.sources), found.complete) == (names, complete)
+    result = programs_of(Package.of(files))
+    assert (set(result.sources), result.complete) == (names, complete)
 
 
 # -- parameter files
@@ -210,7 +210,7 @@ def test_sections_and_entries_of_a_parameter_file() -> None:
     names = [[entry.name for entry in section.entries] for section in file.sections]
     assert sorted(names[0]) == ["a.b", "a.c"]
     assert names[1] == ["d"]
-    assert [one.key.text for one in file.misplaced] == ["not"]
+    assert [item.key.text for item in file.misplaced] == ["not"]
 
 
 @pytest.mark.parametrize(
@@ -310,8 +310,8 @@ def test_damaged_files_never_crash_a_rule(chance: random.Random, which: str) -> 
         at = chance.randrange(len(words))
         words[at : at + chance.randint(0, 3)] = chance.choices(words, k=chance.randint(0, 3))
     files[path] = "".join(words)
-    said = runner.check(Package.of(files), [rule() for rule in RULES])
-    assert [one.message for one in said if one.code == "SC002"] == []
+    diagnostics = runner.check(Package.of(files), [rule() for rule in RULES])
+    assert [finding.message for finding in diagnostics if finding.code == "SC002"] == []
 
 
 def test_nodes_created_in_other_packages_belong_to_the_program() -> None:

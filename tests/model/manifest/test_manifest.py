@@ -172,7 +172,7 @@ def test_own_text_excludes_children() -> None:
 
 def test_attributes_with_references_and_odd_whitespace() -> None:
     element = read("<a b = '1 > &quot;2&quot;'\n\tc=\"\"/>").root
-    assert {name: one.value for name, one in element.attributes.items()} == {
+    assert {name: item.value for name, item in element.attributes.items()} == {
         "b": '1 > "2"',
         "c": "",
     }
@@ -194,15 +194,15 @@ def test_children_and_descendants() -> None:
 
 
 def test_dependencies_in_order() -> None:
-    found = read(TALKER).dependencies
-    assert [(one.kind, one.name, one.condition) for one in found] == [
+    result = read(TALKER).dependencies
+    assert [(item.kind, item.name, item.condition) for item in result] == [
         ("buildtool_depend", "ament_cmake", None),
         ("depend", "rclpy", None),
         ("depend", "std_msgs", None),
         ("exec_depend", "rospy", "$ROS_VERSION == 1"),
         ("test_depend", "ament_lint_auto", None),
     ]
-    assert place(found[1].location) == (13, 11, 13, 16)
+    assert place(result[1].location) == (13, 11, 13, 16)
 
 
 def test_depends_on_by_kind() -> None:
@@ -242,7 +242,7 @@ def test_dependencies_with_false_conditions_are_ignored() -> None:
     manifest = read(TALKER)
     assert "rospy" not in manifest.run_names
     assert "rospy" in manifest.declared_names
-    assert [one.active for one in manifest.dependencies] == [True, True, True, False, True]
+    assert [item.active for item in manifest.dependencies] == [True, True, True, False, True]
 
 
 def test_group_elements() -> None:

@@ -65,8 +65,8 @@ def type_in(line: str, expression: str) -> str | None:
         for node in types.module.walk(ast.Return)
         if node.value is not None and types.module.text(node.value) == expression
     ]
-    found = types.type_of(returned[0])
-    return found.name if found else None
+    result = types.type_of(returned[0])
+    return result.name if result else None
 
 
 @pytest.mark.parametrize(
@@ -154,5 +154,5 @@ def test_assigned_values_are_found_once_in_order() -> None:
         "header.frame_id, other = 'b', String(data='c')\nother.data += 'd'\n"
     )
     types = MessageTypes.of(Package.of({"node.py": text}), "node.py")
-    found = [(item.field.name, types.module.text(item.value)) for item in types.assigned]
-    assert found == [("frame_id", "'a'"), ("frame_id", "'b'"), ("data", "'c'")]
+    result = [(item.field.name, types.module.text(item.value)) for item in types.assigned]
+    assert result == [("frame_id", "'a'"), ("frame_id", "'b'"), ("data", "'c'")]

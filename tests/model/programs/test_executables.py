@@ -18,7 +18,7 @@ FILES = {
 def test_the_nodes_of_a_program_are_found_once() -> None:
     """Each of thousands of sections in a parameter file asks for them."""
     package = Package.of(FILES)
-    found = nodes_of(package, "talk")
-    assert [node.node_name for node in found] == ["talker"]
-    assert nodes_of(package, "talk") is found
+    result = nodes_of(package, "talk")
+    assert [node.node_name for node in result] == ["talker"]
+    assert nodes_of(package, "talk") is result
     assert not nodes_of(package, "other")

@@ -60,9 +60,9 @@ def value(text: str) -> object:
     ],
 )
 def test_literals_and_operators(text: str, expected: object) -> None:
-    found = value(text + "\n")
-    assert found == expected
-    assert type(found) is type(expected)
+    result = value(text + "\n")
+    assert result == expected
+    assert type(result) is type(expected)
 
 
 @pytest.mark.parametrize(
@@ -114,11 +114,11 @@ def test_values_of_names(text: str, expected: object) -> None:
 def test_list_has_its_value_at_the_place_of_use() -> None:
     module = PythonModule.parse(Source("a.py", "p = ['a']\nx = p\np.append('b')\ny = p\n"))
     evaluator = Evaluator(module)
-    found = {
+    result = {
         module.text(node.targets[0]): evaluator.evaluate(node.value)
         for node in module.walk(ast.Assign)
     }
-    assert found == {"p": ["a"], "x": ["a"], "y": ["a", "b"]}
+    assert result == {"p": ["a"], "x": ["a"], "y": ["a", "b"]}
 
 
 def test_local_names_of_functions() -> None:
@@ -126,12 +126,12 @@ def test_local_names_of_functions() -> None:
         Source("a.py", "p = 'a'\ndef f():\n    p = 'b'\n    x = p\ndef g():\n    y = p\n")
     )
     evaluator = Evaluator(module)
-    found = {
+    result = {
         module.text(node.targets[0]): evaluator.evaluate(node.value)
         for node in module.walk(ast.Assign)
         if isinstance(node.value, ast.Name)
     }
-    assert found == {"x": "b", "y": "a"}
+    assert result == {"x": "b", "y": "a"}
 
 
 @pytest.mark.parametrize(
@@ -236,10 +236,10 @@ def test_elements_have_locations() -> None:
     )
     last = module.tree.body[-1]
     assert isinstance(last, ast.Assign)
-    found = Evaluator(module).elements(last.value)
-    assert not found.complete
+    result = Evaluator(module).elements(last.value)
+    assert not result.complete
     assert [
-        (item.value, module.location(item.node).line, item.conditional) for item in found.items
+        (item.value, module.location(item.node).line, item.conditional) for item in result.items
     ] == [("z", 4, False), ("a", 1, False), ("b", 3, True)]
 
 
@@ -314,14 +314,14 @@ PLAIN = st.recursive(
 @pytest.mark.filterwarnings("ignore::SyntaxWarning")
 @given(PLAIN)
 def test_known_values_equal_those_of_python(text: str) -> None:
-    found = value(f"x = {text}\n")
-    if found is UNKNOWN or not is_known(found):
+    result = value(f"x = {text}\n")
+    if result is UNKNOWN or not is_known(result):
         return
     names = {"str": str, "int": int, "len": len}
     try:
         expected = eval(text, {"__builtins__": names})  # noqa: S307  built from the parts above
     except (ArithmeticError, TypeError, ValueError):
         # Both branches of a condition are the same, whatever becomes of the condition.
-        expected = found if " if " in text else UNKNOWN
-    assert found == expected
-    assert type(found) is type(expected)
+        expected = result if " if " in text else UNKNOWN
+    assert result == expected
+    assert type(result) is type(expected)

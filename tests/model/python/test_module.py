@@ -243,7 +243,7 @@ def test_context_of_imports() -> None:
 
 def test_imports_by_root() -> None:
     view = module("import os.path\nimport os\nfrom . import os as own\nfrom osgeo import gdal\n")
-    assert {root: len(found) for root, found in view.imports_by_root.items()} == {
+    assert {root: len(result) for root, result in view.imports_by_root.items()} == {
         "os": 2,
         "osgeo": 1,
     }
@@ -265,11 +265,11 @@ def test_name_locations_of_functions_and_classes() -> None:
         "def main(args=None):\n    pass\n\n\nasync  def  wait():\n    pass\n\n\n"
         "@decorated\nclass Talker(Node):\n    def inner(self):\n        pass\n"
     )
-    assert {name: place(found.location) for name, found in view.functions.items()} == {
+    assert {name: place(result.location) for name, result in view.functions.items()} == {
         "main": (1, 5, 1, 9),
         "wait": (5, 13, 5, 17),
     }
-    assert {name: place(found.location) for name, found in view.classes.items()} == {
+    assert {name: place(result.location) for name, result in view.classes.items()} == {
         "Talker": (10, 7, 10, 13),
     }
 
@@ -379,9 +379,9 @@ def test_scopes_of_comprehensions_lambdas_and_defaults() -> None:
     uses = [node for node in view.walk(ast.Name) if isinstance(node.ctx, ast.Load)]
     owners = []
     for use in uses:
-        found = view.index.lookup(use.id, use)
-        assert found is not None
-        owners.append(type(found[0]).__name__)
+        result = view.index.lookup(use.id, use)
+        assert result is not None
+        owners.append(type(result[0]).__name__)
     assert owners == ["Module", "ListComp", "FunctionDef", "Lambda"]
 
 

@@ -148,8 +148,8 @@ def test_node_class() -> None:
 )
 def test_spellings_of_the_base_class(head: str, base: str, *, lifecycle: bool) -> None:
     view = facts(f"{head}\nclass Talker({base}):\n    pass\n")
-    found = [(item.name, item.is_lifecycle) for item in view.classes]
-    assert (("Talker", lifecycle) in found) is bool(base)
+    result = [(item.name, item.is_lifecycle) for item in view.classes]
+    assert (("Talker", lifecycle) in result) is bool(base)
 
 
 def test_class_that_inherits_from_itself_is_no_node() -> None:
@@ -268,16 +268,16 @@ def test_node_without_a_class() -> None:
         "    publisher = node.create_publisher(String, 'chatter', 10)\n"
         "    node.create_timer(0.5, lambda: publisher.publish(String()))\n"
     )
-    (found,) = view.objects
-    assert (found.name, found.node_name, found.namespace) == ("node", "a", "b")
-    assert place(found.node_name_location) == (7, 30, 7, 33)
-    (publisher,) = found.publishers
+    (item,) = view.objects
+    assert (item.name, item.node_name, item.namespace) == ("node", "a", "b")
+    assert place(item.node_name_location) == (7, 30, 7, 33)
+    (publisher,) = item.publishers
     assert (publisher.topic, publisher.variable, publisher.attribute) == (
         "chatter",
         "publisher",
         None,
     )
-    assert publisher.owner is found
+    assert publisher.owner is item
     assert publish_rate(view, publisher) == 2.0
 
 
@@ -516,18 +516,18 @@ def test_qos_of_publisher(expression: str, expected: Sequence[object]) -> None:
 
 
 def qos_after(body: str) -> Qos:
-    found = node(body, "from rclpy.qos import DurabilityPolicy, QoSProfile").publishers[0].qos
-    assert found is not None
-    return found
+    result = node(body, "from rclpy.qos import DurabilityPolicy, QoSProfile").publishers[0].qos
+    assert result is not None
+    return result
 
 
 def test_qos_changed_before_the_use() -> None:
-    found = qos_after(
+    result = qos_after(
         "qos = QoSProfile(depth=1)\nqos.depth = 5\n"
         "qos.durability = DurabilityPolicy.TRANSIENT_LOCAL\n"
         "self.create_publisher(String, 'a', qos)"
     )
-    assert (found.depth, found.durability) == (5, "TRANSIENT_LOCAL")
+    assert (result.depth, result.durability) == (5, "TRANSIENT_LOCAL")
 
 
 def test_qos_changed_after_use_or_conditionally() -> None:
@@ -725,12 +725,12 @@ def test_callback_of_timer(
         "    def tick(self):\n        pass\n    def give(self): return self.tick\n"
         "    @staticmethod\n    def still(): pass\n\ndef tick(): pass\n"
     )
-    found = view.timers[0].callback
-    assert found is not None
-    assert found.name == name
-    assert (found.function.lineno if found.function else None) == line
-    assert (found.is_called, found.is_bound, found.is_partial) == (called, bound, partial)
-    assert place(found.location) == (8, 30, 8, 30 + len(expression))
+    result = view.timers[0].callback
+    assert result is not None
+    assert result.name == name
+    assert (result.function.lineno if result.function else None) == line
+    assert (result.is_called, result.is_bound, result.is_partial) == (called, bound, partial)
+    assert place(result.location) == (8, 30, 8, 30 + len(expression))
 
 
 def test_functions_called_by_a_callback() -> None:
@@ -984,9 +984,9 @@ def test_signatures_of_message_filters_equal_those_of_the_stubs(class_: str) -> 
 
 
 def test_qos_profiles_equal_those_of_rclpy(rclpy_data: Any) -> None:  # noqa: ANN401
-    said = rclpy_data["profiles"]
-    del said["unknown"]
-    assert {name: tuple(profile) for name, profile in said.items()} == PROFILES
+    output = rclpy_data["profiles"]
+    del output["unknown"]
+    assert {name: tuple(profile) for name, profile in output.items()} == PROFILES
 
 
 # -- anything
@@ -1040,8 +1040,8 @@ def test_facts_of_any_code_never_raise(first: list[str], second: list[str]) -> N
     names = [item.node_name for item in view.nodes]
     assert all(name is UNKNOWN or isinstance(name, str) for name in names)
     for publisher in view.publishers:
-        found = publish_rate(view, publisher)
-        assert found is UNKNOWN or found > 0
+        result = publish_rate(view, publisher)
+        assert result is UNKNOWN or result > 0
     for _, callback in view.callbacks:
         if callback.function is not None:
             assert callback.function in view.reached(callback.function)

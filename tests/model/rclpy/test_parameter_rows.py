@@ -33,8 +33,8 @@ def declared(body: str) -> list[Parameter]:
     ],
 )
 def test_loop_over_a_literal(loop: str) -> None:
-    found = declared(f"{loop}\n    self.declare_parameter(name, default)")
-    assert [(one.name, one.type) for one in found] == [("rate", "double"), ("mode", "string")]
+    result = declared(f"{loop}\n    self.declare_parameter(name, default)")
+    assert [(item.name, item.type) for item in result] == [("rate", "double"), ("mode", "string")]
 
 
 @pytest.mark.parametrize(
@@ -47,8 +47,8 @@ def test_loop_over_a_literal(loop: str) -> None:
     ],
 )
 def test_loop_over_an_unknown_value(loop: str) -> None:
-    found = declared(f"{loop}\n    self.declare_parameter(name, default)")
-    assert [isinstance(one.name, str) for one in found] == [False]
+    result = declared(f"{loop}\n    self.declare_parameter(name, default)")
+    assert [isinstance(item.name, str) for item in result] == [False]
 
 
 @pytest.mark.parametrize(
@@ -63,9 +63,9 @@ def test_loop_over_an_unknown_value(loop: str) -> None:
 )
 def test_parameter_ranges(body: str, limits: list[str] | None) -> None:
     body += "\ndescriptor = ParameterDescriptor()\ndescriptor.integer_range.append(limits)"
-    (found,) = declared(f"{body}\nself.declare_parameter('count', 5, descriptor)")
-    descriptor = found.descriptor
-    assert (descriptor and [one.text for one in descriptor.ranges]) == limits
+    (entry,) = declared(f"{body}\nself.declare_parameter('count', 5, descriptor)")
+    descriptor = entry.descriptor
+    assert (descriptor and [item.text for item in descriptor.ranges]) == limits
 
 
 @pytest.mark.parametrize(
@@ -73,10 +73,10 @@ def test_parameter_ranges(body: str, limits: list[str] | None) -> None:
     [("0.3", True), ("1.0", True), ("0.25", False), ("1.1", False), ("-1e-9", False)],
 )
 def test_steps_of_ranges_follow_rclpy(value: str, allowed: bool) -> None:
-    (found,) = declared(
+    (item,) = declared(
         "limits = FloatingPointRange(from_value=0.0, to_value=1.0, step=0.1)\n"
         "descriptor = ParameterDescriptor(floating_point_range=[limits])\n"
         f"self.declare_parameter('gain', {value}, descriptor)"
     )
-    assert found.descriptor is not None
-    assert found.descriptor.ranges[0].allows(float(value)) is allowed
+    assert item.descriptor is not None
+    assert item.descriptor.ranges[0].allows(float(value)) is allowed

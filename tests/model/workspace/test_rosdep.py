@@ -54,13 +54,13 @@ def keys(home: Path) -> RosdepKeys | None:
 
 def test_keys_of_jazzy(tmp_path: Path) -> None:
     write_cache(tmp_path)
-    found = keys(tmp_path)
-    assert found is not None
+    result = keys(tmp_path)
+    assert result is not None
     for key in (*BASE, *JAZZY):
-        assert found.resolves(key) is True
+        assert result.resolves(key) is True
     # A package of Ubuntu, a part of a rule, and a package of another distribution are no keys.
     for other in ("libserial-dev", "packages", "old_package", "python3-seria", ""):
-        assert found.resolves(other) is False
+        assert result.resolves(other) is False
 
 
 def test_missing_cache(tmp_path: Path) -> None:
@@ -89,23 +89,23 @@ class Hostile:
 
 @pytest.mark.parametrize("data", [b"", b"no pickle", pickle.dumps(["rclpy"], 2)])
 def test_damaged_source(data: bytes) -> None:
-    found = RosdepKeys([pickle.dumps(BASE, 2), data])
-    assert found.resolves("python3-serial") is True
-    assert found.resolves("unknown") is None
+    result = RosdepKeys([pickle.dumps(BASE, 2), data])
+    assert result.resolves("python3-serial") is True
+    assert result.resolves("unknown") is None
 
 
 def test_unpickling_runs_no_code(tmp_path: Path) -> None:
     trap = tmp_path / "trap"
-    found = RosdepKeys([pickle.dumps({"key": Hostile(trap)}, 2)])
-    assert found.resolves("unknown") is None
+    result = RosdepKeys([pickle.dumps({"key": Hostile(trap)}, 2)])
+    assert result.resolves("unknown") is None
     assert not trap.exists()
 
 
 @pytest.mark.parametrize("protocol", range(2, pickle.HIGHEST_PROTOCOL + 1))
 def test_any_pickle_protocol(protocol: int) -> None:
-    found = RosdepKeys([pickle.dumps(BASE, protocol)])
-    assert found.resolves("libserial") is True
-    assert found.resolves("libserial-dev") is False
+    result = RosdepKeys([pickle.dumps(BASE, protocol)])
+    assert result.resolves("libserial") is True
+    assert result.resolves("libserial-dev") is False
 
 
 def test_findings_depend_on_the_cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -124,8 +124,8 @@ def test_findings_depend_on_the_cache(tmp_path: Path, monkeypatch: pytest.Monkey
         + "</package>\n"
     )
     (target,) = targets.find([str(package)])
-    said = runner.check(target.package, RULES)
-    assert [found.location.line for found in said] == [5, 6]
+    diagnostics = runner.check(target.package, RULES)
+    assert [item.location.line for item in diagnostics] == [5, 6]
     seen = target.package.outside.seen
     assert holds(seen)
     (cache / "index").write_text("")
