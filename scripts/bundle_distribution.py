@@ -208,8 +208,8 @@ def with_modules(text: str, path: str, old: Collection[str], new: Collection[str
         node for node in tree.body if isinstance(node, ast.ImportFrom) and node.module == package
     ]
     gone, added = (
-        {*map(module_name, one)} - {*map(module_name, other)}
-        for one, other in ((old, new), (new, old))
+        {*map(module_name, names)} - {*map(module_name, others)}
+        for names, others in ((old, new), (new, old))
     )
     start = f"{package}."
     for node in own[:1]:

@@ -48,82 +48,85 @@ def main(directory: Path) -> int:
     return 0
 
 
-def _row(one: Distribution) -> str:
+def _row(distro: Distribution) -> str:
     facts = ("support", "python", "cmake", "numpy", "setuptools", "rclpy")
-    cells = [f"[{one.title}]({one.name}.md)", *(str(one.fact(fact)) for fact in facts)]
+    cells = [
+        f"[{distro.title}]({distro.name}.md)",
+        *(str(distro.fact(fact)) for fact in facts),
+    ]
     return f"| {' | '.join(cells)} |"
 
 
-def _page(one: Distribution) -> Iterator[str]:
-    yield f"# {one.title}"
+def _page(distro: Distribution) -> Iterator[str]:
+    yield f"# {distro.title}"
     yield ""
     facts = ("CMake", "NumPy", "setuptools", "rclpy")
-    versions = ", ".join(f"{fact} {one.fact(fact.lower())}" for fact in facts)
-    yield f"Supported {one.fact('support')}; Python {one.python_version}, {versions}."
+    versions = ", ".join(f"{fact} {distro.fact(fact.lower())}" for fact in facts)
+    yield f"Supported {distro.fact('support')}; Python {distro.python_version}, {versions}."
     yield ""
-    yield from _build(one)
-    yield from _linters(one)
-    with distributions.targeting(one):
+    yield from _build(distro)
+    yield from _linters(distro)
+    with distributions.targeting(distro):
         yield from _table("Removed", [item for item in _changes() if item.is_removed])
         yield from _table("Deprecated", [item for item in _changes() if item.is_deprecated])
-    changed = [item for item in _changes() if item.changed and one.place >= item.changed.place]
+    changed = [item for item in _changes() if item.changed and distro.place >= item.changed.place]
     yield from _table("Changed", changed)
-    yield from _rules(one)
-    yield from _interfaces(one)
-    yield from _members(one)
+    yield from _rules(distro)
+    yield from _interfaces(distro)
+    yield from _members(distro)
 
 
-def _build(one: Distribution) -> Iterator[str]:
-    stops = one.fact("build.cmake_minimum_error_below")
+def _build(distro: Distribution) -> Iterator[str]:
+    stops = distro.fact("build.cmake_minimum_error_below")
     if stops:
-        warns = one.fact("build.cmake_minimum_warning_below")
+        warns = distro.fact("build.cmake_minimum_warning_below")
         yield f"- CMake stops at a `cmake_minimum_required` below {stops}, and warns below {warns}."
-    both = one.fact("build.package_may_be_installed_twice")
+    both = distro.fact("build.package_may_be_installed_twice")
     yield (
         "- A package may generate interfaces and install a Python package of its own name."
         if both
         else "- Interfaces and a Python package of the same name are packages of their own."
     )
-    extra = one.fact("wheels.extra")
+    extra = distro.fact("wheels.extra")
     if extra:
         yield (
             "- There are wheels for Python, which need no installation of ROS 2: the extra "
             f"`{extra}`."
         )
-    yield from (f"- {line}" for line in _templates(one))
+    yield from (f"- {line}" for line in _templates(distro))
     yield ""
 
 
-def _templates(one: Distribution) -> Iterator[str]:
+def _templates(distro: Distribution) -> Iterator[str]:
     """Yield the code of `new` that differs between distributions."""
-    if one.fact("templates.has_init_block"):
+    if distro.fact("templates.has_init_block"):
         yield "`new` writes `with rclpy.init():`: the end of the block disconnects."
     else:
         yield "`new` writes `rclpy.init()` and, in `finally`, `rclpy.try_shutdown()`."
-    if one.fact("templates.is_typed"):
+    if distro.fact("templates.is_typed"):
         yield (
             "`new` writes `py.typed` and a test with ament_xmllint into packages of ament_python, "
             "as `ros2 pkg create` does; it leaves out a test with ament_mypy, and the annotations "
             "of tests that this reads: rclpy's own do not pass it."
         )
-    variables = one.fact("templates.only_here").items()
+    variables = distro.fact("templates.only_here").items()
     settings = ", ".join(f"`{name}={value}`" for name, value in variables)
     yield f"Tests that `new` writes stay on their machine by {settings}."
 
 
-def _linters(one: Distribution) -> Iterator[str]:
-    versions = ", ".join(f"{name} {version}" for name, version in one.fact("linters").items())
+def _linters(distro: Distribution) -> Iterator[str]:
+    versions = ", ".join(f"{name} {version}" for name, version in distro.fact("linters").items())
     yield "## Linters"
     yield ""
     yield f"The style verdict is that of {versions}."
     yield ""
-    if "flake8-docstrings" not in one.fact("linters"):
+    if "flake8-docstrings" not in distro.fact("linters"):
         yield "- Docstrings are judged by ament_pep257 alone: flake8 has no plugin for them."
-    unknown = one.fact("copyright.unknown_licenses")
+    unknown = distro.fact("copyright.unknown_licenses")
     if unknown:
         names = ", ".join(f"`{name}`" for name in unknown)
         yield f"- ament_copyright does not know the license {names} any more."
-    if one.fact("copyright.is_case_sensitive"):
+    if distro.fact("copyright.is_case_sensitive"):
         yield "- ament_copyright reads notices in line comments, with a capital `Copyright`."
     yield ""
 
@@ -133,14 +136,14 @@ def _changes() -> Iterator[Change]:
         yield from changes.of_kind(kind)
 
 
-def _table(title: str, found: list[Change]) -> Iterator[str]:
-    if not found:
+def _table(title: str, listed: list[Change]) -> Iterator[str]:
+    if not listed:
         return
     yield f"## {title}"
     yield ""
     yield "| name | since | what to do | fixed | decided in |"
     yield "|---|---|---|---|---|"
-    for item in found:
+    for item in listed:
         first = item.removed if title == "Removed" else item.deprecated or item.changed
         since = first.title if first is not None else ""
         instead = f"`{item.use}`" if item.use else item.advice
@@ -156,25 +159,25 @@ def _table(title: str, found: list[Change]) -> Iterator[str]:
     yield ""
 
 
-def _rules(one: Distribution) -> Iterator[str]:
+def _rules(distro: Distribution) -> Iterator[str]:
     """Yield the rules with examples for a distribution; those of the default are all others."""
-    found = [
+    rules = [
         rule
         for rule in registry.load(content.roots("rules"))
-        if any(item.distro == one.name and item.reports for item in rule.examples)
+        if any(item.distro == distro.name and item.reports for item in rule.examples)
     ]
-    if not found or one.name == DEFAULT:
+    if not rules or distro.name == DEFAULT:
         return
-    yield f"## Rules with examples for {one.title}"
+    yield f"## Rules with examples for {distro.title}"
     yield ""
-    for rule in found:
+    for rule in rules:
         yield f"- [{rule.code}](../rules/{rule.code}.md) {docs.summary(rule)}"
     yield ""
 
 
-def _interfaces(one: Distribution) -> Iterator[str]:
+def _interfaces(distro: Distribution) -> Iterator[str]:
     """Yield the interfaces that differ from those of the default distribution."""
-    base, own = _definitions(named(DEFAULT)), _definitions(one)
+    base, own = _definitions(named(DEFAULT)), _definitions(distro)
     gone, added = sorted(base.keys() - own.keys()), sorted(own.keys() - base.keys())
     other = sorted(name for name in base.keys() & own.keys() if base[name] != own[name])
     packages = sorted({name.partition("/")[0] for name in (*gone, *added, *other)})
@@ -182,7 +185,8 @@ def _interfaces(one: Distribution) -> Iterator[str]:
         return
     yield f"## Interfaces, compared with {DEFAULT.capitalize()}"
     yield ""
-    yield f"| package | not in {one.title} | only in {one.title} | other fields and constants |"
+    title = distro.title
+    yield f"| package | not in {title} | only in {title} | other fields and constants |"
     yield "|---|---|---|---|"
     for package in packages:
         cells = [
@@ -210,10 +214,10 @@ def _fields(base: str, own: str) -> str:
     return ", ".join(parts) or "another order"
 
 
-def _members(one: Distribution) -> Iterator[str]:
+def _members(distro: Distribution) -> Iterator[str]:
     """Yield the differences of the public members of rclpy from the previous distribution."""
-    before = named(ORDER[max(ORDER.index(one.name) - 1, 0)])
-    old, new = _public(before), _public(one)
+    before = named(ORDER[max(ORDER.index(distro.name) - 1, 0)])
+    old, new = _public(before), _public(distro)
     lines: list[str] = []
     for class_ in sorted(old.keys() | new.keys()):
         added = sorted(new.get(class_, set()) - old.get(class_, set()))
@@ -222,7 +226,7 @@ def _members(one: Distribution) -> Iterator[str]:
             if not _is_name(before, class_):
                 lines.append(f"- `{class_}` is new")
         elif class_ not in new:
-            if not _is_name(one, class_):
+            if not _is_name(distro, class_):
                 lines.append(f"- `{class_}` is gone")
         elif added or gone:
             changes_ = [f"has {_joined(added)}"] * bool(added)
@@ -235,27 +239,27 @@ def _members(one: Distribution) -> Iterator[str]:
         yield from lines
 
 
-def _is_name(one: Distribution, class_: str) -> bool:
+def _is_name(distro: Distribution, class_: str) -> bool:
     """Tell whether a module has a name that another distribution has as a class."""
     module, _, name = class_.rpartition(".")
-    return name in names_of(one).get(module, ())
+    return name in names_of(distro).get(module, ())
 
 
 def _joined(names: list[str]) -> str:
     return ", ".join(f"`{name}`" for name in names)
 
 
-def _public(one: Distribution) -> dict[str, set[str]]:
+def _public(distro: Distribution) -> dict[str, set[str]]:
     return {
         name: {member for member in members if not member.startswith("_")}
-        for name, members in names_of(one).items()
+        for name, members in names_of(distro).items()
         if name.startswith("rclpy.") and name.rpartition(".")[2][:1].isupper()
     }
 
 
-def _definitions(one: Distribution) -> dict[str, str]:
+def _definitions(distro: Distribution) -> dict[str, str]:
     result: dict[str, str] = {}
-    text = Path(one.path("interfaces.txt")).read_text()
+    text = Path(distro.path("interfaces.txt")).read_text()
     for chunk in text.split("\n@ ")[1:]:
         head, *definitions = chunk.rstrip("\n").split("\n= ")
         for definition in definitions:

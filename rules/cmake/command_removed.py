@@ -254,7 +254,7 @@ class CommandRemoved(Rule):
             fixed={
                 "CMakeLists.txt": _LISTS.format("target_link_libraries(talker ${shapes_TARGETS})")
             },
-            neighbours={
+            neighbors={
                 "shapes": {
                     "package.xml": "<package><name>shapes</name></package>\n",
                     "CMakeLists.txt": "project(shapes)\n",
@@ -280,7 +280,7 @@ class CommandRemoved(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        changes = [one for one in of_kind("command") if one.is_removed or one.is_deprecated]
+        changes = [item for item in of_kind("command") if item.is_removed or item.is_deprecated]
         if not changes:
             return
         lists = [package.cmake, *nested(package, _is_asked_for)]

@@ -101,7 +101,7 @@ class FoundUndeclared(Rule):
                 "package.xml": _MANIFEST.format("  <depend>common</depend>\n"),
                 "CMakeLists.txt": _LISTS.format("nav_msgs"),
             },
-            neighbours={
+            neighbors={
                 "common": {
                     "package.xml": '<package format="3">\n  <name>common</name>\n'
                     "  <depend>nav_msgs</depend>\n</package>\n"
@@ -333,9 +333,9 @@ def _transitive_dependencies(package: Package) -> set[str]:
         name = pending.pop()
         if name not in result:
             result.add(name)
-            neighbour = package.workspace.get(name)
+            neighbor = package.workspace.get(name)
             try:
-                pending += neighbour.manifest.run_names if neighbour is not None else ()
+                pending += neighbor.manifest.run_names if neighbor is not None else ()
             except ViewError:
                 continue
     # A package with messages depends on everything that is needed to use them.

@@ -94,7 +94,7 @@ class ExecutableMissing(Rule):
             },
             "launch/a.launch.xml:2:28: talker has no program 'tlk'; closest: 'talk'",
             "launch/b.launch.yaml:4:11: talker has no program 'tlk'; closest: 'talk'",
-            neighbours={"talker": _FILES},
+            neighbors={"talker": _FILES},
         ),
         Example(
             "packages: itself, a known one, a declared one, and one without a similar name",

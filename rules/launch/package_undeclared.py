@@ -79,7 +79,7 @@ class PackageUndeclared(Rule):
                 "move what both need into a third package",
                 severity=Severity.WARNING,
             ),
-            neighbours={
+            neighbors={
                 "listener": {
                     "package.xml": '<package format="3">\n  <name>listener</name>\n'
                     "  <exec_depend>talker</exec_depend>\n</package>\n"
@@ -110,7 +110,7 @@ class PackageUndeclared(Rule):
                 "launch/a.launch.py": _LAUNCH,
                 "launch/b.launch.py": _LAUNCH.replace("rviz2", "arm"),
             },
-            neighbours={
+            neighbors={
                 "arm": {"package.xml": '<package format="3">\n  <name>arm</name>\n</package>\n'}
             },
         ),
@@ -127,7 +127,7 @@ class PackageUndeclared(Rule):
                 fix="Declare arm",
                 severity=Severity.WARNING,
             ),
-            neighbours={
+            neighbors={
                 "arm": {"package.xml": '<package format="3">\n  <name>arm</name>\n</package>\n'}
             },
             fixed={

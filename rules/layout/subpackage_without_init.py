@@ -111,7 +111,7 @@ class SubpackageWithoutInit(Rule):
             return
         missing: dict[str, tuple[Import, str, bool]] = {}
         for path, imports in imports_by_path(package):
-            for item in (one for one in imports if not one.in_tests):
+            for item in (imported for imported in imports if not imported.in_tests):
                 for directory in _directories(package, path, item):
                     init = f"{directory}/__init__.py"
                     earlier = missing.get(init)

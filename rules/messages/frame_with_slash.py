@@ -127,7 +127,7 @@ class FrameWithSlash(MessageRule):
                 fix="Remove the slash",
                 severity=Severity.WARNING,
             ),
-            neighbours={
+            neighbors={
                 "team_msgs": {
                     "package.xml": "<package><name>team_msgs</name></package>",
                     "msg/Goal.msg": "std_msgs/Header header\n",

@@ -30,13 +30,13 @@ class DependencyCycle(Rule):
         Example(
             "one way",
             {"package.xml": _TALKER},
-            neighbours={"listener": {"package.xml": _LISTENER.format("")}},
+            neighbors={"listener": {"package.xml": _LISTENER.format("")}},
         ),
         Example(
             "both ways",
             {"package.xml": _TALKER},
             "3:11: dependency cycle: talker needs listener needs talker",
-            neighbours={
+            neighbors={
                 "listener": {"package.xml": _LISTENER.format("  <depend>talker</depend>\n")}
             },
         ),

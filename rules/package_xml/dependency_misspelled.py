@@ -65,7 +65,7 @@ class DependencyMisspelled(Rule):
                 "no package 'our_arm_msgss' is known; closest: 'our_arm_msgs'",
                 fix="Replace with our_arm_msgs",
             ),
-            neighbours={
+            neighbors={
                 name: {"package.xml": f"<package>\n  <name>{name}</name>\n</package>\n"}
                 for name in ("our_arm_msgs", "our_hand_msgs")
             },

@@ -54,7 +54,7 @@ class DependencyUnresolvable(Rule):
         Example(
             "a package of the workspace",
             {"package.xml": _MANIFEST.format("robot-serial")},
-            neighbours={"serial": {"package.xml": "<package><name>robot-serial</name></package>"}},
+            neighbors={"serial": {"package.xml": "<package><name>robot-serial</name></package>"}},
             rosdep_keys=_KEYS,
         ),
         Example("rosdep is not there to say", {"package.xml": _MANIFEST.format("pyserial-3")}),

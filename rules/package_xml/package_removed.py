@@ -59,7 +59,7 @@ class PackageRemoved(Rule):
                 "talker/__init__.py": "",
                 "talker/node.py": "from actionlib_msgs.msg import GoalStatus\n",
             },
-            neighbours={
+            neighbors={
                 "actionlib_msgs": {
                     "package.xml": "<package><name>actionlib_msgs</name></package>\n",
                     "CMakeLists.txt": "project(actionlib_msgs)\n"

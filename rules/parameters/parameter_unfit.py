@@ -109,7 +109,7 @@ class ParameterUnfit(Rule):
             {"package.xml": _MANIFEST.format("demo_bringup"), "launch/demo.launch.py": _LAUNCH},
             "launch/demo.launch.py:8:22: 'rate' (demo/talker.py:7 of demo) is a double, but 2 is "
             "an integer: InvalidParameterTypeException",
-            neighbours={
+            neighbors={
                 "demo": {
                     "package.xml": _MANIFEST.format("demo"),
                     "setup.py": "from setuptools import setup\n\nsetup(entry_points={\n"

@@ -51,7 +51,7 @@ class RequiredNeverSet(RclpyRule):
                 "package.xml": "<package><name>demo</name></package>\n",
                 "talker.py": _NODE.format("Parameter.Type.DOUBLE"),
             },
-            neighbours={
+            neighbors={
                 "bringup": {
                     "package.xml": "<package><name>bringup</name></package>\n",
                     "launch/all.launch.py": "PARAMETERS = [{'rate': 3.0}]\n",

@@ -133,7 +133,7 @@ class ShareFileNotInstalled(Rule):
                 "data_files installs nothing of config/, for instance config/talker.yaml",
                 severity=Severity.WARNING,
             ),
-            neighbours={
+            neighbors={
                 "other": {
                     "package.xml": _MANIFEST.replace("talker", "other"),
                     "config/talker.yaml": "",

@@ -96,7 +96,7 @@ class NameNotInModule(TypeRule):
             "a message of the workspace",
             {"talker.py": "from my_msgs.msg import Beat, Bet\n"},
             "1:31: 'my_msgs.msg' has no 'Bet': ImportError; did you mean 'Beat'?",
-            neighbours={
+            neighbors={
                 "my_msgs": {
                     "package.xml": "<package format='3'><name>my_msgs</name></package>\n",
                     "CMakeLists.txt": "project(my_msgs)\n"

@@ -20,7 +20,7 @@ EXTENSIONS = frozenset({".c", ".cc", ".cpp", ".cxx", ".h", ".hh", ".hpp", ".hxx"
 CONTRIBUTING = "CONTRIBUTING.md"
 REPOSITORY_FILES = (CONTRIBUTING, "LICENSE")
 
-_DATA = os.path.join(os.path.dirname(os.path.dirname(__file__)), "data", "licences.tsv")
+_DATA = os.path.join(os.path.dirname(os.path.dirname(__file__)), "data", "licenses.tsv")
 _YEARS = r"\d{4}(?:-\d{4})?(?:,\s*\d{4}(?:-\d{4})?)*"
 _NOTICE = rf"Copyright(?:\s+\(c\))?\s+({_YEARS}),?\s+([^\n]+)$"
 _NEAR = 12  # common words from which a header is a variant of a known one
@@ -34,7 +34,7 @@ class Header(NamedTuple):
     location: Location
     """The first notice, or the first line without one."""
     holders: tuple[str, ...] = ()
-    licence: str | None = None
+    license: str | None = None
     """The SPDX identifier of the known header; ``None`` if there is none."""
     text: str = ""
     """The text after the last notice, in one line."""
@@ -44,7 +44,7 @@ class Header(NamedTuple):
     @property
     def is_known(self) -> bool:
         """Whether the linter accepts the file."""
-        return bool(self.holders) and self.licence is not None
+        return bool(self.holders) and self.license is not None
 
 
 def headers(package: Package) -> list[Header]:
@@ -237,16 +237,16 @@ def _holder_in(notice: str) -> str:
 class KnownText(NamedTuple):
     """The text of a license, split at the placeholders for names."""
 
-    licence: str
+    license: str
     sections: tuple[str, ...]
 
 
-def contributing(licence: str) -> str | None:
+def contributing(license_: str) -> str | None:
     """Return the CONTRIBUTING.md of a license, as written by `new`; ``None`` without one."""
     directory = os.path.join(content.built_in(), "templates", "_licenses")
-    if licence not in os.listdir(directory):  # the name is from the user, and may be a path
+    if license_ not in os.listdir(directory):  # the name is from the user, and may be a path
         return None
-    path = os.path.join(directory, licence)
+    path = os.path.join(directory, license_)
     try:
         with open(os.path.join(path, f"{CONTRIBUTING}.jinja"), encoding="utf-8") as file:
             return file.read()
@@ -257,7 +257,7 @@ def contributing(licence: str) -> str | None:
 def _known_texts(kind: str) -> tuple[KnownText, ...]:
     """Return the known texts of a kind for the linter of the target."""
     unknown = distributions.target().fact("copyright.unknown_licenses")
-    return tuple(item for item in known_texts()[kind] if item.licence not in unknown)
+    return tuple(item for item in known_texts()[kind] if item.license not in unknown)
 
 
 @lru_cache(maxsize=1)
@@ -266,8 +266,8 @@ def known_texts() -> dict[str, list[KnownText]]:
     result: dict[str, list[KnownText]] = {}
     with open(_DATA, encoding="utf-8") as file:
         for line in file:
-            kind, licence, *sections = line.rstrip("\n").split("\t")
-            result.setdefault(kind, []).append(KnownText(licence, tuple(sections)))
+            kind, license_, *sections = line.rstrip("\n").split("\t")
+            result.setdefault(kind, []).append(KnownText(license_, tuple(sections)))
     return result
 
 
@@ -280,7 +280,7 @@ def identify(text: str) -> str | None:
 def _identified(text: str, texts: tuple[KnownText, ...]) -> str | None:
     for known_text in texts:
         if _in_order(text, known_text.sections):
-            return known_text.licence
+            return known_text.license
     return None
 
 
@@ -307,7 +307,7 @@ def departure(text: str) -> tuple[str, str, str] | None:
         same, expected, given = _compare(words, [part.split() for part in known_text.sections])
         enough = min(_NEAR, sum(map(len, (part.split() for part in known_text.sections))) // 2)
         if same >= enough and (best is None or same > best[0]):
-            best = same, known_text.licence, " ".join(expected[:4]), " ".join(given[:4])
+            best = same, known_text.license, " ".join(expected[:4]), " ".join(given[:4])
     return best[1:] if best else None
 
 
@@ -338,7 +338,7 @@ def identify_file(name: str, data: bytes) -> str | None:
                 break
             last = at
         else:
-            return known_text.licence
+            return known_text.license
     return None
 
 

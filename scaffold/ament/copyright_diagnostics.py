@@ -31,7 +31,7 @@ def diagnostics(package: Package, code: str) -> Iterator[Diagnostic]:
         missing = [header for header in headers(package) if not header.holders]
         yield from _of_headers(package, code, missing, _no_notice)
     elif code == "LY021" and not _has_own_texts(package):
-        unknown = [item for item in headers(package) if item.holders and not item.licence]
+        unknown = [item for item in headers(package) if item.holders and not item.license]
         yield from _of_headers(package, code, unknown, _unknown_header)
     elif code != "LY021":
         yield from _of_repository(package, code)
@@ -84,8 +84,8 @@ def _reason(text: str) -> str:
         return "no license header below the notice"
     difference = departure(text)
     if difference is not None:
-        licence, expected, actual = difference
-        return f'the header is not that of {licence}: "{actual}" instead of "{expected}"'
+        license_, expected, actual = difference
+        return f'the header is not that of {license_}: "{actual}" instead of "{expected}"'
     if "SPDX-License-Identifier" in text:
         return "an SPDX line below the notice is not the header of a license"
     start = " ".join(text.split()[:5])

@@ -109,8 +109,8 @@ class _Here:
         from scaffold.generate import destination
         from scaffold.model.package import Package
 
-        neighbours = destination.neighbours(os.path.realpath(self._directory))
-        return frozenset(Package.at(directory).name or "" for directory in neighbours)
+        neighbors = destination.neighbors(os.path.realpath(self._directory))
+        return frozenset(Package.at(directory).name or "" for directory in neighbors)
 
     @cached_property
     def rosdep(self) -> RosdepKeys | None:

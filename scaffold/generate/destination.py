@@ -32,7 +32,7 @@ def check(destination: str, package: str) -> None:
             f"{outer} is a package, and colcon does not search for packages inside of packages"
         )
     own = os.path.join(os.path.realpath(destination), package)
-    for other in neighbours(top):
+    for other in neighbors(top):
         directory = os.path.realpath(other)
         if directory != own and Package.at(directory).name == package:
             raise ConflictError(f"{directory} is already a package named {package!r}")
@@ -44,7 +44,7 @@ def workspace(destination: str) -> str | None:
     return os.path.dirname(sources) if sources else None
 
 
-def neighbours(top: str) -> list[str]:
+def neighbors(top: str) -> list[str]:
     """Return the packages of the workspace around a directory, and those in it."""
     disk = Disk()
     sources = colcon.sources_at(disk, top)

@@ -56,7 +56,7 @@ class Package(PackageFiles):
     ) -> None:
         super().__init__(tree, directory)
         self._workspace = workspace
-        self._neighbourhood: WorkspaceView | None = None
+        self._neighborhood: WorkspaceView | None = None
         self._identity: Identity | None = None
 
     @classmethod
@@ -265,12 +265,12 @@ class Package(PackageFiles):
     @property
     def workspace(self) -> WorkspaceView:
         """The packages around this one, itself included."""
-        if self._neighbourhood is None:
+        if self._neighborhood is None:
             from scaffold.model.workspace.workspace import Workspace, WorkspaceView
 
             around = self._workspace or Workspace([self], self.outside)
-            self._neighbourhood = WorkspaceView(around, self.directory)
-        return self._neighbourhood
+            self._neighborhood = WorkspaceView(around, self.directory)
+        return self._neighborhood
 
     @property
     def outside(self) -> Disk:
@@ -294,7 +294,7 @@ class Package(PackageFiles):
         """Drop the views, and the packages around this one if no workspace was given."""
         super().forget_views(kept)
         if self._workspace is None:
-            self._neighbourhood = None
+            self._neighborhood = None
 
     def change(self, tree: Tree) -> None:
         """Replace the files of the package; see `Workspace.forget`."""

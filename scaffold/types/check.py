@@ -151,8 +151,8 @@ class TypeCheck:
             return
         reads = Reads()
         with recorded(reads):
-            found = [sources.get(package, other) for other in callers(package, path)]
-        calling = [item for item in found if item is not None]
+            candidates = [sources.get(package, other) for other in callers(package, path)]
+        calling = [item for item in candidates if item is not None]
         own = sources.reached(source)
         roots = frozenset[str]().union(*(item.roots for item in own.values()))
         is_relevant = _is_relevant(source, roots, stubbed)

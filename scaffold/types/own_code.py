@@ -53,18 +53,18 @@ def is_about_own(item: TyDiagnostic, sources: Iterable[Source]) -> bool:
 
 def with_own_marked(item: TyDiagnostic, sources: Iterable[Source]) -> TyDiagnostic:
     """Return a report with the class of the actual value marked if a file defines it."""
-    found = _FOUND.search(item.message)
-    if found is None:
+    match = _FOUND.search(item.message)
+    if match is None:
         return item
-    definition = _definition(found[2].encode())
+    definition = _definition(match[2].encode())
     defining = [it for it in sources if it.path and definition.search(it.data)]
-    class_ = re.compile(rb"^class %b\b" % found[2].encode(), re.MULTILINE)
+    class_ = re.compile(rb"^class %b\b" % match[2].encode(), re.MULTILINE)
     is_one = len(defining) == 1 and class_.search(defining[0].data) is not None
-    if not is_one or is_in_tests(defining[0].path) or _STANDING_IN.match(found[2]):
+    if not is_one or is_in_tests(defining[0].path) or _STANDING_IN.match(match[2]):
         return item
     stem = defining[0].path.rpartition("/")[2].removesuffix(".py")
-    marked = MARK.join([found[2], *(defining[0].dotted or stem).split(".")])
-    return item._replace(message=f"{item.message[: found.start(1)]}{marked}`")
+    marked = MARK.join([match[2], *(defining[0].dotted or stem).split(".")])
+    return item._replace(message=f"{item.message[: match.start(1)]}{marked}`")
 
 
 def own_name(item: TyDiagnostic) -> bytes:

@@ -229,7 +229,7 @@ def test_headers_written_by_the_linter_are_accepted(licence: str, tmp_path: Path
 def test_known_license_texts_equal_those_of_the_linter() -> None:
     """Compute scaffold/data/licences.tsv from the installed linter."""
     result = {
-        (kind, known.licence, known.sections)
+        (kind, known.license, known.sections)
         for kind, texts in notices.known_texts().items()
         for known in texts
     }

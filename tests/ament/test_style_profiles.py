@@ -53,15 +53,15 @@ def test_docstring_findings_come_from_pep257_without_flake8_plugin() -> None:
 
 
 def test_known_license_texts_depend_on_the_target() -> None:
-    (known,) = [item for item in notices.known_texts()["header"] if item.licence == "BSD-2.0"]
+    (known,) = [item for item in notices.known_texts()["header"] if item.license == "BSD-2.0"]
     text = "# Copyright 2026 Ada\n" + "".join(
         f"# {section}\n" for section in " Ada ".join(known.sections).splitlines()
     )
-    licences = {}
+    licenses = {}
     for name in ORDER:
         with distributions.targeting(named(name)):
-            licences[name] = notices.read("a.py", text.encode()).licence
-    assert licences == {
+            licenses[name] = notices.read("a.py", text.encode()).license
+    assert licenses == {
         "humble": "BSD-2.0",
         "jazzy": "BSD-2.0",
         "kilted": "BSD-2.0",

@@ -250,7 +250,7 @@ CASES: Mapping[str, tuple[Example, ...]] = {
     "PX062": (
         Example("all there", {"package.xml": ALL}),
         Example(
-            "no licence, no maintainer",
+            "no license, no maintainer",
             {
                 "package.xml": "".join(
                     line
@@ -525,7 +525,7 @@ CASES: Mapping[str, tuple[Example, ...]] = {
             {"package.xml": "<package><description>A <b>talker</b>.</description></package>\n"},
         ),
         Example(
-            "in a licence",
+            "in a license",
             {
                 "package.xml": "<package>\n  <license>\n"
                 "    <url>http://a.org</url>\n  </license>\n</package>\n"

@@ -52,7 +52,7 @@ def assert_suppressible(examples: Iterable[tuple[type[Rule], Example]]) -> None:
         lines[line - 1] += f"  # noqa: {rule.code}"
         files = {**example.files, path: "\n".join(lines)}
         package = package_of(
-            Example("", files, executable=example.executable, neighbours=example.neighbours)
+            Example("", files, executable=example.executable, neighbors=example.neighbors)
         )
         with example.targeting():
             diagnostics = runner.check(package, [rule()])

@@ -636,7 +636,7 @@ ODD: tuple[Any, ...] = (
     *(True, None, 5, 2.5, [], ["a", 1], {"a": 1}, {}, "", b"x", [[]], float("nan")),
 )
 """What a file of answers may hold where a text is wanted."""
-NEIGHBOURS = {
+NEIGHBORS = {
     Role.NODE: [name for name in KINDS if TEMPLATES[name].role is not Role.INTERFACE],
     Role.PROGRAM: KINDS,
     Role.INTERFACE: [name for name in KINDS if TEMPLATES[name].role is not Role.NODE],
@@ -689,7 +689,7 @@ def requests(draw: st.DrawFn, kind: str) -> dict[str, Any]:
         result.pop("build_type", None)
     others = [
         item
-        for item in NEIGHBOURS[TEMPLATES[kind].role]
+        for item in NEIGHBORS[TEMPLATES[kind].role]
         if result.get("build_type", "ament_cmake")
         in (TEMPLATES[item].build_types or template.of_role(TEMPLATES, Role.BUILD_TYPE))
     ]

@@ -72,7 +72,7 @@ class ObjectCalledWrongly(RclpyRule):
         Example(
             "a class of a module named action in another package",
             {"talker/node.py": "import rclpy\nfrom tasks.action import Step\n\nSTEP = Step()\n"},
-            neighbours={
+            neighbors={
                 "tasks": {
                     "package.xml": "<package><name>tasks</name></package>\n",
                     "tasks/action.py": "class Step:\n    pass\n",

@@ -24,7 +24,7 @@ def package_of(example: Example) -> Package:
     tree = MemoryTree(dict(example.files), example.executable)
     package = Package(tree, directory="", workspace=workspace)
     workspace.add(package)
-    for directory, files in example.neighbours.items():
+    for directory, files in example.neighbors.items():
         workspace.add(Package(MemoryTree(dict(files)), directory=directory, workspace=workspace))
     return package
 

@@ -50,8 +50,8 @@ def _rule_files(root: str) -> list[tuple[tuple[str, ...], str]]:
     pending: list[tuple[str, ...]] = [()]
     for names in pending:
         with os.scandir(os.path.join(root, *names)) as entries:
-            found = sorted(entries, key=lambda entry: entry.name)
-        for entry in found:
+            in_order = sorted(entries, key=lambda entry: entry.name)
+        for entry in in_order:
             if entry.is_dir():
                 pending.append((*names, entry.name))
             elif entry.name.endswith(".py") and not entry.name.startswith("_"):

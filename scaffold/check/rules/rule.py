@@ -85,7 +85,7 @@ class Example:
         reports: The diagnostics in reading order; none for an accepted package.
         fixed: The files that the fixes change or add; ``None`` when there is no fix.
         executable: The files with an executable bit.
-        neighbours: Other packages of the workspace: files by path, by package directory.
+        neighbors: Other packages of the workspace: files by path, by package directory.
         rosdep_keys: The rosdep keys; ``None`` for a machine without a cache.
         distro: The distribution that the package is checked for.
         moved_from: The source distribution of a migration; empty otherwise.
@@ -98,7 +98,7 @@ class Example:
         *reports: Report | str,
         fixed: Mapping[str, str] | None = None,
         executable: tuple[str, ...] = (),
-        neighbours: Mapping[str, Mapping[str, str]] | None = None,
+        neighbors: Mapping[str, Mapping[str, str]] | None = None,
         rosdep_keys: tuple[str, ...] | None = None,
         distro: str = distributions.DEFAULT,
         moved_from: str = "",
@@ -108,7 +108,7 @@ class Example:
         self._reports = reports
         self.fixed = fixed
         self.executable = executable
-        self.neighbours = neighbours or {}
+        self.neighbors = neighbors or {}
         self.rosdep_keys = rosdep_keys
         self.distro = distro
         self.moved_from = moved_from

@@ -12,8 +12,7 @@ from scaffold.ament.copyright import REPOSITORY_FILES
 from scaffold.check.fixes.overlay import Overlay
 from scaffold.errors import ConflictError, InputError
 from scaffold.generate import repository
-from scaffold.generate.add import extension, regenerate, rendered_part
-from scaffold.generate.add import remarks as neighbours
+from scaffold.generate.add import extension, regenerate, remarks, rendered_part
 from scaffold.generate.add.rendered_part import LAUNCH, Piece, Target, Wanted
 from scaffold.generate.edit.addition import Addition, ByHand
 from scaffold.generate.edit.edit import edit
@@ -307,7 +306,7 @@ def _remarks(package: Package, made: Piece) -> Iterator[str]:
         launch = next(path for path in made.rendered.files if path.startswith(LAUNCH))
         yield f"{launch} does not start {', '.join(made.others)}: not known to be nodes"
     if made.addition.program is not None:
-        yield from neighbours.remarks(package, made.addition.program.path)
+        yield from remarks.remarks(package, made.addition.program.path)
         yield from _not_launched(package, made.addition)
 
 
@@ -353,7 +352,7 @@ _WITH_HEADER = (".py", ".cpp")
 def _refuse_conflicts(package: Package, made: Piece) -> None:
     """Raise if a new node would not connect with an existing one."""
     program = made.addition.program
-    conflicts = neighbours.conflicts(package, program.path) if program is not None else ()
+    conflicts = remarks.conflicts(package, program.path) if program is not None else ()
     for conflict in conflicts:
         raise InputError(f"{conflict}; nothing was changed")
 

@@ -70,11 +70,11 @@ def license_of(package: Package, templates: Sequence[str]) -> str | None:
     if len(choices) == 1:
         return choices.pop()
     written = Counter(
-        header.licence for header in own_headers(package) if header.licence in templates
+        header.license for header in own_headers(package) if header.license in templates
     )
-    for licence, _ in written.most_common():
-        if licence in choices or not choices:
-            return licence
+    for license_, _ in written.most_common():
+        if license_ in choices or not choices:
+            return license_
     named = {identify_text(data) for data in license_texts(package)}
     named &= choices or {*templates}
     return named.pop() if len(named) == 1 else None

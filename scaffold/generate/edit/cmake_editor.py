@@ -221,10 +221,10 @@ def _extension(lists: CMakeLists, kind: str, path: str, destination: str) -> Edi
     for install in lists.installs:
         if not _is_extendable(install, kind, destination):
             continue
-        neighbours = [item for item in install.items if _is_beside(item.path, path)]
-        last = (neighbours or install.items)[-1]
+        neighbors = [item for item in install.items if _is_beside(item.path, path)]
+        last = (neighbors or install.items)[-1]
         behind = install.items[-1].argument if _has_list(install) else last.argument
-        rank = len(neighbours)
+        rank = len(neighbors)
         if best is None or rank > best[0]:
             best = rank, install, behind, _written_like(lists, last.argument, last.path, path)
     if best is None:
@@ -277,13 +277,13 @@ def _append_to_install(lists: CMakeLists, path: str, destination: str) -> Edits 
     """Add a file to the install command that lists files of its directory."""
     if _installs_file(lists, path):
         return None
-    neighbours = [
+    neighbors = [
         install
         for install in lists.installs
         if _is_extendable(install, "FILES", destination)
         and any(_is_beside(item.path, path) for item in install.items)
     ]
-    return _extension(lists, "FILES", path, destination) if neighbours else None
+    return _extension(lists, "FILES", path, destination) if neighbors else None
 
 
 def _share_keyword(lists: CMakeLists, path: str) -> Edits | None:

@@ -187,7 +187,9 @@ class _Walk:
                 before, added = self._scope.lookup(name), self._list_value(command.arguments[2:])
                 self._set(name, _appended(before, added))
             case "string", ["COMPARE", operator, _, _, name]:
-                left, right = (self._scope.expand(one.text) for one in command.arguments[2:4])
+                left, right = (
+                    self._scope.expand(argument.text) for argument in command.arguments[2:4]
+                )
                 decision = compare(operator, left, right)
                 value = None if decision.holds is None else str(int(decision.holds))
                 self._set(name, Known(value, decision.is_asked))

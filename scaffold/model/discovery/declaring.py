@@ -48,11 +48,11 @@ def way_back(package: Package, start: str) -> list[str]:
     pending = [start]
     while pending:
         name = pending.pop(0)
-        neighbour = package.workspace.get(name)
-        if neighbour is None or neighbour is package:
+        neighbor = package.workspace.get(name)
+        if neighbor is None or neighbor is package:
             continue
         try:
-            manifest = neighbour.manifest
+            manifest = neighbor.manifest
         except ViewError:
             continue
         for needed in sorted(manifest.build_names | manifest.run_names):

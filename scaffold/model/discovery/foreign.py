@@ -33,7 +33,7 @@ _COPIES = re.compile(
 _VENDORED = frozenset(
     {"3rdparty", "3rd_party", "third_party", "third-party", "thirdparty", "vendor", "vendored"}
 )
-_LICENCES = ("LICENSE", "LICENCE", "COPYING")
+_LICENSES = ("LICENSE", "LICENCE", "COPYING")
 """Prefixes of license files, which vendored code includes."""
 _MAX_BYTES = 200_000
 """The size limit of git files with patterns or paths."""
@@ -116,7 +116,7 @@ class Foreign:
         if not is_directory or VENDORED not in self.kinds:
             return ""
         is_within = not _VENDORED.isdisjoint(path[len(top) :].split("/"))
-        return VENDORED if is_within and disk.entries(path, *_LICENCES) else ""
+        return VENDORED if is_within and disk.entries(path, *_LICENSES) else ""
 
     # -- git
 

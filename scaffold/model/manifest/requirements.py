@@ -117,9 +117,9 @@ def _declared(package: Package, for_tests: bool) -> Declared:  # noqa: FBT001  a
         if name in seen:
             continue
         seen.add(name)
-        neighbour = package.workspace.get(name)
-        if neighbour is not None:
-            brought = _run_names(neighbour)
+        neighbor = package.workspace.get(name)
+        if neighbor is not None:
+            brought = _run_names(neighbor)
             along |= brought
             pending += sorted(brought)
     along |= transitive_dependencies(along)

@@ -125,7 +125,7 @@ def _matched(pattern: ast.pattern, value: str) -> bool | None:
         case ast.MatchValue(value=ast.Constant(value=word)):
             return bool(word == value)
         case ast.MatchOr(patterns=patterns):
-            parts = [_matched(one, value) for one in patterns]
+            parts = [_matched(item, value) for item in patterns]
             return True if True in parts else None if None in parts else False
         case ast.MatchAs(pattern=None):
             return True

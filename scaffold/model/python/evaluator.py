@@ -459,10 +459,10 @@ class Evaluator:
 
     def _result(self, node: ast.Call) -> object:
         """Return the value of a call of a function of the file that returns one expression."""
-        found = only_result(self.module, node.func)
-        if found is None:
+        result = only_result(self.module, node.func)
+        if result is None:
             return UNKNOWN
-        function, returned = found
+        function, returned = result
         parameters = (*function.args.posonlyargs, *function.args.args, *function.args.kwonlyargs)
         given = {
             item.arg: self.evaluate(given_argument(function, node, item, is_method=False))

@@ -235,8 +235,8 @@ class ScopeIndex:
 
     def bindings_of(self, node: ast.AST | None) -> Sequence[Binding]:
         """Return what binds the name that an expression is; nothing for other expressions."""
-        found = self.lookup(node.id, node) if isinstance(node, ast.Name) else None
-        return found[1] if found else ()
+        binding = self.lookup(node.id, node) if isinstance(node, ast.Name) else None
+        return binding[1] if binding else ()
 
     def only_node(self, node: ast.AST | None) -> ast.AST | None:
         """Return what binds the name that an expression is, if that happens once."""
@@ -250,9 +250,9 @@ class ScopeIndex:
 
     def uses_of(self, variable: ast.Name) -> Sequence[ast.Name]:
         """Return where the same variable is set or read, here among them; none if unknown."""
-        found = self.lookup(variable.id, variable)
-        uses = self.names(variable.id) if found is not None else ()
-        return [use for use in uses if self.lookup(use.id, use) == found]
+        binding = self.lookup(variable.id, variable)
+        uses = self.names(variable.id) if binding is not None else ()
+        return [use for use in uses if self.lookup(use.id, use) == binding]
 
     def _look_up(self, name: str, scope: ast.AST) -> tuple[ast.AST, Sequence[Binding]] | None:
         first = True

@@ -237,7 +237,7 @@ class _Search:
         # `except Exception` around much code is no handler for the name.
         is_broad = error in _OF_IMPORT
         errors = {error, _ABOVE.get(error, error)}
-        if any(is_handled(self._module, node, one, is_broad=is_broad) for one in errors):
+        if any(is_handled(self._module, node, item, is_broad=is_broad) for item in errors):
             return
         if not is_broad and has_fallback(self._module, node, is_rare=False):
             return

@@ -67,13 +67,13 @@ class Kept(NamedTuple):
 
 def kept_values(text: str) -> Iterator[Kept]:
     """Yield the containers of a file that are created empty."""
-    found = [*_MADE.finditer(text)]
-    if not found:
+    matches = [*_MADE.finditer(text)]
+    if not matches:
         return
     made: dict[tuple[str, int, int], list[re.Match[str]]] = {}
     starts = [*class_starts(text), len(text)]
     at = 0
-    for match in found:
+    for match in matches:
         while starts[at] <= match.start():
             at += 1
         name = match["name"]

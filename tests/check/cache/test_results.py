@@ -232,8 +232,8 @@ def ignore_package(package: Path) -> None:
     make_package(package.parent, "other")
 
 
-def new_neighbour(package: Path) -> None:
-    make_package(package.parent, "neighbour")
+def new_neighbor(package: Path) -> None:
+    make_package(package.parent, "neighbor")
 
 
 def remove_licence(package: Path) -> None:
@@ -254,7 +254,7 @@ CHANGES: list[Callable[[Path], None]] = [
     configure_user,
     ignore_package,
     remove_licence,
-    new_neighbour,
+    new_neighbor,
 ]
 
 
@@ -432,7 +432,7 @@ def test_partial_run_reports_the_same_as_a_full_one(
         (rename_package, "lonely"),
         (shutil.rmtree, "called"),
         (remove_licence, "caller"),
-        (new_neighbour, "caller"),
+        (new_neighbor, "caller"),
     ):
         change(workspace / item)
         reported = runs(".")
