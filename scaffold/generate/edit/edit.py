@@ -19,7 +19,7 @@ from scaffold.generate.edit import (
 from scaffold.generate.edit.addition import Addition, ByHand, Outcome
 from scaffold.generate.edit.layout import layout_of
 from scaffold.model.package import Package
-from scaffold.model.setup_py.setup_py import EntryPoint
+from scaffold.model.setup_py.entry_points import EntryPoint
 from scaffold.source import ParseError, Source, ViewError
 
 README = "README.md"

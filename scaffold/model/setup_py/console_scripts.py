@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from scaffold.model.package import Package
-    from scaffold.model.setup_py.setup_py import EntryPoint
+    from scaffold.model.setup_py.entry_points import EntryPoint
 
 
 def node_scripts(package: Package) -> list[EntryPoint]:

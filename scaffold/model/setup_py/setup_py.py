@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import ast
-import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from fnmatch import fnmatchcase
 from functools import cached_property
 
-from scaffold.model.python.evaluator import Element, Evaluator
-from scaffold.model.python.literals import string_pieces
+from scaffold.model.python.evaluator import Evaluator
 from scaffold.model.python.module import PythonModule
-from scaffold.model.python.values import UNKNOWN, Glob, Unknown
+from scaffold.model.python.values import UNKNOWN, Unknown
+from scaffold.model.setup_py.data_files import DataFile, data_file
+from scaffold.model.setup_py.entry_points import EntryPoint, EntryPointReader
 from scaffold.record import NamedTuple
 from scaffold.source import Location
 
@@ -32,42 +32,6 @@ class Keyword(NamedTuple):
     """The expression of the value."""
     location: Location
     """The place of the value."""
-
-
-class EntryPoint(NamedTuple):
-    """An entry point such as ``talker = demo.talker:main``."""
-
-    group: str
-    """``console_scripts`` ..."""
-    name: str
-    module: str
-    function: str
-    """The function, dotted for an attribute of a class; empty without a colon."""
-    text: str
-    """The whole text; the other parts are empty if it is malformed."""
-    location: Location
-    node: ast.expr
-    malformed: str | None = None
-    """The error, if it is malformed."""
-    joined: tuple[Location, ...] = ()
-    """The locations of adjacent literals, if there are several: a comma may be missing."""
-
-
-class DataFile(NamedTuple):
-    """One ``(destination, [sources])`` of data_files."""
-
-    destination: str | Unknown
-    sources: tuple[str | Glob | Unknown, ...]
-    complete: bool
-    """Whether these are all sources."""
-    location: Location
-    node: ast.expr
-    destination_location: Location
-    source_locations: tuple[Location, ...]
-    """The locations of the sources."""
-    conditional: bool = False
-    """Added under a condition or in a loop."""
-    malformed: str | None = None
 
 
 class FindPackages(NamedTuple):
@@ -255,7 +219,7 @@ class SetupPy:
         if word is None:
             return ()
         return [
-            self._data_file(element)
+            data_file(self.module, self.evaluator, element)
             for element in self.evaluator.elements(word.node).items
             if element.value is not UNKNOWN or isinstance(element.node, ast.Tuple | ast.List)
         ]
@@ -273,61 +237,6 @@ class SetupPy:
         return items_are_known and all(
             entry.complete and entry.destination is not UNKNOWN for entry in self.data_files
         )
-
-    def _data_file(self, element: Element) -> DataFile:
-        node, value = element.node, element.value
-        problem: str | None
-        at = self.module.location(node)
-        if isinstance(node, ast.Tuple | ast.List) and len(node.elts) == 2:  # noqa: PLR2004  a pair
-            return self._written_data_file(node, at, conditional=element.conditional)
-        match value:
-            case (str() | Unknown() as destination, list() | tuple() as sources):
-                evaluated = tuple(_source(source) for source in sources)
-                complete = UNKNOWN not in evaluated
-                places = (at,) * len(evaluated)
-                return DataFile(
-                    destination, evaluated, complete, at, node, at, places, element.conditional
-                )
-            case Unknown():
-                problem = None
-            case _:
-                problem = "not a pair of a directory and a list of files"
-        return DataFile(
-            UNKNOWN,
-            (),
-            complete=False,
-            location=at,
-            node=node,
-            destination_location=at,
-            source_locations=(),
-            conditional=element.conditional,
-            malformed=problem,
-        )
-
-    def _written_data_file(
-        self, node: ast.Tuple | ast.List, at: Location, *, conditional: bool
-    ) -> DataFile:
-        first, second = node.elts
-        destination = self.evaluator.text(first)
-        place = self.module.location(first)
-        if isinstance(self.evaluator.evaluate(second), str):
-            problem = "the files are a string, not a list"
-            return DataFile(
-                destination,
-                (),
-                complete=False,
-                location=at,
-                node=node,
-                destination_location=place,
-                source_locations=(),
-                conditional=conditional,
-                malformed=problem,
-            )
-        elements = self.evaluator.elements(second)
-        sources = tuple(_source(item.value) for item in elements.items)
-        places = tuple(self.module.location(item.node) for item in elements.items)
-        complete = elements.complete and UNKNOWN not in sources
-        return DataFile(destination, sources, complete, at, node, place, places, conditional)
 
     # -- entry points
 
@@ -354,8 +263,9 @@ class SetupPy:
         word = self.keyword("entry_points")
         if word is None:
             return ()
+        reader = EntryPointReader(self.module, self.evaluator)
         if isinstance(word.value, str):
-            return list(self._ini_entry_points(word.node, word.value))
+            return list(reader.of_text(word.node, word.value))
         literal = self._dict_of(word.node)
         if literal is None:
             return (None,)
@@ -363,88 +273,7 @@ class SetupPy:
         for key, value in zip(literal.keys, literal.values, strict=True):
             group = self.evaluator.evaluate(key)
             if isinstance(group, str):
-                points.extend(self._group(group, value))
+                points.extend(reader.of_group(group, value))
             else:
                 points.append(None)
         return points
-
-    def _group(self, group: str, node: ast.expr) -> Iterator[EntryPoint | None]:
-        value = self.evaluator.evaluate(node)
-        if isinstance(value, str):
-            for text, at in self._lines_of(node, value):
-                yield self._entry_point(group, text, at, node)
-            return
-        elements = self.evaluator.elements(node)
-        for item in elements.items:
-            at = self.module.location(item.node)
-            if isinstance(item.value, str):
-                yield self._entry_point(group, item.value, at, item.node)
-            elif isinstance(item.node, ast.Tuple | ast.List):
-                yield from self._group(group, item.node)  # setuptools flattens nested lists
-            else:
-                yield None
-        if not elements.complete:
-            yield None
-
-    def _ini_entry_points(self, node: ast.expr, value: str) -> Iterator[EntryPoint]:
-        group = ""
-        for text, at in self._lines_of(node, value):
-            if text.startswith("[") and text.endswith("]"):
-                group = text[1:-1].strip()
-            else:
-                yield self._entry_point(group, text, at, node)
-
-    def _lines_of(self, node: ast.expr, value: str) -> Iterator[tuple[str, Location]]:
-        """Yield the non-empty lines of a string, with their locations if known."""
-        start, end = self.module.span(node)
-        at = start
-        for line in value.splitlines():
-            text = line.strip()
-            if not text or text.startswith("#"):
-                continue
-            begin = self.module.source.text.find(text, at, end)
-            if begin >= 0:
-                at = begin + len(text)
-                yield text, self.module.source.location(begin, at)
-            else:
-                yield text, self.module.location(node)
-
-    def _entry_point(self, group: str, text: str, at: Location, node: ast.expr) -> EntryPoint:
-        name, equals, target = (part.strip() for part in text.partition("="))
-        module, colon, function = (part.strip() for part in target.partition("[")[0].partition(":"))
-        joined = self._joined_literals(node)
-        problem = None
-        if not name or not equals or not module:
-            problem = "not of the form name = module:function"
-        elif "=" in target or ":" in function or ":" in name:
-            problem = "two entries run together"
-        if problem:
-            return EntryPoint(group, "", "", "", text, at, node, problem, joined)
-        if not function and (colon or group in {"console_scripts", "gui_scripts"}):
-            problem = "no function is named: name = module:function"
-        elif not _is_importable(module) or not _is_dotted(function or "x"):
-            problem = "module or function is not a Python name"
-        return EntryPoint(group, name, module, function, text, at, node, problem, joined)
-
-    def _joined_literals(self, node: ast.expr) -> tuple[Location, ...]:
-        """Return the locations of the adjacent literals of a string."""
-        if not isinstance(node, ast.Constant | ast.JoinedStr):
-            return ()
-        pieces = list(string_pieces(self.module, node))
-        return tuple(self.module.source.location(*piece) for piece in pieces[1:] and pieces)
-
-
-def _is_dotted(name: str) -> bool:
-    return all(map(str.isidentifier, name.split(".")))
-
-
-def _is_importable(module: str) -> bool:
-    """Tell whether an entry point can have a module, which is imported by a string.
-
-    Unlike in an ``import`` statement, parts of the name may start with a digit.
-    """
-    return re.fullmatch(r"\w+(?:\.\w+)*", module) is not None
-
-
-def _source(value: object) -> str | Glob | Unknown:
-    return value if isinstance(value, str | Glob) else UNKNOWN
