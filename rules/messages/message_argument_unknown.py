@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from scaffold.api import Diagnostic, Effect, Example, MessageRule
 from scaffold.api.distributions import target
 from scaffold.api.interfaces import closest_word
-from scaffold.api.messages import MessageClass, MessageTypes
+from scaffold.api.messages import MessageClass, MessageTypes, is_error_expected
 
 _PREFIX = "from std_msgs.msg import String\n\nmessage = String({})\n"
 
@@ -81,7 +81,7 @@ class MessageArgumentUnknown(MessageRule):
             if not call.args and not call.keywords:
                 continue
             owner = types.class_of(call.func)
-            if owner is None or types.is_tolerated(call):
+            if owner is None or is_error_expected(types.module, call):
                 continue
             for node, message in _flaws(owner, call):
                 yield self.report(types.module.location(node), message)

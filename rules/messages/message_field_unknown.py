@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from scaffold.api import Diagnostic, Example, MessageRule
 from scaffold.api.distributions import removed_interface
 from scaffold.api.interfaces import closest_word
-from scaffold.api.messages import PARTS, MessageClass, MessageTypes
+from scaffold.api.messages import PARTS, MessageClass, MessageTypes, is_error_expected
 from scaffold.api.python import is_handled
 
 _CLASS_PARTS = frozenset({"Request", "Response", "Event", "Goal", "Result", "Feedback", "Impl"})
@@ -146,7 +146,7 @@ class MessageFieldUnknown(MessageRule):
         yield from self._check_wrapped(types)
         for node in types.module.walk(ast.Attribute):
             message = _problem(types, node)
-            if message and not types.is_tolerated(node):
+            if message and not is_error_expected(types.module, node):
                 start, end = types.module.span(node)
                 at = types.module.source.location(max(start, end - len(node.attr)), end)
                 cause = f"fields of {message.partition(' has no ')[0]}"

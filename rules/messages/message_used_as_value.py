@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterator, Mapping
 
 from scaffold.api import Diagnostic, Example, MessageRule
-from scaffold.api.messages import MessageClass, MessageTypes
+from scaffold.api.messages import MessageClass, MessageTypes, is_error_expected
 from scaffold.api.python import is_handled
 
 from . import _arrays
@@ -276,7 +276,7 @@ class MessageUsedAsValue(MessageRule):
 
     def check_file(self, types: MessageTypes) -> Iterator[Diagnostic]:
         for node, problem in _problems(types):
-            if types.is_tolerated(node):
+            if is_error_expected(types.module, node):
                 continue
             if not is_handled(types.module, node, "TypeError"):
                 yield self.report(types.module.location(node), problem)

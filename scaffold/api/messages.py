@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
+from scaffold.model.messages.classes import PARTS, MessageClass
+from scaffold.model.messages.expected_errors import is_error_expected
 from scaffold.model.messages.fields import TypeMismatches
-from scaffold.model.messages.inference import (
-    PARTS,
-    MessageClass,
-    MessageTypes,
-    message_paths,
-)
+from scaffold.model.messages.files import message_paths
+from scaffold.model.messages.inference import MessageTypes
 from scaffold.model.messages.stamps import childless, lacking, unstamped
 from scaffold.model.messages.value_types import ValueTypes, rclpy_time
 
@@ -19,6 +17,7 @@ __all__ = [
     "TypeMismatches",
     "ValueTypes",
     "childless",
+    "is_error_expected",
     "lacking",
     "message_paths",
     "rclpy_time",

@@ -110,7 +110,7 @@ class MessageRule(FileRule):
 
     def paths(self, package: Package) -> Sequence[str]:
         """Return the files that import such classes."""
-        from scaffold.model.messages.inference import message_paths
+        from scaffold.model.messages.files import message_paths
 
         return message_paths(package)
 

@@ -5,14 +5,15 @@ from __future__ import annotations
 import ast
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import suppress
 from functools import cached_property
 
-from scaffold.model.facts import fact
-from scaffold.model.interfaces.definitions import KINDS, Definitions, Interface
-from scaffold.model.interfaces.syntax import Field, Section
+from scaffold.model.interfaces.definitions import Definitions
+from scaffold.model.interfaces.syntax import Field
 from scaffold.model.interfaces.types import FieldType
 from scaffold.model.messages.actions import ActionMessages
+from scaffold.model.messages.classes import MessageClass, class_named
+from scaffold.model.messages.expected_errors import is_error_expected
+from scaffold.model.messages.files import message_paths
 from scaffold.model.package import Package
 from scaffold.model.python.attributes import Store
 from scaffold.model.python.scopes import Binding
@@ -26,52 +27,13 @@ from scaffold.model.rclpy.entities import (
 )
 from scaffold.model.rclpy.file import RclpyFile, rclpy_file
 from scaffold.record import NamedTuple
-from scaffold.source import ViewError
 
-PARTS = {
-    "msg": {},
-    "srv": {"Request": "request", "Response": "response"},
-    "action": {"Goal": "goal", "Result": "result", "Feedback": "feedback"},
-}
-"""The nested classes of services and actions, with their sections."""
-_NOT_FIELDS = frozenset({"get_fields_and_field_types", "SLOT_TYPES", "check_fields"})
 _PARAMETER_VALUE = "rcl_interfaces.msg.ParameterValue"
 _DEPTH = 12
 _MAX_BINDINGS = 200  # assignments of one name or attribute; with more its type is unknown
 _OF_EVENTS = re.compile(r"connect$|register(?!Callback)|add_(?:listener|handler|observer)")
 """Matches methods that take a function for the events of another library."""
-_EXPECTED = frozenset({"AttributeError", "TypeError", "AssertionError", "ValueError"})
-_RAISES = frozenset({"raises", "assertRaises", "assertRaisesRegex"})
 _ASKS_TYPE = frozenset({"isinstance", "type", "hasattr", "getattr", "setattr", "issubclass"})
-
-
-class MessageClass(NamedTuple):
-    """A Python class of a message, or of a part of a service or an action."""
-
-    interface: Interface
-    section: Section
-    part: str
-    """``Request`` ...; empty for a message."""
-
-    @property
-    def name(self) -> str:
-        """``std_msgs/msg/String``; of a part ``std_srvs/srv/SetBool.Request``."""
-        return self.interface.full_name + (f".{self.part}" if self.part else "")
-
-    @property
-    def origin(self) -> str:
-        """The origin of the definition."""
-        return self.interface.origin
-
-    def allows(self, attribute: str) -> bool:
-        """Tell whether objects of the class may have an attribute."""
-        return (
-            attribute.startswith("_")
-            or attribute.endswith("__DEFAULT")
-            or attribute in _NOT_FIELDS
-            or self.section.field(attribute) is not None
-            or self.section.constant(attribute) is not None
-        )
 
 
 class Assigned(NamedTuple):
@@ -82,36 +44,6 @@ class Assigned(NamedTuple):
     value: ast.expr
     holder: ast.expr
     """The message of the field: an expression, or the call of its constructor."""
-
-
-_CONVERTING = frozenset({"cv_bridge", "sensor_msgs_py", "tf2_geometry_msgs"})
-"""Libraries that create and read messages."""
-
-
-def message_paths(package: Package) -> Sequence[str]:
-    """Return the Python files that import interfaces, except those of ROS 1."""
-
-    def find() -> Iterator[str]:
-        for path in package.python_files:
-            with suppress(ViewError):
-                if _uses_interfaces(package, path):
-                    yield path
-
-    return package.remember("message_paths", lambda: [*find()])
-
-
-@fact
-def _uses_interfaces(package: Package, path: str) -> bool:
-    """Tell whether a file imports interfaces and is not of ROS 1; raises ViewError."""
-    module = package.module(path)
-    if "rospy" in module.imports_by_root:
-        return False
-    if not _CONVERTING.isdisjoint(module.imports_by_root):
-        return True
-    return module.mentions("get_parameter_value(") or any(
-        not import_.level and _names_kind(import_.module, [n.name for n in import_.names])
-        for import_ in module.imports
-    )
 
 
 class MessageTypes:
@@ -143,28 +75,11 @@ class MessageTypes:
 
     # -- classes
 
-    def class_named(self, dotted: str) -> MessageClass | None:
-        """Return the class of a full Python name: ``std_srvs.srv.SetBool.Request``."""
-        package, _, rest = dotted.partition(".")
-        kind, _, name = rest.partition(".")
-        if kind not in PARTS or not name:
-            return None
-        name, dot, part = name.partition(".")
-        if not dot and "_" in name:
-            name, _, part = name.rpartition("_")
-        interface = self.definitions.find(f"{package}/{kind}/{name}")
-        if interface is None:
-            return None
-        if kind == "msg":
-            return None if part else MessageClass(interface, interface.sections[0], "")
-        section = PARTS[kind].get(part)
-        return MessageClass(interface, interface.section(section), part) if section else None
-
     def class_of(self, node: ast.expr) -> MessageClass | None:
         """Return the message class that an expression names."""
         if node not in self._classes:
             name = self.module.qualified_name(self.file.evaluator.single_value(node))
-            self._classes[node] = self.class_named(name) if name else None
+            self._classes[node] = class_named(self.definitions, name) if name else None
         return self._classes[node]
 
     def _class_of_type(self, type_: FieldType) -> MessageClass | None:
@@ -220,7 +135,7 @@ class MessageTypes:
                 return self._answer(future)
             case ast.Attribute(attr="get_parameter_value", value=parameter):
                 is_known = class_of(self.file, parameter) == PARAMETER
-                return self.class_named(_PARAMETER_VALUE) if is_known else None
+                return class_named(self.definitions, _PARAMETER_VALUE) if is_known else None
         return self.class_of(node.func)
 
     def _answer(self, node: ast.expr) -> MessageClass | None:
@@ -345,7 +260,7 @@ class MessageTypes:
         if endpoint.interface is None:
             return None
         dotted = endpoint.interface.replace("/", ".")
-        return self.class_named(f"{dotted}.{part}" if part else dotted)
+        return class_named(self.definitions, f"{dotted}.{part}" if part else dotted)
 
     def _callback_parameter(self, callback: Callback | None, index: int) -> ast.arg | None:
         if callback is None or callback.function is None or callback.is_partial:
@@ -368,28 +283,6 @@ class MessageTypes:
                 case ast.Call(func=ast.Attribute(attr=method) as called) if called is not use:
                     if _OF_EVENTS.match(method):
                         return True
-        return False
-
-    # -- where nothing is reported
-
-    def is_tolerated(self, node: ast.AST) -> bool:
-        """Tell whether an error here is expected: a negative test, or a handler for it."""
-        child = node
-        for parent in self.module.parents(node):
-            if isinstance(parent, ast.FunctionDef | ast.AsyncFunctionDef):
-                return False
-            if isinstance(parent, ast.Try) and self.module.index.place(child)[0] == "body":
-                caught = {
-                    name
-                    for handler in parent.handlers
-                    if handler.type is not None
-                    for name in _last_names(handler.type)
-                }
-                if caught & _EXPECTED:
-                    return True
-            if isinstance(parent, ast.With | ast.Call) and _expects_error(parent):
-                return True
-            child = parent
         return False
 
     def _is_asked(self, scope: ast.AST, name: str) -> bool:
@@ -423,7 +316,7 @@ class MessageTypes:
 
     def _assigned_attributes(self) -> Iterator[Assigned]:
         for store in self._attribute_stores():
-            if store.value is None or self.is_tolerated(store.node):
+            if store.value is None or is_error_expected(self.module, store.node):
                 continue
             owner = self.type_of(store.node.value)
             field = owner.section.field(store.node.attr) if owner else None
@@ -436,7 +329,7 @@ class MessageTypes:
 
     def _keywords(self) -> Iterator[Assigned]:
         for call in self.module.walk(ast.Call):
-            if not call.keywords or self.is_tolerated(call):
+            if not call.keywords or is_error_expected(self.module, call):
                 continue
             owner = self.class_of(call.func)
             for word in call.keywords if owner else ():
@@ -445,27 +338,5 @@ class MessageTypes:
                     yield Assigned(owner, field, word.value, call)
 
 
-def _names_kind(module: str, names: Sequence[str]) -> bool:
-    _, dot, rest = module.partition(".")
-    return rest.partition(".")[0] in KINDS if dot else not set(KINDS).isdisjoint(names)
-
-
 def _is_none(node: ast.expr) -> bool:
     return isinstance(node, ast.Constant) and node.value is None
-
-
-def _last_names(node: ast.expr) -> Iterator[str]:
-    for part in node.elts if isinstance(node, ast.Tuple) else [node]:
-        if isinstance(part, ast.Name):
-            yield part.id
-        elif isinstance(part, ast.Attribute):
-            yield part.attr
-
-
-def _expects_error(node: ast.With | ast.Call) -> bool:
-    """Tell whether a ``with`` or a call such as ``assertRaises`` expects an error."""
-    calls = [item.context_expr for item in node.items] if isinstance(node, ast.With) else [node]
-    return any(
-        isinstance(call, ast.Call) and not _RAISES.isdisjoint(_last_names(call.func))
-        for call in calls
-    )

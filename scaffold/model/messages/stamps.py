@@ -6,7 +6,8 @@ import ast
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 
-from scaffold.model.messages.inference import MessageClass, MessageTypes
+from scaffold.model.messages.classes import MessageClass, class_named
+from scaffold.model.messages.inference import MessageTypes
 from scaffold.model.python.returns import returned
 from scaffold.record import NamedTuple
 
@@ -209,7 +210,7 @@ def _message(types: MessageTypes, made: ast.Call) -> MessageClass | None:
                 types.module.qualified_names(bridge.func) if isinstance(bridge, ast.Call) else ()
             )
             is_bridge = any(item.endswith("CvBridge") for item in names)
-            return types.class_named(_BRIDGED[name]) if is_bridge else None
+            return class_named(types.definitions, _BRIDGED[name]) if is_bridge else None
     return types.class_of(made.func)
 
 

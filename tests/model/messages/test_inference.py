@@ -6,6 +6,7 @@ import ast
 
 import pytest
 
+from scaffold.model.messages.expected_errors import is_error_expected
 from scaffold.model.messages.inference import MessageTypes
 from scaffold.model.package import Package
 
@@ -110,7 +111,7 @@ def test_expected_assignment_errors_are_ignored(around: str) -> None:
     package = Package.of({"node.py": text})
     types = MessageTypes.of(package, "node.py")
     (wrong,) = (node for node in types.module.walk(ast.Attribute) if node.attr == "text")
-    assert types.is_tolerated(wrong)
+    assert is_error_expected(types.module, wrong)
 
 
 def test_ros_1_code_is_ignored() -> None:
@@ -124,7 +125,7 @@ def test_other_assignment_errors_are_not_ignored() -> None:
     text = "from std_msgs.msg import String\ntry:\n    pass\nexcept E:\n    String().text\n"
     types = MessageTypes.of(Package.of({"node.py": text}), "node.py")
     (wrong,) = (node for node in types.module.walk(ast.Attribute) if node.attr == "text")
-    assert not types.is_tolerated(wrong)
+    assert not is_error_expected(types.module, wrong)
 
 
 def test_a_synchronizer_passes_a_message_of_each_topic() -> None:
