@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, LaunchRule, Report
 from scaffold.api.launch import NODES, LaunchCall, LaunchFile
+from scaffold.api.python import is_none_literal
 
 _PAIRS = "a list of pairs, [('from', 'to')]"
 _LAUNCH = (
@@ -202,16 +203,12 @@ def _kind_of_parameters(launch: LaunchFile, node: ast.expr) -> str | None:
         return "a dictionary"
     if isinstance(node, ast.Tuple):
         return "a tuple"
-    if isinstance(node, ast.Constant | ast.JoinedStr) and not _is_none(node):
+    if isinstance(node, ast.Constant | ast.JoinedStr) and not is_none_literal(node):
         return "a single value"
     call = launch.call_of(node)
     if call is not None and call.kind in {"LaunchConfiguration", "ParameterFile"}:
         return f"a {call.kind}"
     return "a path" if isinstance(launch.evaluator.evaluate(node), str) else None
-
-
-def _is_none(node: ast.expr) -> bool:
-    return isinstance(node, ast.Constant) and node.value is None
 
 
 def _words(launch: LaunchFile, call: LaunchCall, argument: str) -> _Judgement:

@@ -19,7 +19,7 @@ from scaffold.api import (
     fact,
 )
 from scaffold.api.launch import FUNCTION, LaunchFile
-from scaffold.api.python import may_end, paths_importing, returned
+from scaffold.api.python import is_none_literal, may_end, paths_importing, returned
 
 _LOADERS = frozenset(
     {
@@ -188,7 +188,7 @@ def _loaded_files(package: Package) -> frozenset[str]:
 
 def _wrong_result(launch: LaunchFile, value: ast.expr | None) -> str | None:
     """Return the returned expression, if it is certainly not a LaunchDescription."""
-    if value is None or (isinstance(value, ast.Constant) and value.value is None):
+    if value is None or is_none_literal(value):
         return "None"
     if isinstance(value, ast.List | ast.Tuple | ast.ListComp):
         return "a list" if not isinstance(value, ast.Tuple) else "a tuple"

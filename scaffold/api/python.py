@@ -27,7 +27,15 @@ from scaffold.model.python.returns import (
 )
 from scaffold.model.python.scopes import FunctionNode
 from scaffold.model.python.signatures import misfit_of_context
-from scaffold.model.python.values import UNKNOWN, Glob, PathValue, Unknown, is_known, kind_of
+from scaffold.model.python.values import (
+    UNKNOWN,
+    Glob,
+    PathValue,
+    Unknown,
+    is_known,
+    is_none_literal,
+    kind_of,
+)
 
 __all__ = [
     "UNKNOWN",
@@ -46,6 +54,7 @@ __all__ = [
     "is_guarded_by",
     "is_handled",
     "is_known",
+    "is_none_literal",
     "joined_names",
     "kind_of",
     "may_end",

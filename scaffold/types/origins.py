@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 
 from scaffold.model.python.given_arguments import given_argument
 from scaffold.model.python.module import PythonModule
+from scaffold.model.python.values import is_none_literal
 
 _MAX_DEPTH = 20
 """The maximum number of names, attributes, elements and calls to trace a value through."""
@@ -124,7 +125,7 @@ def _put_into(module: PythonModule, container: ast.expr) -> set[str]:
     for value in values:
         if isinstance(value, ast.Subscript):
             sources |= {f"{module.text(value)} in line {value.lineno}", "another container"}
-        elif not (isinstance(value, ast.Constant) and value.value is None):
+        elif not is_none_literal(value):
             sources.add(_source(module, value))
     return sources
 

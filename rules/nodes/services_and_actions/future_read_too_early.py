@@ -6,7 +6,13 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, RclpyRule, Report, Severity
-from scaffold.api.python import FunctionNode, PythonModule, is_guarded_by, is_handled
+from scaffold.api.python import (
+    FunctionNode,
+    PythonModule,
+    is_guarded_by,
+    is_handled,
+    is_none_literal,
+)
 from scaffold.api.rclpy import RclpyFile
 
 CALLS = frozenset({"call_async", "send_goal_async", "get_result_async", "cancel_goal_async"})
@@ -143,9 +149,7 @@ def _unchecked_reads(file: RclpyFile, function: FunctionNode) -> Iterator[tuple[
             case _:
                 continue
         is_limited = any(
-            word.arg == "timeout_sec"
-            and not (isinstance(word.value, ast.Constant) and word.value.value is None)
-            for word in call.keywords
+            word.arg == "timeout_sec" and not is_none_literal(word.value) for word in call.keywords
         )
         for future in futures if is_limited else ():
             yield from _first_read(file, function, call, future)

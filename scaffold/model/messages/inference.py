@@ -17,6 +17,7 @@ from scaffold.model.messages.files import message_paths
 from scaffold.model.package import Package
 from scaffold.model.python.attributes import Store
 from scaffold.model.python.scopes import Binding
+from scaffold.model.python.values import is_none_literal
 from scaffold.model.rclpy.api import PARAMETER, class_of, future_given
 from scaffold.model.rclpy.entities import (
     ActionServer,
@@ -189,7 +190,7 @@ class MessageTypes:
         if class_ is None or self._is_asked(class_, node.attr):
             return None
         values = evaluator.attribute_values(node)
-        values = [v for v in values or () if not _is_none(v)]
+        values = [v for v in values or () if not is_none_literal(v)]
         if len(values) > _MAX_BINDINGS:
             return None
         types = [self._type(value) for value in values]
@@ -336,7 +337,3 @@ class MessageTypes:
                 field = owner.section.field(word.arg) if owner and word.arg else None
                 if owner and field:
                     yield Assigned(owner, field, word.value, call)
-
-
-def _is_none(node: ast.expr) -> bool:
-    return isinstance(node, ast.Constant) and node.value is None

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from scaffold.model.facts import fact
 from scaffold.model.python.attributes import Store
 from scaffold.model.python.scopes import FunctionNode
-from scaffold.model.python.values import Unknown
+from scaffold.model.python.values import Unknown, is_none_literal
 from scaffold.model.rclpy.entities import Callback, Entity, Publisher, Timer
 from scaffold.model.rclpy.file import RclpyFile, rclpy_file
 from scaffold.model.rclpy.nodes import NodeClass
@@ -200,8 +200,7 @@ def _attribute_references(
 
 def _is_placeholder(store: Store, entity: Entity) -> bool:
     """Tell whether an attribute is None until it is set further down."""
-    is_none = isinstance(store.value, ast.Constant) and store.value.value is None
-    return is_none and store.node.lineno < entity.call.lineno
+    return is_none_literal(store.value) and store.node.lineno < entity.call.lineno
 
 
 def _timers_behind(

@@ -8,6 +8,7 @@ from itertools import islice
 from typing import TYPE_CHECKING
 
 from scaffold.model.python.evaluator import MOST_ASSIGNMENTS, Evaluator
+from scaffold.model.python.values import is_none_literal
 from scaffold.record import NamedTuple
 
 if TYPE_CHECKING:
@@ -170,7 +171,7 @@ class AttributeEvaluator(Evaluator):
             is_open = any(x.kind != "assignment" for x in bindings)
             is_open = is_open or len(bindings) > MOST_ASSIGNMENTS
             stored = () if is_open else [binding.value for binding in bindings]
-        values = [value for value in stored if value is not None and not _is_none(value)]
+        values = [value for value in stored if value is not None and not is_none_literal(value)]
         return values if None not in stored else ()
 
     def origins(self, node: ast.expr, depth: int = 0) -> Sequence[ast.expr]:
@@ -199,15 +200,11 @@ class AttributeEvaluator(Evaluator):
                 )
             elif isinstance(node, ast.Attribute):
                 values = self.attribute_values(node)
-            made = list(islice((value for value in values or () if not _is_none(value)), 2))
+            made = list(islice((value for value in values or () if not is_none_literal(value)), 2))
             if len(made) != 1 or made[0] is None:
                 return node
             node = made[0]
         return node
-
-
-def _is_none(node: ast.expr | None) -> bool:
-    return isinstance(node, ast.Constant) and node.value is None
 
 
 def _is_static(function: ast.FunctionDef | ast.AsyncFunctionDef) -> bool:

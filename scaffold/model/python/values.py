@@ -118,6 +118,11 @@ NAMED_VALUES: Mapping[str, object] = {
 }
 
 
+def is_none_literal(node: ast.AST | None) -> bool:
+    """Tell whether an expression is ``None``, as written."""
+    return isinstance(node, ast.Constant) and node.value is None
+
+
 def is_known(value: object) -> bool:
     """Tell whether a value and everything in it is known."""
     if value is UNKNOWN or isinstance(value, Glob):

@@ -10,6 +10,7 @@ from scaffold.changes import Change, of_kind
 from scaffold.model.python.distribution_branches import is_run
 from scaffold.model.python.guards import caught_around, has_fallback
 from scaffold.model.python.module import PythonModule
+from scaffold.model.python.values import is_none_literal
 from scaffold.model.rclpy.api import class_of
 from scaffold.model.rclpy.changed_names import ChangedUse, is_asked_for
 from scaffold.model.rclpy.file import RclpyFile
@@ -69,7 +70,7 @@ def _is_meant_value(file: RclpyFile, value: ast.expr, change: Change) -> bool:
         return _is_of_node(file, value)
     if change.value:
         return file.module.text(value) == change.value
-    return not _is_none(file.evaluator.single_value(value))
+    return not is_none_literal(file.evaluator.single_value(value))
 
 
 def _is_ready(module: PythonModule, call: ast.Call, change: Change) -> bool:
@@ -100,10 +101,6 @@ def _is_of_node(file: RclpyFile, value: ast.expr) -> bool:
     """Tell whether an expression is a node, or a method of one."""
     node = value.value if isinstance(value, ast.Attribute) else value
     return file.owner_of(node) is not None
-
-
-def _is_none(node: ast.AST | None) -> bool:
-    return isinstance(node, ast.Constant) and node.value is None
 
 
 def _runs_on_both(module: PythonModule, call: ast.Call, name: str) -> bool:

@@ -6,6 +6,7 @@ import ast
 import math
 from typing import TYPE_CHECKING
 
+from scaffold.model.python.values import is_none_literal
 from scaffold.record import NamedTuple
 
 if TYPE_CHECKING:
@@ -67,7 +68,7 @@ _PLAIN = Descriptor(is_dynamic=False, is_read_only=False, ranges=[], is_typed=Fa
 
 def descriptor_of(file: RclpyFile, node: ast.expr | None) -> Descriptor | None:
     """Return the descriptor of an expression; ``None`` if not fully known."""
-    if node is None or (isinstance(node, ast.Constant) and node.value is None):
+    if node is None or is_none_literal(node):
         return _PLAIN
     fields = message_made(file, node, DESCRIPTOR)
     if fields is None:

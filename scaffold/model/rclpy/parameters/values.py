@@ -6,6 +6,7 @@ import ast
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
+from scaffold.model.python.values import is_none_literal
 from scaffold.model.rclpy.api import PARAMETER, class_of
 
 if TYPE_CHECKING:
@@ -95,7 +96,7 @@ def _stands_for_value(file: RclpyFile, node: ast.AST) -> bool:
             is_first = left is node and not isinstance(ops[0], ast.Is | ast.IsNot)
             other = others[0] if left is node else left
             is_same = class_of(file, other) == PARAMETER
-            used = (is_first or node in others[:1]) and not is_same and not _is_none(other)
+            used = (is_first or node in others[:1]) and not is_same and not is_none_literal(other)
         case ast.If(test=test) | ast.While(test=test) | ast.IfExp(test=test):
             used = test is node
         case ast.Subscript(value=value):
@@ -111,7 +112,3 @@ def _stands_for_value(file: RclpyFile, node: ast.AST) -> bool:
             used = is_builtin or name.startswith(_FUNCTIONS)
             used = used or parent.args.index(node) in positions
     return used
-
-
-def _is_none(node: ast.expr) -> bool:
-    return isinstance(node, ast.Constant) and node.value is None
