@@ -573,7 +573,7 @@ class AttributeMissing(TypeRule):
                 "rover/odometry.py": _ODOMETRY,
                 "rover/drive.py": _DRIVE.format("restart"),
             },
-            neighbours={
+            neighbors={
                 "mission": {
                     "package.xml": "<package><name>mission</name></package>\n",
                     "mission.py": "from rover.drive import Drive\n\n"
