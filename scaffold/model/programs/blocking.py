@@ -25,6 +25,7 @@ from scaffold.model.rclpy.entities import (
     Timer,
 )
 from scaffold.model.rclpy.nodes import NodeClass
+from scaffold.model.rclpy.per_file import per_file
 from scaffold.record import NamedTuple
 from scaffold.source import Location, ViewError
 
@@ -68,28 +69,24 @@ def blocks_node(file: RclpyFile, executed: Executed) -> bool:
     return blocks_others(file, executed.entity)
 
 
+@per_file
 def in_callbacks(file: RclpyFile) -> Sequence[Executed]:
     """Return the functions called by callbacks of timers, topics and services, each once."""
-    if "callbacks" not in file.executed:
-        called = _callbacks_of(file, (Timer, Subscription, Synchronizer, Service))
-        file.executed["callbacks"] = tuple(_reached(file, called, set()))
-    functions: Sequence[Executed] = file.executed["callbacks"]
-    return functions
+    called = _callbacks_of(file, (Timer, Subscription, Synchronizer, Service))
+    return tuple(_reached(file, called, set()))
 
 
+@per_file
 def in_tasks(file: RclpyFile) -> Sequence[Executed]:
     """Return the functions that execute goals, or are called when a future is done, each once.
 
     The executor runs them as tasks, which belong to no callback group.
     """
-    if "tasks" not in file.executed:
-        seen: set[ast.AST] = set()
-        file.executed["tasks"] = (
-            *_reached(file, _callbacks_of(file, (ActionServer,)), seen),
-            *_reached(file, _done_callbacks(file), seen),
-        )
-    functions: Sequence[Executed] = file.executed["tasks"]
-    return functions
+    seen: set[ast.AST] = set()
+    return (
+        *_reached(file, _callbacks_of(file, (ActionServer,)), seen),
+        *_reached(file, _done_callbacks(file), seen),
+    )
 
 
 def _callbacks_of(
@@ -137,31 +134,25 @@ def _reached(
                 yield Executed(function, origin, entity)
 
 
+@per_file
 def in_constructors(file: RclpyFile) -> Sequence[Executed]:
     """Return the functions called by constructors of nodes, each once."""
-    if "constructors" not in file.executed:
-        file.executed["constructors"] = tuple(_find_in_constructors(file))
-    functions: Sequence[Executed] = file.executed["constructors"]
-    return functions
-
-
-def _find_in_constructors(file: RclpyFile) -> Iterator[Executed]:
+    result: list[Executed] = []
     seen: set[ast.AST] = set()
     for node in file.classes:
         for reached in file.reached(node.constructor, seen) if node.constructor else ():
             seen.add(reached)
-            yield Executed(reached, f"the constructor of {node.name}", None)
+            result.append(Executed(reached, f"the constructor of {node.name}", None))
+    return result
 
 
+@per_file
 def in_helpers(file: RclpyFile) -> Sequence[Executed]:
     """Return the functions run by constructors of classes that get a node, each once.
 
     Whether the node is spun meanwhile is not known.
     """
-    if "helpers" not in file.executed:
-        file.executed["helpers"] = tuple(_find_in_helpers(file))
-    functions: Sequence[Executed] = file.executed["helpers"]
-    return functions
+    return tuple(_find_in_helpers(file))
 
 
 def _find_in_helpers(file: RclpyFile) -> Iterator[Executed]:

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from scaffold.model.rclpy.nodes import NodeClass
+from scaffold.model.rclpy.per_file import per_file
 
 if TYPE_CHECKING:
     from scaffold.model.python.scopes import FunctionNode
@@ -22,14 +23,12 @@ _SPINNING = ("thread", "concurrent", "process", "async", "pool", "event", "group
 """Words in the names of libraries that may spin nodes."""
 
 
+@per_file
 def names_other_executor(file: RclpyFile) -> bool:
     """Tell whether a file mentions a multithreaded executor."""
-    answers = file.thread_answers
-    if "executor" not in answers:
-        answers["executor"] = any(
-            name.endswith("Executor") and name not in _NO_SPINNERS for name, _ in _identifiers(file)
-        )
-    return answers["executor"]
+    return any(
+        name.endswith("Executor") and name not in _NO_SPINNERS for name, _ in _identifiers(file)
+    )
 
 
 def spins_in_one_thread(file: RclpyFile) -> bool:
@@ -48,18 +47,13 @@ def names_callback_group(file: RclpyFile) -> bool:
     return file.module.mentions("CallbackGroup", "callback_group")
 
 
+@per_file
 def spins_elsewhere(file: RclpyFile) -> bool:
     """Tell whether a file may spin a node other than with a plain call.
 
     A thread may spin it, or code in another file. A thread that does not spin is of no
     help to a call that waits for a callback.
     """
-    if "spin" not in file.thread_answers:
-        file.thread_answers["spin"] = _spins_elsewhere(file)
-    return file.thread_answers["spin"]
-
-
-def _spins_elsewhere(file: RclpyFile) -> bool:
     spins = {call.call.func for call in file.spin_calls}
     for name, node in _identifiers(file):
         if "spin" in name.lower() and node not in spins and _may_refer_to_spin(file, name, node):

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from scaffold import distributions
 from scaffold.model.rclpy.parameters.objects import is_listed_parameter
+from scaffold.model.rclpy.per_file import per_file
 
 if TYPE_CHECKING:
     from scaffold.distributions import Distribution
@@ -105,11 +106,17 @@ def _places(distribution: Distribution) -> Mapping[str, str]:
 
 def class_of(file: RclpyFile, node: ast.expr, depth: int = 0) -> str | None:
     """Return the rclpy class of an expression, by its name in the table."""
-    classes = file.classes_of
+    classes = _classes(file)
     if node not in classes and depth <= _MAX_DEPTH:
         classes[node] = None  # ends the recursion of what is assigned to itself
         classes[node] = _find_class(file, node, depth)
     return classes.get(node)
+
+
+@per_file
+def _classes(_: RclpyFile) -> dict[ast.expr, str | None]:
+    """Return the classes that were found so far."""
+    return {}
 
 
 def _find_class(file: RclpyFile, node: ast.expr, depth: int) -> str | None:
@@ -175,11 +182,10 @@ def _class_of_argument(file: RclpyFile, node: ast.expr, depth: int) -> str | Non
     return class_of(file, future, depth + 1) if future is not None else None
 
 
+@per_file
 def _goal_arguments(file: RclpyFile) -> set[ast.arg]:
     """Return the function parameters that receive goal handles from action servers."""
-    if file.goal_arguments is not None:
-        return file.goal_arguments
-    file.goal_arguments = result = set[ast.arg]()
+    result: set[ast.arg] = set()
     for server in file.action_servers:
         for name in _GOAL_CALLBACKS:
             given = server.argument(name)
@@ -198,11 +204,10 @@ def future_given(file: RclpyFile, node: ast.expr) -> ast.expr | None:
     return _futures(file).get(argument) if argument is not None else None
 
 
+@per_file
 def _futures(file: RclpyFile) -> Mapping[ast.arg, ast.expr]:
     """Return the futures passed to done callbacks, by parameter."""
-    if file.futures is not None:
-        return file.futures
-    file.futures = result = dict[ast.arg, ast.expr]()
+    result: dict[ast.arg, ast.expr] = {}
     for attribute in file.module.index.attributes("add_done_callback"):
         match file.module.parent(attribute):
             case ast.Call(func=func, args=[given]) if func is attribute:

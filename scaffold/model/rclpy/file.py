@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Container, Iterator, Mapping, Sequence
+from collections.abc import Callable, Container, Iterator, Mapping, Sequence
 from contextlib import suppress
 from functools import cached_property
 from typing import Any
@@ -128,17 +128,8 @@ class RclpyFile:
         self.evaluator = NodeEvaluator(
             module, self.declarations.default_of, self.related_classes, self._own.constant
         )
-        self.parameter_callbacks: dict[ast.arg, FunctionNode | ast.Lambda] | None = None
-        """Kept by `parameters.objects`."""
-        self.goal_arguments: set[ast.arg] | None = None
-        self.futures: dict[ast.arg, ast.expr] | None = None
-        """Both kept by `api`."""
-        self.classes_of: dict[ast.expr, str | None] = {}
-        """Kept by `api.class_of`."""
-        self.thread_answers: dict[str, bool] = {}
-        """Kept by `programs.threads`."""
-        self.executed: dict[object, Any] = {}
-        """Kept by `programs.blocking`."""
+        self.results: dict[Callable[[RclpyFile], object], Any] = {}
+        """The results of functions that are decorated with `per_file`."""
         self._creation = Creation(self)
         self._owners: dict[ast.expr, NodeDefinition | None] = {}
         self._callbacks: dict[ast.expr, Callback] = {}

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from scaffold.model.python.values import UNKNOWN, Unknown
 from scaffold.model.rclpy.entities import parameter_type
+from scaffold.model.rclpy.per_file import per_file
 from scaffold.record import NamedTuple
 
 if TYPE_CHECKING:
@@ -106,13 +107,10 @@ def is_listed_parameter(file: RclpyFile, node: ast.expr) -> bool:
     )
 
 
+@per_file
 def callback_arguments(file: RclpyFile) -> dict[ast.arg, FunctionNode | ast.Lambda]:
     """Return the functions that rclpy calls with a list of parameters, by argument."""
-    remembered = file.parameter_callbacks
-    if remembered is not None:
-        return remembered
     result: dict[ast.arg, FunctionNode | ast.Lambda] = {}
-    file.parameter_callbacks = result
     for method in CALLBACKS:
         for attribute in file.module.index.attributes(method):
             call = file.module.parent(attribute)
