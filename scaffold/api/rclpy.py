@@ -41,7 +41,8 @@ from scaffold.model.rclpy.entities import (
     Synchronizer,
     Timer,
 )
-from scaffold.model.rclpy.file import RclpyFile, rclpy_file, rclpy_paths
+from scaffold.model.rclpy.file import RclpyFile, rclpy_file
+from scaffold.model.rclpy.files import rclpy_paths
 from scaffold.model.rclpy.init_and_spin import RclpyCall
 from scaffold.model.rclpy.latched import latched_topics
 from scaffold.model.rclpy.logging import LOG_METHODS, is_of_rclpy, log_calls

@@ -81,7 +81,7 @@ class CallbackWithoutSignature(PythonRule):
             return
         if not module.mentions(*{name.rpartition(".")[2] for name in unknown}):
             return
-        file = RclpyFile.of(module)
+        file = RclpyFile(module)
         if not file.uses_rclpy:
             return
         for callback in _callbacks(file):

@@ -90,7 +90,7 @@ class RclpyRule(FileRule):
 
     def paths(self, package: Package) -> Sequence[str]:
         """Return the files that import rclpy."""
-        from scaffold.model.rclpy.file import rclpy_paths
+        from scaffold.model.rclpy.files import rclpy_paths
 
         return rclpy_paths(package)
 

@@ -16,7 +16,7 @@ from scaffold.model.rclpy.entities import (
     Service,
     Subscription,
 )
-from scaffold.model.rclpy.file import rclpy_files
+from scaffold.model.rclpy.files import rclpy_files
 
 _KINDS = (
     ("topic", (Publisher, Subscription)),

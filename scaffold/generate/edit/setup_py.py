@@ -205,7 +205,7 @@ class _Editor:
 
 
 def _read(source: Source) -> SetupPy:
-    return SetupPy.parse(PythonModule.parse(source))
+    return SetupPy(PythonModule.parse(source))
 
 
 def _package_edit(setup: SetupPy, expression: str) -> Edit | None:

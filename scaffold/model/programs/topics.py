@@ -17,7 +17,8 @@ from scaffold.model.rclpy.entities import (
     Service,
     Subscription,
 )
-from scaffold.model.rclpy.file import rclpy_file, rclpy_paths
+from scaffold.model.rclpy.file import rclpy_file
+from scaffold.model.rclpy.files import rclpy_paths
 from scaffold.model.rclpy.qos import Qos
 from scaffold.record import NamedTuple
 from scaffold.source import Location, ViewError

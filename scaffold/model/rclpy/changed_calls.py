@@ -28,7 +28,7 @@ def changed_calls(module: PythonModule) -> Iterator[ChangedUse]:
     words = (name.rpartition(".")[2] for change in changes for name in change.names)
     if not changes or not module.mentions(*words):
         return
-    file = RclpyFile.of(module)
+    file = RclpyFile(module)
     for call in module.walk(ast.Call):
         called = _names_of_callee(file, call)
         for change in changes:

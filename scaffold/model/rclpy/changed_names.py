@@ -80,7 +80,7 @@ class _Search:
     def __init__(self, module: PythonModule, changes: Sequence[Change]) -> None:
         self._module = module
         self._path = module.source.path
-        self._file = RclpyFile.of(module)
+        self._file = RclpyFile(module)
         self._calls = [change for change in changes if change.is_of_call]
         self._plain = {
             name: change

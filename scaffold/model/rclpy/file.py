@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 import ast
-import re
 from collections.abc import Callable, Container, Iterator, Mapping, Sequence
 from contextlib import suppress
 from functools import cached_property
 from typing import Any
 
 from scaffold.model import reads
-from scaffold.model.facts import fact
-from scaffold.model.package import Package
-from scaffold.model.python.module import PythonModule, is_in_tests
+from scaffold.model.python.module import PythonModule
 from scaffold.model.python.scopes import FunctionNode
 from scaffold.model.python.values import UNKNOWN
 from scaffold.model.rclpy import callbacks as node_callbacks
@@ -49,7 +46,6 @@ __all__ = [
     "NodeObject",
     "RclpyFile",
     "rclpy_file",
-    "rclpy_files",
 ]
 
 NODE_CLASSES = frozenset(
@@ -64,48 +60,7 @@ MAX_BASES = 40
 
 def rclpy_file(modules: Modules, path: str) -> RclpyFile:
     """Return the rclpy view of a Python file; raises ViewError."""
-    return modules.remember(("nodes", path), lambda: RclpyFile.of(modules.module(path), modules))
-
-
-def rclpy_paths(package: Package) -> Sequence[str]:
-    """Return the Python files that use rclpy, except tests, which may misuse it on purpose.
-
-    One that gets a node, or is part of one, need not import it.
-    """
-
-    def find() -> Iterator[str]:
-        for path in package.python_files:
-            with suppress(ViewError):
-                if "rclpy" not in package.imports(path) and not _uses_a_node(package, path):
-                    continue
-                if not is_in_tests(path) or not package.module(path).in_tests:
-                    yield path
-
-    return package.remember("rclpy_paths", lambda: list(find()))
-
-
-_OF_NODES = re.compile(
-    rb"\.(?:create_(?:publisher|subscription|service|client|timer|rate)|call_async"
-    rb"|(?:declare|get)_parameter|send_goal_async|get_logger\(\)\.\w+|get_clock)\("
-)
-"""Matches the use of a node or a client of rclpy."""
-
-
-@fact
-def _uses_a_node(package: Package, path: str) -> bool:
-    """Tell whether a file calls methods of nodes."""
-    return _OF_NODES.search(package.data(path)) is not None and "rospy" not in package.imports(path)
-
-
-def rclpy_files(package: Package, *, mentioning: Sequence[str] = ()) -> Iterator[RclpyFile]:
-    """Yield the rclpy views of Python files that import rclpy, except tests.
-
-    Args:
-        package: The package.
-        mentioning: Words without which a file is of no interest; it is not even parsed.
-    """
-    for module in package.modules(rclpy_paths(package), mentioning):
-        yield rclpy_file(package, module.path)
+    return modules.remember(("nodes", path), lambda: RclpyFile(modules.module(path), modules))
 
 
 def _entities(kind: type[AnyEntity]) -> cached_property[Sequence[AnyEntity]]:
@@ -114,12 +69,16 @@ def _entities(kind: type[AnyEntity]) -> cached_property[Sequence[AnyEntity]]:
 
 
 class RclpyFile:
-    """The rclpy code of one file."""
+    """The rclpy code of one file.
+
+    Args:
+        module: The parsed file.
+        modules: The package, where base classes are looked up; ``None`` for a file alone.
+    """
 
     def __init__(self, module: PythonModule, modules: Modules | None = None) -> None:
         self.module = module
         self.modules = modules
-        """The source of other files: the package."""
         self._reads = reads.current()
         self._own = OwnModules(module, modules)
         self.related_classes = ClassRelations(module).related
@@ -134,11 +93,6 @@ class RclpyFile:
         self._owners: dict[ast.expr, NodeDefinition | None] = {}
         self._callbacks: dict[ast.expr, Callback] = {}
         self._base_depth = 0
-
-    @classmethod
-    def of(cls, module: PythonModule, modules: Modules | None = None) -> RclpyFile:
-        """Return the view of a parsed file; base classes are looked up in ``modules``."""
-        return cls(module, modules)
 
     @cached_property
     def uses_rclpy(self) -> bool:

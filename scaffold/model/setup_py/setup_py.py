@@ -53,16 +53,11 @@ class FindPackages(NamedTuple):
 
 
 class SetupPy:
-    """A setup.py, analyzed without running it."""
+    """A setup.py, analyzed without running it; the call of setup() may be missing."""
 
     def __init__(self, module: PythonModule) -> None:
         self.module = module
         self.evaluator = Evaluator(module)
-
-    @classmethod
-    def parse(cls, module: PythonModule) -> SetupPy:
-        """Return the view of a parsed setup.py; the call of setup() may be missing."""
-        return cls(module)
 
     # -- the call
 

@@ -87,7 +87,7 @@ def publish_rate(view: RclpyFile, publisher: Publisher) -> float | Unknown:
 
 
 def facts(text: str, path: str = "demo/talker.py") -> RclpyFile:
-    return RclpyFile.of(PythonModule.parse(Source(path, text)))
+    return RclpyFile(PythonModule.parse(Source(path, text)))
 
 
 def node(body: str, head: str = "") -> RclpyFile:

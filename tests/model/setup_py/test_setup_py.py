@@ -54,7 +54,7 @@ setup(
 
 
 def view(text: str) -> SetupPy:
-    return SetupPy.parse(PythonModule.parse(Source("setup.py", text)))
+    return SetupPy(PythonModule.parse(Source("setup.py", text)))
 
 
 def call(keywords: str) -> SetupPy:
@@ -359,7 +359,7 @@ def test_unknown_entry_points(keywords: str) -> None:
 
 def test_parts_of_a_concatenated_string() -> None:
     module = PythonModule.parse(Source("a.py", "x = ('a\\'' r\"b\"  # 'no'\n  '''c\n''')\n"))
-    setup = SetupPy.parse(module)
+    setup = SetupPy(module)
     node = module.tree.body[0]
     value = getattr(node, "value", None)
     assert value is not None
