@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from scaffold.model.discovery.targets import Target
     from scaffold.model.package import Package
     from scaffold.smoke.cleanup.interruption import Interruption
+    from scaffold.smoke.options import Options
     from scaffold.smoke.result import Smoke
 
 FORMATS = ("text", "json", "junit", "github")
@@ -165,22 +166,41 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _run(options: argparse.Namespace, interruption: Interruption) -> int:
-    from pathlib import Path
-    from signal import Signals
-
-    from scaffold import distributions
-    from scaffold.cli import distro, terminal
+    from scaffold.cli import terminal
     from scaffold.cli.exit_codes import CLEAN, FINDINGS, USAGE_ERROR
-    from scaffold.cli.status_line import StatusLine
     from scaffold.model.discovery import targets
-    from scaffold.smoke.options import Options
-    from scaffold.smoke.session import packages_of, smoke
+    from scaffold.smoke.session import packages_of
 
     _validate(options)
     found_targets = targets.find(options.paths)
     packages, run_only = _selected(options, found_targets, packages_of(found_targets))
     wanted = _distributions(options, packages)
-    settings = Options(
+    settings = _settings(options, run_only, wanted)
+    result = _observed(options, packages, settings, interruption)
+    try:
+        _report(options, result)
+    except OSError:
+        interruption.check()  # the terminal may be gone
+        raise
+    _announce_unobserved(options, packages, wanted, result.environment["distribution"])
+    if result.scratch:
+        terminal.say(f"kept: {result.scratch}")
+    interruption.check()
+    if result.ended_early:
+        _announce(result.ended_early)
+        return USAGE_ERROR
+    return CLEAN if result.ok else FINDINGS
+
+
+def _settings(
+    options: argparse.Namespace, run_only: frozenset[str] | None, wanted: Sequence[Distribution]
+) -> Options:
+    from pathlib import Path
+    from signal import Signals
+
+    from scaffold.smoke.options import Options
+
+    return Options(
         duration=options.duration,
         timeout=options.timeout,
         build_timeout=options.build_timeout,
@@ -195,45 +215,53 @@ def _run(options: argparse.Namespace, interruption: Interruption) -> int:
         ros=options.ros,
         wanted=wanted,
     )
-    with StatusLine() as status:
-        if options.cluster is None:
-            result = smoke(
-                packages,
-                settings,
-                progress=status.show,
-                announce=status.announce,
-                interruption=interruption,
-            )
-        else:
-            from scaffold.smoke.on_cluster import smoke_on_cluster
 
-            result = smoke_on_cluster(
-                options.cluster,
-                packages,
-                settings,
-                progress=status.show,
-                announce=status.announce,
-                interruption=interruption,
-            )
-    try:
-        _report(options, result)
-    except OSError:
-        interruption.check()  # the terminal may be gone
-        raise
-    for note in distro.note_of_smoke(result.environment["distribution"]) if packages else ():
-        _announce(note)
-    others = [item for item in wanted if item.name != result.environment["distribution"]]
-    if others and packages:
-        _announce(f"not observed: {distributions.titles(others)}, which the packages are for, too")
+
+def _observed(
+    options: argparse.Namespace,
+    packages: Sequence[Package],
+    settings: Options,
+    interruption: Interruption,
+) -> Smoke:
+    """Run the packages, here or on a cluster, and return what was observed."""
+    from functools import partial
+
+    from scaffold.cli.status_line import StatusLine
+
+    if options.cluster is None:
+        from scaffold.smoke.session import smoke
+    else:
+        from scaffold.smoke.on_cluster import smoke_on_cluster
+
+        smoke = partial(smoke_on_cluster, options.cluster)
+    with StatusLine() as status:
+        return smoke(
+            packages,
+            settings,
+            progress=status.show,
+            announce=status.announce,
+            interruption=interruption,
+        )
+
+
+def _announce_unobserved(
+    options: argparse.Namespace,
+    packages: Sequence[Package],
+    wanted: Sequence[Distribution],
+    observed: str,
+) -> None:
+    """Say on which distributions the packages were not observed, or that there are none."""
+    from scaffold import distributions
+    from scaffold.cli import distro
+
     if not packages:
         _announce(f"no package differs from {options.since}")
-    if result.scratch:
-        terminal.say(f"kept: {result.scratch}")
-    interruption.check()
-    if result.ended_early:
-        _announce(result.ended_early)
-        return USAGE_ERROR
-    return CLEAN if result.ok else FINDINGS
+        return
+    for note in distro.note_of_smoke(observed):
+        _announce(note)
+    others = [item for item in wanted if item.name != observed]
+    if others:
+        _announce(f"not observed: {distributions.titles(others)}, which the packages are for, too")
 
 
 def _distributions(
