@@ -30,8 +30,7 @@ from scaffold.api.parameters import (
     Entry,
     ParameterFile,
     Section,
-    parameter_file,
-    parameter_paths,
+    parameter_files,
     value_type,
 )
 from scaffold.api.robot import is_known, robot_file, robot_paths, robots
@@ -204,8 +203,7 @@ class ControllerUnfit(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        files = [parameter_file(package, path) for path in parameter_paths(package)]
-        parsed = [file for file in files if file is not None]
+        parsed = [*parameter_files(package)]
         managers = [
             section for file in parsed for section in file.sections if section.name == _MANAGER
         ]

@@ -11,8 +11,7 @@ from scaffold.api.parameters import (
     Section,
     declared_by,
     own_nodes,
-    parameter_file,
-    parameter_paths,
+    parameter_files,
 )
 from scaffold.api.programs import KnownNode
 
@@ -165,11 +164,8 @@ class NodeUnknown(Rule):
         yield from self._check_namespaces(package)
 
     def _check_nodes(self, package: Package) -> Iterator[Diagnostic]:
-        for path in parameter_paths(package):
-            file = parameter_file(package, path)
-            if file is None or not file.sections:
-                continue
-            use = use_of(package, path)
+        for file in parameter_files(package):
+            use = use_of(package, file.path)
             if use.nodes:
                 yield from self._for_started(package, file)
             elif use.complete:
@@ -225,13 +221,12 @@ class NodeUnknown(Rule):
                 yield self.report(section.key, f"{message}; did you mean {alike[0]!r}?")
 
     def _check_namespaces(self, package: Package) -> Iterator[Diagnostic]:
-        for path in parameter_paths(package):
-            file = parameter_file(package, path)
-            nodes = use_of(package, path).nodes if file is not None else []
+        for file in parameter_files(package):
+            nodes = use_of(package, file.path).nodes
             if any(not isinstance(node.name(package), str) for node in nodes):
                 continue
             in_one_process = any(node.package == _CONTROL for node in nodes)
-            for section in file.sections if file is not None else ():
+            for section in file.sections:
                 # The controller manager names the nodes that it creates after its controllers.
                 if section.is_pattern or (in_one_process and section.name != _CONTROL):
                     continue

@@ -33,8 +33,7 @@ from scaffold.api.parameters import (
     declared_by,
     own_texts,
     own_values,
-    parameter_file,
-    parameter_paths,
+    parameter_files,
     plain_name,
 )
 from scaffold.api.programs import KnownNode
@@ -180,14 +179,13 @@ class ParameterUndeclared(Rule):
         yield from self._in_launch_files(package)
 
     def _in_files(self, package: Package) -> Iterator[Diagnostic]:
-        for path in parameter_paths(package):
-            file = parameter_file(package, path)
-            for section in file.sections if file else ():
-                owners = nodes_for(package, path, section)
+        for file in parameter_files(package):
+            for section in file.sections:
+                owners = nodes_for(package, file.path, section)
                 declarations = [declared_by(owner, package) for owner in owners]
                 if not declarations or not all(node.complete for node in declarations):
                     continue
-                if not use_of(package, path).nodes and is_loaded(package, path, owners):
+                if not use_of(package, file.path).nodes and is_loaded(package, file.path, owners):
                     continue
                 for entry in section.entries:
                     if not any(node.has(entry.name) for node in declarations):

@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, RclpyRule, Severity, ViewError
-from scaffold.api.parameters import parameter_file, parameter_paths
+from scaffold.api.parameters import parameter_files
 from scaffold.api.python import is_handled
 from scaffold.api.rclpy import NodeDefinition, RclpyFile
 
@@ -105,9 +105,8 @@ class RequiredNeverSet(RclpyRule):
 
 def _is_set(package: Package, node: NodeDefinition, name: str) -> bool:
     """Tell whether a parameter file or a launch file of a package may set a parameter."""
-    for path in parameter_paths(package):
-        file = parameter_file(package, path)
-        for section in file.sections if file else ():
+    for file in parameter_files(package):
+        for section in file.sections:
             is_of_node = section.is_pattern or section.name == node.node_name
             is_of_node = is_of_node or not isinstance(node.node_name, str)
             if not any(entry.name == name for entry in section.entries):

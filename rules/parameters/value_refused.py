@@ -10,8 +10,7 @@ from scaffold.api.launch import nodes_for
 from scaffold.api.parameters import (
     declared_by,
     mixed,
-    parameter_file,
-    parameter_paths,
+    parameter_files,
     place_of,
     scalar_type,
 )
@@ -118,15 +117,13 @@ class ValueRefused(Rule):
         yield from self._check_empty(package)
 
     def _check_values(self, package: Package) -> Iterator[Diagnostic]:
-        for path in parameter_paths(package):
-            file = parameter_file(package, path)
-            for refused in file.refused if file else ():
+        for file in parameter_files(package):
+            for refused in file.refused:
                 yield self.report(refused.location, refused.message)
 
     def _check_lists(self, package: Package) -> Iterator[Diagnostic]:
-        for path in parameter_paths(package):
-            file = parameter_file(package, path)
-            for section in file.sections if file else ():
+        for file in parameter_files(package):
+            for section in file.sections:
                 for entry in section.entries:
                     mixture = mixed(entry.value)
                     if mixture is None or not isinstance(entry.value, Sequence):
@@ -136,7 +133,7 @@ class ValueRefused(Rule):
                         f"list {entry.name!r} mixes {kind} ({first.text}) and {other_kind} "
                         f"({other.text}): rcl rejects the file; use one type"
                     )
-                    yield self.report(other, message, self._fix(path, entry.value))
+                    yield self.report(other, message, self._fix(file.path, entry.value))
 
     def _fix(self, path: str, value: Sequence) -> Fix | None:
         scalars = [item for item in value.items if isinstance(item, Scalar)]
@@ -150,13 +147,12 @@ class ValueRefused(Rule):
         return Fix("Convert all values to doubles", edits)
 
     def _check_empty(self, package: Package) -> Iterator[Diagnostic]:
-        for path in parameter_paths(package):
-            file = parameter_file(package, path)
-            for section in file.sections if file else ():
+        for file in parameter_files(package):
+            for section in file.sections:
                 for entry in section.entries:
                     if not isinstance(entry.value, Sequence) or entry.value.items:
                         continue
-                    for owner in nodes_for(package, path, section):
+                    for owner in nodes_for(package, file.path, section):
                         read = _read(owner.definition(package), entry.name)
                         if read is None or not declared_by(owner, package).types.get(entry.name):
                             continue

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 
 from scaffold.api import Diagnostic, Example, Package, RclpyRule, Report, Severity, fact
 from scaffold.api.launch import started_nodes
-from scaffold.api.parameters import parameter_file, parameter_paths
+from scaffold.api.parameters import parameter_files
 from scaffold.api.python import PythonModule, is_handled, joined_names
 from scaffold.api.rclpy import PARAMETER, Parameter, RclpyFile, class_of, is_of_node
 
@@ -281,8 +281,7 @@ class ParameterDefaultUnusable(RclpyRule):
 @fact
 def _set_names(package: Package) -> frozenset[str]:
     """Return the names of all parameters that files of the package set, of any node."""
-    files = (parameter_file(package, path) for path in parameter_paths(package))
-    sections = [section for file in files if file for section in file.sections]
+    sections = [section for file in parameter_files(package) for section in file.sections]
     names = {entry.name for section in sections for entry in section.entries}
     names |= {given.name for node in started_nodes(package) for given in node.parameters}
     return frozenset(names)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, RclpyRule, Report, Severity
-from scaffold.api.parameters import parameter_file, parameter_paths
+from scaffold.api.parameters import parameter_files
 from scaffold.api.rclpy import NodeDefinition, RclpyFile
 
 _NODE = (
@@ -135,9 +135,8 @@ class ParameterRepeated(RclpyRule):
 
 def _set_in(package: Package, name: str) -> str:
     """Return the parameter file of a package that sets a parameter; empty if there is none."""
-    for path in parameter_paths(package):
-        file = parameter_file(package, path)
-        for section in file.sections if file else ():
+    for file in parameter_files(package):
+        for section in file.sections:
             if any(entry.name == name for entry in section.entries):
-                return path
+                return file.path
     return ""

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 from scaffold.generate.add.cpp_nodes import executables
 from scaffold.model.package import Package
-from scaffold.model.parameters.files import parameter_file, parameter_paths
+from scaffold.model.parameters.files import parameter_files
 from scaffold.model.programs.executables import nodes_of, programs_of
 from scaffold.model.python.values import Unknown
 from scaffold.source import ViewError
@@ -87,13 +87,12 @@ def _node(package: Package, program: str, names: set[str | Unknown]) -> dict[str
 
 def _parameters(package: Package, name: str) -> str:
     """Return the only parameter file for a node of this name; empty if there is none."""
-    fitting: list[str] = []
-    for path in parameter_paths(package):
-        read = parameter_file(package, path) if path.rpartition("/")[0] == CONFIG else None
-        if read is not None and any(
-            section.node.rpartition("/")[2] == name for section in read.sections
-        ):
-            fitting.append(path)
+    fitting = [
+        file.path
+        for file in parameter_files(package)
+        if file.path.rpartition("/")[0] == CONFIG
+        and any(section.node.rpartition("/")[2] == name for section in file.sections)
+    ]
     return fitting[0] if len(fitting) == 1 else ""
 
 

@@ -47,15 +47,14 @@ class FileValue(NamedTuple):
 
 def values_in_files(package: Package) -> Iterator[FileValue]:
     """Yield the values for nodes in the parameter files of a package."""
-    from scaffold.model.parameters.files import parameter_file, parameter_paths
+    from scaffold.model.parameters.files import parameter_files
 
-    for path in parameter_paths(package):
-        file = parameter_file(package, path)
-        for section in file.sections if file else ():
-            nodes = nodes_for(package, path, section)
+    for file in parameter_files(package):
+        for section in file.sections:
+            nodes = nodes_for(package, file.path, section)
             declared = [declared_by(owner, package) for owner in nodes]
             for entry in section.entries:
-                yield FileValue(path, entry, declared)
+                yield FileValue(file.path, entry, declared)
 
 
 def use_of(package: Package, path: str) -> FileUse:

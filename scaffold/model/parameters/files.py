@@ -142,6 +142,14 @@ def parameter_file(package: Package, path: str) -> ParameterFile | None:
     return _read(package, path)[0]
 
 
+def parameter_files(package: Package) -> Iterator[ParameterFile]:
+    """Yield the parameter files of a package that can be read as YAML."""
+    for path in parameter_paths(package):
+        file = parameter_file(package, path)
+        if file is not None:
+            yield file
+
+
 def mistake(package: Package, path: str) -> ParseError | None:
     """Return why a file cannot be read as YAML."""
     return _read(package, path)[1]
