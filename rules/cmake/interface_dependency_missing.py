@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from scaffold.api import Diagnostic, Effect, Example, Package, Rule, ViewError
 from scaffold.api.catalog import transitive_dependencies
@@ -116,12 +116,11 @@ def _used_packages(package: Package, call: Generation) -> Iterator[tuple[str, st
     listed = {file.path for file in call.files}
     seen: set[str] = set()
     for file in interface_files(package):
-        for section in file.definition.sections if file.path in listed else ():
-            for field in section.fields:
-                name = field.type.package
-                if name is not None and name not in seen:
-                    seen.add(name)
-                    yield name, file.path, field.location.line
+        for field in file.definition.all_fields if file.path in listed else ():
+            name = field.type.package
+            if name is not None and name not in seen:
+                seen.add(name)
+                yield name, file.path, field.location.line
 
 
 def _with_dependencies(definitions: Definitions, names: list[str]) -> set[str] | None:
@@ -135,12 +134,18 @@ def _with_dependencies(definitions: Definitions, names: list[str]) -> set[str] |
             interfaces = definitions.names(package, kind)
             if interfaces is None and package in names:
                 return None
-            for name in interfaces or ():
-                interface = definitions.find(f"{package}/{kind}/{name}")
-                for section in interface.sections if interface else ():
-                    uses = {field.type.package for field in section.fields if field.type.package}
-                    pending += [use for use in uses if use not in result and use not in pending]
+            uses = _packages_of_fields(definitions, package, kind, interfaces or ())
+            pending += [use for use in uses if use not in result and use not in pending]
     return result
+
+
+def _packages_of_fields(
+    definitions: Definitions, package: str, kind: str, names: Iterable[str]
+) -> set[str]:
+    """Return the packages whose messages some interfaces have as fields."""
+    interfaces = [definitions.find(f"{package}/{kind}/{name}") for name in names]
+    fields = [field for interface in interfaces if interface for field in interface.all_fields]
+    return {field.type.package for field in fields if field.type.package}
 
 
 def _names_found(cmake: CMakeLists) -> set[str] | None:
@@ -174,10 +179,7 @@ def _available(package: Package, required: set[str] | None) -> set[str] | None:
             return None
         pending += _declared(package, name)
         for kind, names in interfaces:
-            for item in names or ():
-                interface = definitions.find(f"{name}/{kind}/{item}")
-                for section in interface.sections if interface else ():
-                    pending += [field.type.package or "" for field in section.fields]
+            pending += sorted(_packages_of_fields(definitions, name, kind, names or ()))
     return available
 
 

@@ -107,13 +107,10 @@ class FieldTypeUnusable(Rule):
     def _check_exists(self, package: Package) -> Iterator[Diagnostic]:
         definitions = package.workspace.interfaces
         for file in interface_files(package):
-            for section in file.definition.sections:
-                for field in section.fields:
-                    message = _problem(
-                        definitions, field.type, str(field.type.element), package.name
-                    )
-                    if message:
-                        yield self.report(field.type_location, message)
+            for field in file.definition.all_fields:
+                message = _problem(definitions, field.type, str(field.type.element), package.name)
+                if message:
+                    yield self.report(field.type_location, message)
 
     def _check_loops(self, package: Package) -> Iterator[Diagnostic]:
         held: dict[str, dict[str, Location]] = {}
@@ -121,10 +118,9 @@ class FieldTypeUnusable(Rule):
             if file.kind != "msg":
                 continue
             inner = held.setdefault(file.name, {})
-            for section in file.definition.sections:
-                for field in section.fields:
-                    if field.type.package == package.name:
-                        inner.setdefault(field.type.name, field.type_location)
+            for field in file.definition.all_fields:
+                if field.type.package == package.name:
+                    inner.setdefault(field.type.name, field.type_location)
         for name, inner in held.items():
             for type_, at in inner.items():
                 if type_ == name:

@@ -122,7 +122,6 @@ def _uses_of_build(package: Package) -> Iterator[tuple[str, Location, str]]:
         if package_found.required and not package.cmake.is_off(package_found.command):
             yield package_found.name, package_found.location, "CMake stops"
     for file in files:
-        for section in file.definition.sections:
-            for field in section.fields:
-                if field.type.package:
-                    yield field.type.package, field.type_location, "the build stops"
+        for field in file.definition.all_fields:
+            if field.type.package:
+                yield field.type.package, field.type_location, "the build stops"

@@ -129,10 +129,9 @@ def find(text: str, kind: str, definitions: Definitions) -> Types:
     messages: dict[str, Interface] = {}
     if kind == "msg":
         messages[full_name] = interface
-    for section in interface.sections:
-        for field in section.fields:
-            trail = (full_name,) if kind == "msg" else ()
-            _collect(field, interface, trail, messages, definitions)
+    for field in interface.all_fields:
+        trail = (full_name,) if kind == "msg" else ()
+        _collect(field, interface, trail, messages, definitions)
     return Types(interface, messages, definitions)
 
 

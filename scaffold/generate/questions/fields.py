@@ -52,13 +52,12 @@ def fields(given: object, where: str = ".") -> Fields:
         several = re.search(r"\w\s*[,;]\s*[\w/]+ +\w", line.partition("#")[0])
         hint = "; quote each field separately" if several else ""
         raise InputError(f"{line!r}: {problem.message}{hint}")
-    for section in definition.sections:
-        for field in section.fields:
-            if reserved(field.name):
-                line = lines[field.location.line - 1]
-                raise InputError(f"{line!r}: {reserved(field.name)}; choose another name")
-            _refuse_large(field.type, lines[field.location.line - 1])
-    types = [item.type.element for section in definition.sections for item in section.fields]
+    for field in definition.all_fields:
+        if reserved(field.name):
+            line = lines[field.location.line - 1]
+            raise InputError(f"{line!r}: {reserved(field.name)}; choose another name")
+        _refuse_large(field.type, lines[field.location.line - 1])
+    types = [field.type.element for field in definition.all_fields]
     used = {item.full_name for item in types if not item.is_primitive}
     own = {name for name in used if name.startswith(f"{_OWN}/")}
     _refuse_unknown(used - own, where)

@@ -58,6 +58,11 @@ class Interface(NamedTuple):
         raise KeyError(name)
 
     @property
+    def all_fields(self) -> list[Field]:
+        """The fields of all sections."""
+        return [field for section in self.sections for field in section.fields]
+
+    @property
     def fields(self) -> tuple[Field, ...]:
         """The fields of a message."""
         return self.section("message").fields

@@ -105,6 +105,11 @@ class Definition(NamedTuple):
     sections: tuple[Section, ...]
     problems: tuple[Problem, ...]
 
+    @property
+    def all_fields(self) -> list[Field]:
+        """The fields of all sections."""
+        return [field for section in self.sections for field in section.fields]
+
 
 class _Line(NamedTuple):
     text: str
