@@ -102,19 +102,19 @@ class TopicTypeDiffers(Rule):
             sides = topic.publishers, topic.subscriptions
             if not topic.is_plain_by_default or not _are_known(package, *sides):
                 continue
-            found = [*self._check(name, *sides)]
+            diagnostics = [*self._check(name, *sides)]
             # This is slower to determine than whether the types differ.
             if (
-                found
+                diagnostics
                 and all(keeps_default_name(package, x) for side in sides for x in side)
                 and not is_named_in_compiled_code(package, name)
             ):
-                yield from found
+                yield from diagnostics
         for name, service in services_of(package).items():
             if service.is_plain and _are_known(package, service.services, service.clients):
-                found = [*self._check(name, service.services, service.clients)]
-                if found and not is_named_in_compiled_code(package, name):
-                    yield from found
+                diagnostics = [*self._check(name, service.services, service.clients)]
+                if diagnostics and not is_named_in_compiled_code(package, name):
+                    yield from diagnostics
 
     def _check(
         self, name: str, side: Sequence[NamedEndpoint], other_side: Sequence[NamedEndpoint]
