@@ -33,10 +33,10 @@ _KEPT = (".py", ".xacro", ".urdf", ".launch", ".xml", ".yaml", ".yml")
 _RUNS_PYTHON = re.compile(rb"pytest|launch_test|nose|python|PYTHON|ament_lint_auto|\.py\b")
 """Matches commands of CMakeLists.txt that run or check Python."""
 _ADDS_DIRECTORY = re.compile(rb"\badd_subdirectory\s*\([^)]{0,200}\)")
-_INSTALLS_PYTHON = re.compile(
-    rb"ament_python_install|python_setup|setup\.py|(?<![/\w])\$\{PROJECT_NAME\}/?(?=[\s\")])"
-)
-"""Matches commands that may install a whole Python package, or a directory with its name."""
+_INSTALLS_PYTHON = re.compile(rb"ament_python_install|python_setup|setup\.py")
+"""Matches commands that may install a whole Python package."""
+_OF_PROJECT = re.compile(rb"(?<![/\w])\$\{PROJECT_NAME\}/?(?=[\s\")])")
+"""Matches what may be the directory with the name of the package."""
 _PROJECT = re.compile(rb"\bproject\s*\([^)]{0,200}\)")
 _LIST_OF_NAMES = re.compile(rb"[\s\w,()]{0,400}")
 """Matches a line that may belong to an import of several lines."""
@@ -119,7 +119,9 @@ def _is_apart(package: Package, path: str) -> bool:
     parts = directory.split("/") if directory else []
     installing = [without_comments(package.data(item)) for item in _building(package)]
     if is_in_python_package(package, path):
-        if not _is_built_by_cmake(package) or any(map(_INSTALLS_PYTHON.search, installing)):
+        whole = [_INSTALLS_PYTHON, *([_OF_PROJECT] if package.name in parts else [])]
+        is_whole = any(pattern.search(data) for pattern in whole for data in installing)
+        if is_whole or not _is_built_by_cmake(package):
             return False
         installing = [_PROJECT.sub(b"", data) for data in installing]
     is_mentioned = any(_mentions_directory(data, part) for part in parts for data in installing)
