@@ -19,10 +19,10 @@ _NODE = (
 class AwaitOutsideAsync(PythonRule):
     """``await`` is used in a function that is not ``async``.
 
-    **Why.** The file does not compile: ``SyntaxError: 'await' outside async function``. colcon
-    does not report it: the node dies at start.
+    **Why.** The file does not compile: ``SyntaxError: 'await' outside async function``. colcon does
+    not report it; the node fails at start.
 
-    **Fix.** Write ``async def``; rclpy runs such callbacks.
+    **Fix.** Write ``async def``; rclpy supports async callbacks.
 
     **Source.** Python documentation, "Await expression"; rclpy, ``executors.py``.
     """
@@ -34,7 +34,7 @@ class AwaitOutsideAsync(PythonRule):
         Example(
             "not async",
             {"caller.py": _NODE.format("")},
-            "6:9: 'await' outside an async function: SyntaxError",
+            "6:9: 'await' outside of an async function: SyntaxError; write async def",
         ),
     )
 
@@ -44,6 +44,6 @@ class AwaitOutsideAsync(PythonRule):
                 if isinstance(parent, ast.AsyncFunctionDef):
                     break
                 if isinstance(parent, ast.FunctionDef | ast.Lambda | ast.Module):
-                    message = "'await' outside an async function: SyntaxError"
+                    message = "'await' outside of an async function: SyntaxError; write async def"
                     yield self.report(module.location(node), message)
                     break

@@ -89,12 +89,12 @@ _VIEWER = (
 class CallbackArity(RclpyRule):
     """A callback does not accept the arguments that rclpy passes.
 
-    **Why.** rclpy rejects the callback of a subscription at once; others end the node with
-    ``TypeError`` when they are first called.
+    **Why.** rclpy rejects the callback of a subscription at once; other callbacks raise
+    ``TypeError`` when they are first called, which ends the node.
 
-    **Fix.** A subscription passes the message (and optionally its info), a service the request
-    and the response, a timer nothing, an action server the goal handle, a synchronizer a message
-    of each topic.
+    **Fix.** A subscription passes the message (and optionally its info), a service the request and
+    the response, a timer nothing, an action server the goal handle, a synchronizer one message for
+    each topic.
 
     **Source.** ``rclpy/subscription.py``, ``rclpy/service.py``, ``rclpy/executors.py``.
     """
@@ -110,7 +110,7 @@ class CallbackArity(RclpyRule):
             "11:34: callback 'end' takes 3 arguments, but a future passes itself: TypeError",
         ),
         Example(
-            "chosen by a condition, or out of a table",
+            "chosen by a condition, or from a table",
             {
                 "listener.py": _NODE.format(", message")
                 .replace("self.hear,", "self.hear if self.verbose else self.log,")
@@ -121,7 +121,7 @@ class CallbackArity(RclpyRule):
             },
         ),
         Example(
-            "chosen by a condition, or out of a table, with no parameter",
+            "chosen by a condition, or from a table, without a parameter",
             {
                 "listener.py": _NODE.format("")
                 .replace("self.hear,", "self.hear if self.verbose else self.log,")
@@ -156,7 +156,7 @@ class CallbackArity(RclpyRule):
             {"lamps.py": _PARTIAL.format("side, request, response")},
         ),
         Example(
-            "partial with too much",
+            "partial with too many arguments",
             {"lamps.py": _PARTIAL.format("request, response")},
             "10:46: callback 'switch' takes 1 more argument, but a service passes the request and "
             "the response: TypeError",
@@ -169,7 +169,7 @@ class CallbackArity(RclpyRule):
             "TypeError",
         ),
         Example(
-            "a parameter that is given by name behind the message, and one in front of it",
+            "a keyword argument of partial, after and before the message",
             {
                 "bumper.py": "from functools import partial\n\nfrom rclpy.node import Node\n"
                 "from std_msgs.msg import Empty, String\n\n\n"
@@ -185,7 +185,7 @@ class CallbackArity(RclpyRule):
                 "    def hear(self, msg, side):\n        return msg, side\n\n"
                 "    def see(self, side, msg):\n        return msg, side\n"
             },
-            "12:47: callback 'see' has parameters after one that is given by name, but a "
+            "12:47: callback 'see' has parameters after one that is passed by name, but a "
             "subscription passes the message: RuntimeError",
             "13:27: this callback takes 0 arguments, but a subscription passes the message: "
             "RuntimeError",
@@ -203,7 +203,7 @@ class CallbackArity(RclpyRule):
             "7:32: callback 'work' lacks 'self': TypeError",
         ),
         Example(
-            "the future of a client that a class gets with a node",
+            "the future of a client in a class that gets a node",
             {
                 "remote.py": "from std_srvs.srv import Trigger\n\n\n"
                 "class Remote:\n"
@@ -224,7 +224,7 @@ class CallbackArity(RclpyRule):
             if takes is None or any(n in takes for n in given[0]):
                 continue
             if not takes:
-                message = f"{_shown(callback)} has parameters after one that is given by name"
+                message = f"{_shown(callback)} has parameters after one that is passed by name"
                 yield self.report(callback, f"{message}, but {given[1]}")
                 continue
             least, most = takes.start, takes.stop - 1

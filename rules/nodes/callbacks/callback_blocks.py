@@ -68,12 +68,12 @@ _GROUPS = (
 class CallbackBlocks(RclpyRule):
     """A callback sleeps or waits for input, or waits for a server without a timeout.
 
-    **Why.** One thread runs all callbacks: meanwhile no other timer, topic, service or parameter
-    of the node is served, and a timer misses its period. A callback or constructor that waits for a
-    server without a timeout hangs silently until the server is available.
+    **Why.** One thread runs all callbacks: meanwhile no other callback of the node runs, and timers
+    miss their period. A callback or constructor that waits for a server without a timeout hangs
+    until the server is available, without an error.
 
-    **Fix.** Use a timer to do something later, and a separate thread to wait. Pass ``timeout_sec``
-    to ``wait_for_service``, and log what is missing.
+    **Fix.** Use a timer instead of sleeping, and a separate thread for waiting. Pass
+    ``timeout_sec`` to ``wait_for_service``, and log the missing server.
 
     **Source.** ROS 2 documentation, "Executors"; "Migrating a Python package example"; rclpy,
     ``Client.wait_for_service``.
@@ -85,52 +85,54 @@ class CallbackBlocks(RclpyRule):
     effect = Effect.WRONG_BEHAVIOR
     examples = (
         Example("no wait", {"talker.py": _NODE.format("self.now = time.time()")}),
-        Example("too short to do harm", {"talker.py": _NODE.format("time.sleep(0.001)")}),
+        Example("a harmlessly short sleep", {"talker.py": _NODE.format("time.sleep(0.001)")}),
         Example(
             "a sleep",
             {"talker.py": _NODE.format("time.sleep(1.0)")},
-            "12:9: time.sleep(1) blocks callback 'tick', and with it all other callbacks of the "
-            "node",
+            "12:9: time.sleep(1) blocks callback 'tick' and all other callbacks; use a timer or a "
+            "thread of the node",
         ),
         Example(
             "a server",
             {"talker.py": "import requests\n" + _NODE.format("requests.get('http://robot/state')")},
-            "13:9: requests.get() blocks callback 'tick', and with it all other callbacks of the "
-            "node",
+            "13:9: requests.get() blocks callback 'tick' and all other callbacks; use a timer or "
+            "a thread of the node",
         ),
         Example(
-            "a key in a window",
+            "a key press in a window",
             {"talker.py": "import cv2\n" + _NODE.format("cv2.waitKey(0)")},
-            "13:9: cv2.waitKey(0) blocks callback 'tick', and with it all other callbacks of the "
-            "node",
+            "13:9: cv2.waitKey(0) blocks callback 'tick' and all other callbacks; use a timer or "
+            "a thread of the node",
         ),
         Example(
-            "a moment for a window", {"talker.py": "import cv2\n" + _NODE.format("cv2.waitKey(1)")}
+            "a short wait for a window",
+            {"talker.py": "import cv2\n" + _NODE.format("cv2.waitKey(1)")},
         ),
         Example(
             "user input",
             {"talker.py": _NODE.format("input()")},
-            "12:9: input() blocks callback 'tick', and with it all other callbacks of the node",
+            "12:9: input() blocks callback 'tick' and all other callbacks; use a timer or a "
+            "thread of the node",
         ),
         Example(
-            "several threads and a callback group of its own",
+            "several threads and a separate callback group",
             {"talker.py": _GROUPS.format("fast", "MultiThreadedExecutor")},
         ),
         Example(
             "several threads and a callback group that others share",
             {"talker.py": _GROUPS.format("slow", "MultiThreadedExecutor")},
-            "19:9: time.sleep(1) blocks callback 'tick', and with it all other callbacks of its "
-            "callback group",
+            "19:9: time.sleep(1) blocks callback 'tick' and all other callbacks; use a timer or a "
+            "thread of its callback group",
         ),
         Example(
-            "a callback group of its own and one thread",
+            "a separate callback group and one thread",
             {
                 "talker.py": _GROUPS.format("fast", "SingleThreadedExecutor").replace(
                     "MultiThreaded", "SingleThreaded"
                 )
             },
-            "19:9: time.sleep(1) blocks callback 'tick', and with it all other callbacks of the "
-            "node",
+            "19:9: time.sleep(1) blocks callback 'tick' and all other callbacks; use a timer or a "
+            "thread of the node",
         ),
         Example("with a timeout", {"caller.py": _CALLER.format("timeout_sec=1.0")}),
         Example(
@@ -147,7 +149,10 @@ class CallbackBlocks(RclpyRule):
             for call in file.calls_in(executed.function):
                 name = _blocking(file, call)
                 if name and blocks_node(file, executed):
-                    message = f"{name} blocks {executed.origin}, and with it all other callbacks"
+                    message = (
+                        f"{name} blocks {executed.origin} and all other callbacks; use a "
+                        f"timer or a thread"
+                    )
                     at = file.module.location(call)
                     cause = f"blocking of {executed.origin} in {file.module.path}"
                     yield self.report(at, f"{message} of {_blocked(file)}", cause=cause)

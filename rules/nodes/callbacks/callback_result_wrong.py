@@ -1,4 +1,4 @@
-"""ND048: callbacks of services and action servers return what is sent, or expected."""
+"""ND048: callbacks of services and action servers return a valid response or result."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from scaffold.api.python import FunctionNode, is_generator, may_end, returned, v
 from scaffold.api.rclpy import ActionServer, Service, is_overridden, worker
 
 _ANSWERS = {"goal_callback": "GoalResponse", "cancel_callback": "CancelResponse"}
-_REJECTED = "it counts as a rejection"
+_REJECTED = "it is treated as a rejection"
 """The effect of a missing answer, which may be intended on some paths."""
 _NODE = (
     "from example_interfaces.action import Fibonacci\n"
@@ -59,12 +59,12 @@ class _Expected(NamedTuple):
 
 
 class CallbackResultWrong(MessageRule):
-    """A callback of a service or action server returns nothing, or what the server cannot use.
+    """A callback of a service or action server returns nothing, or an object of the wrong type.
 
-    **Why.** rclpy raises ``TypeError`` in ``send_response`` at the first request, for the result of
-    an action ``AssertionError`` or ``AttributeError``: the node dies, and the client waits forever.
-    A goal callback without a ``GoalResponse`` rejects every goal, a cancel callback without a
-    ``CancelResponse`` every request.
+    **Why.** rclpy raises ``TypeError`` in ``send_response`` at the first request, or
+    ``AssertionError`` or ``AttributeError`` for an action result: the node ends, and the client
+    waits forever. A goal callback without a ``GoalResponse`` rejects every goal, a cancel callback
+    without a ``CancelResponse`` every request.
 
     **Fix.** End the callback with ``return response``, the result of the action, ``return
     GoalResponse.ACCEPT`` or ``return CancelResponse.ACCEPT``, on every path.
@@ -75,40 +75,40 @@ class CallbackResultWrong(MessageRule):
 
     code = "ND048"
     name = "callback-result-wrong"
-    other_severities = {Severity.WARNING: "an answer that is missing on some paths is a rejection"}
+    other_severities = {Severity.WARNING: "a missing GoalResponse or CancelResponse is a rejection"}
     examples = (
         Example(
-            "a result and an answer returned",
+            "a result and a GoalResponse returned",
             {"server.py": _NODE.format(_JUDGED, "return Fibonacci.Result()")},
         ),
         Example(
-            "a bool for the answer, nothing for the result",
+            "a bool instead of a GoalResponse, no result",
             {"server.py": _NODE.format("return True", "")},
-            "13:9: returns True, not a GoalResponse for the action server of line 9: it counts as "
-            "a rejection",
+            "13:9: returns True, not a GoalResponse for the action server of line 9: it is "
+            "treated as a rejection",
             "15:9: work() does not return the result for the action server of line 9: "
             "AttributeError when the result is sent",
         ),
         Example(
-            "a comparison for the answer",
+            "a comparison instead of a GoalResponse",
             {"server.py": _NODE.format("return goal.order < 10", "return Fibonacci.Result()")},
-            "13:9: returns a bool, not a GoalResponse for the action server of line 9: it counts "
-            "as a rejection",
+            "13:9: returns a bool, not a GoalResponse for the action server of line 9: it is "
+            "treated as a rejection",
         ),
         Example(
-            "the wrong answer, the feedback",
+            "the wrong response type, the feedback",
             {
                 "server.py": _NODE.format(
                     "return CancelResponse.ACCEPT", "return Fibonacci.Feedback()"
                 )
             },
             "13:9: returns a CancelResponse, not a GoalResponse for the action server of line 9: "
-            "it counts as a rejection",
+            "it is treated as a rejection",
             "17:9: returns example_interfaces/action/Fibonacci.Feedback, not the result for the "
             "action server of line 9: AttributeError when the result is sent",
         ),
         Example(
-            "an answer on one path only",
+            "a GoalResponse on one path only",
             {
                 "server.py": _NODE.format(
                     "if goal.order > 1:\n            return GoalResponse.ACCEPT",
@@ -118,12 +118,12 @@ class CallbackResultWrong(MessageRule):
             Report(
                 "12:9",
                 "judge() does not return a GoalResponse on every path for the action "
-                "server of line 9: it counts as a rejection",
+                "server of line 9: it is treated as a rejection",
                 severity=Severity.WARNING,
             ),
         ),
         Example(
-            "on every path but the shutdown",
+            "on every path except shutdown",
             {
                 "server.py": _NODE.format(
                     _JUDGED, "while rclpy.ok():\n            return Fibonacci.Result()"
@@ -137,7 +137,7 @@ class CallbackResultWrong(MessageRule):
             "line 9: AttributeError when the result is sent",
         ),
         Example(
-            "a method that every class of the package replaces",
+            "a method that every subclass overrides",
             {
                 "server.py": _NODE_SERVICES.format("").replace("Server", "Base")
                 + "\n\nclass Server(Base):\n    def report(self, request, response):\n"
@@ -145,7 +145,7 @@ class CallbackResultWrong(MessageRule):
             },
         ),
         Example(
-            "a method that a class replaces, and another one does not",
+            "a method that only one subclass overrides",
             {
                 "server.py": _NODE_SERVICES.format("").replace("Server", "Base")
                 + "\n\nclass Server(Base):\n    def report(self, request, response):\n"
@@ -166,10 +166,10 @@ class CallbackResultWrong(MessageRule):
                 "b.py": _NODE_SERVICES.format("        return Trigger.Response(success=True)\n"),
                 "server.py": _NODE_SERVICES.format("        return Trigger.Response()\n"),
             },
-            "server.py:12:9: returns a new response: what was set in the given one is lost",
+            "server.py:12:9: returns a new response: the fields set in the given one are lost",
         ),
         Example(
-            "the result of a method, and of one that returns nothing",
+            "the return value of a method, and of one that returns nothing",
             {
                 "a.py": _NODE_SERVICES.format(_OTHER.format("        return response\n")),
                 "b.py": _NODE_SERVICES.format(_OTHER.format("")),
@@ -217,17 +217,17 @@ class CallbackResultWrong(MessageRule):
             "line 8): TypeError",
         ),
         Example(
-            "a response of its own is filled, and the given one returned",
+            "a new response is filled, but the given one returned",
             {
                 "server.py": _NODE_SERVICES.format(
                     "        answer = Trigger.Response()\n        answer.success = True\n"
                     "        return response\n"
                 ).replace("        response.success = True\n", "")
             },
-            "11:18: returns the given response as it came: what was set in this one is lost",
+            "11:18: returns the given response unchanged: the fields set in this one are lost",
         ),
         Example(
-            "a dict for the response",
+            "a dict instead of the response",
             {"server.py": _NODE_SERVICES.format("        return {'success': True}\n")},
             "12:9: returns a dict, not the response (service of line 8): TypeError",
         ),
@@ -311,10 +311,10 @@ class CallbackResultWrong(MessageRule):
             return
         filled = _filled_instead(types, service, function)
         if filled is not None and _is_untouched(types, function, last.value):
-            message = "returns the given response as it came: what was set in this one is lost"
+            message = "returns the given response unchanged: the fields set in this one are lost"
             yield self.report(types.module.location(filled), message)
         if _is_new(types, function, last.value):
-            message = "returns a new response: what was set in the given one is lost"
+            message = "returns a new response: the fields set in the given one are lost"
             yield self.report(types.module.location(last), message)
 
 

@@ -1,4 +1,4 @@
-"""ND130: callbacks of subscriptions have a signature that Python can read."""
+"""ND130: callbacks of subscriptions have a signature that Python can inspect."""
 
 from __future__ import annotations
 
@@ -21,11 +21,10 @@ _NODE = (
 
 
 class CallbackWithoutSignature(PythonRule):
-    """A subscription calls a method of a deque or a set, which has no Python signature.
+    """The callback of a subscription is a method of a deque or set, which has no Python signature.
 
-    **Why.** From Jazzy on, rclpy inspects the signature to see whether the callback takes
-    the message alone; before Python 3.13 there is none for ``deque.append``: ``ValueError: no
-    signature found for builtin``.
+    **Why.** Since Jazzy, rclpy inspects the signature of the callback; before Python 3.13,
+    ``deque.append`` has none: ``ValueError: no signature found for builtin``.
 
     **Fix.** Pass ``lambda msg: self.heard.append(msg)``. No automatic fix: the attribute may be
     another object later.
@@ -43,12 +42,12 @@ class CallbackWithoutSignature(PythonRule):
             {"listener.py": _NODE.format("deque()", "lambda msg: self.heard.append(msg)")},
         ),
         Example(
-            "rclpy does not ask",
+            "a distribution that does not inspect signatures",
             {"listener.py": _NODE.format("deque()", "self.heard.append")},
             distro="humble",
         ),
         Example(
-            "Python knows it",
+            "a Python version with the signature",
             {"listener.py": _NODE.format("deque()", "self.heard.append")},
             distro="lyrical",
         ),

@@ -31,7 +31,7 @@ _TASK = (
 
 
 class DiagnosticTaskResult(PythonRule):
-    """A task of the diagnostic updater does not return the status that it is given.
+    """A task of the diagnostic updater does not return its status.
 
     **Why.** The updater publishes what the task returns: ``AttributeError: 'NoneType' object has
     no attribute 'name'``, and the node ends at the first update.
@@ -49,12 +49,12 @@ class DiagnosticTaskResult(PythonRule):
         Example(
             "not returned",
             {"wheels.py": _NODE.format("stat.add('count', '4')")},
-            "12:9: check() does not return its status: AttributeError",
+            "12:9: check() does not return its status: AttributeError; return it",
         ),
         Example(
             "not on every path",
             {"check.py": _TASK},
-            "5:9: run() does not return its status on every path: AttributeError",
+            "5:9: run() does not return its status on every path: AttributeError; return it",
         ),
     )
 
@@ -66,7 +66,9 @@ class DiagnosticTaskResult(PythonRule):
             if function.decorator_list or is_generator(function) or not may_end(function):
                 continue
             path = " on every path" if returned(function) else ""
-            message = f"{function.name}() does not return its status{path}: AttributeError"
+            message = (
+                f"{function.name}() does not return its status{path}: AttributeError; return it"
+            )
             yield self.report(module.name_location(function), message)
 
 

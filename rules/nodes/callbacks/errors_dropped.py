@@ -33,12 +33,12 @@ _NODE = (
 
 
 class ErrorsDropped(RclpyRule):
-    """A callback catches all exceptions around its work, and does nothing with them.
+    """A callback catches all exceptions and ignores them.
 
-    **Why.** A misspelled name, a wrong type or a missing transform drops every message, and
-    nothing says so: the node seems to work and does nothing.
+    **Why.** A misspelled name, a wrong type or a missing transform drops every message without an
+    error: the node seems to run, but does nothing.
 
-    **Fix.** Catch what is expected, such as ``ValueError``, and log it:
+    **Fix.** Catch the expected exceptions, such as ``ValueError``, and log them:
     ``self.get_logger().error(f'...: {error}', throttle_duration_sec=5.0)``.
 
     **Source.** PEP 8, "Programming recommendations".
@@ -49,16 +49,16 @@ class ErrorsDropped(RclpyRule):
     severity = Severity.WARNING
     effect = Effect.WRONG_BEHAVIOR
     examples = (
-        Example("what is expected", {"listener.py": _NODE.format("ValueError", "pass")}),
+        Example("an expected exception", {"listener.py": _NODE.format("ValueError", "pass")}),
         Example(
             "logged",
             {"listener.py": _NODE.format("Exception as e", "self.get_logger().error(str(e))")},
         ),
         Example(
-            "everything",
+            "all exceptions",
             {"listener.py": _NODE.format("Exception", "pass")},
-            "13:9: callback 'hear' drops all errors: a mistake in it is never seen; log the "
-            "exception",
+            "13:9: callback 'hear' ignores all exceptions: errors in it are never reported; log "
+            "the exception",
         ),
         Example(
             "the method that a lambda calls",
@@ -76,8 +76,8 @@ class ErrorsDropped(RclpyRule):
                 "        except Exception:\n"
                 "            pass\n"
             },
-            "16:9: callback 'take' drops all errors: a mistake in it is never seen; log the "
-            "exception",
+            "16:9: callback 'take' ignores all exceptions: errors in it are never reported; log "
+            "the exception",
         ),
     )
 
@@ -93,8 +93,8 @@ class ErrorsDropped(RclpyRule):
             seen.add(function)
             for dropping in _dropping(function, callback):
                 message = (
-                    f"callback {function.name!r} drops all errors: a mistake in it is never "
-                    "seen; log the exception"
+                    f"callback {function.name!r} ignores all exceptions: errors in it are never "
+                    f"reported; log the exception"
                 )
                 yield self.report(file.module.location(dropping), message)
 

@@ -1,4 +1,4 @@
-"""ND118: a thread does not wait for a lock that it holds."""
+"""ND118: a thread does not acquire a lock that it holds."""
 
 from __future__ import annotations
 
@@ -27,12 +27,12 @@ _NODE = (
 
 
 class LockTakenTwice(PythonRule):
-    """Code that holds a ``threading.Lock`` takes it again, or returns without releasing it.
+    """Code that holds a ``threading.Lock`` acquires it again, or returns without releasing it.
 
-    **Why.** It waits for itself: the thread hangs at the first call, and with it all callbacks.
+    **Why.** The thread waits for itself: it hangs at the first call, and with it all callbacks.
 
-    **Fix.** ``threading.RLock()``, which a thread may take again; or call the method after the
-    ``with`` block.
+    **Fix.** Use ``threading.RLock()``, which a thread may acquire again, or call the method after
+    the ``with`` block.
 
     **Source.** Python documentation, ``threading.Lock``.
     """
@@ -40,15 +40,14 @@ class LockTakenTwice(PythonRule):
     code = "ND118"
     name = "lock-taken-twice"
     examples = (
-        Example("a lock that may be taken again", {"store.py": _NODE.format("RLock")}),
+        Example("a lock that may be acquired again", {"store.py": _NODE.format("RLock")}),
         Example(
             "a plain lock",
             {"store.py": _NODE.format("Lock")},
-            "10:13: the lock of line 9 is taken again while it is held: deadlock; use "
-            "threading.RLock()",
+            "10:13: the lock acquired in line 9 is acquired again: deadlock; use threading.RLock()",
         ),
         Example(
-            "returns with the lock",
+            "returns without releasing the lock",
             {
                 "store.py": "import threading\n\nLOCK = threading.Lock()\n\n\n"
                 "def wrong(store):\n"
@@ -68,8 +67,8 @@ class LockTakenTwice(PythonRule):
                 "    try:\n        return store.pop()\n"
                 "    finally:\n        LOCK.release()\n"
             },
-            "9:9: the lock of line 7 is not released on this path: the next one to take it waits "
-            "forever; use 'with' for the lock",
+            "9:9: the lock acquired in line 7 is not released on this path: the next acquire "
+            "waits forever; use 'with'",
         ),
         Example(
             "called outside",
@@ -89,16 +88,16 @@ class LockTakenTwice(PythonRule):
         for held in (*_with_blocks(file), *_acquired_blocks(file)):
             for node in _taken_inside(file, held):
                 message = (
-                    f"the lock of line {held.line} is taken again while it is held: deadlock; "
-                    "use threading.RLock()"
+                    f"the lock acquired in line {held.line} is acquired again: deadlock; use "
+                    f"threading.RLock()"
                 )
                 yield self.report(module.location(node), message)
                 break
         for held in _acquired_blocks(file):
             for left in _left_inside(file, held):
                 message = (
-                    f"the lock of line {held.line} is not released on this path: the next one to "
-                    "take it waits forever; use 'with' for the lock"
+                    f"the lock acquired in line {held.line} is not released on this path: the "
+                    f"next acquire waits forever; use 'with'"
                 )
                 yield self.report(module.location(left), message)
 

@@ -22,7 +22,7 @@ _NODE = (
 class LoopVariableInLambda(RclpyRule):
     """A lambda created in a loop reads the loop variable only when it is called.
 
-    **Why.** By then the loop is over: all callbacks get the last value.
+    **Why.** By then, the loop has ended: all callbacks get the last value.
 
     **Fix.** Bind it: ``lambda message, name=name: ...``, or use ``functools.partial``.
 
@@ -38,8 +38,8 @@ class LoopVariableInLambda(RclpyRule):
         Example(
             "not bound",
             {"listener.py": _NODE.format("lambda m: self.hear(m, name)")},
-            "9:52: 'name' is read when the callback runs: all callbacks get the last value; bind "
-            "it: name=name",
+            "9:52: 'name' is read when the lambda is called: all callbacks get the last value; "
+            "bind it: name=name",
         ),
     )
 
@@ -49,7 +49,9 @@ class LoopVariableInLambda(RclpyRule):
             if isinstance(function, ast.Lambda) and callback.node is function:
                 name = _late_name(file, function)
                 if name:
-                    message = f"{name!r} is read when the callback runs: all callbacks get the last"
+                    message = (
+                        f"{name!r} is read when the lambda is called: all callbacks get the last"
+                    )
                     yield self.report(callback, f"{message} value; bind it: {name}={name}")
 
 

@@ -1,4 +1,4 @@
-"""ND124: callbacks use publishers and clients that are there already."""
+"""ND124: callbacks use existing publishers and clients."""
 
 from __future__ import annotations
 
@@ -19,8 +19,8 @@ _MADE = {
     "create_timer": "a timer",
 }
 _USES = {
-    "a publisher": "messages published at once reach nobody",
-    "a broadcaster": "transforms sent at once reach nobody",
+    "a publisher": "messages published immediately are lost",
+    "a broadcaster": "transforms sent immediately are lost",
 }
 _ENDS = ("cancel", "destroy_", "destroy", "unregister")
 _NODE = (
@@ -39,34 +39,34 @@ _NODE = (
 class MadeInCallback(RclpyRule):
     """A callback creates a publisher, broadcaster, client or timer each time it is called.
 
-    **Why.** Subscribers need a moment to discover a publisher: what is published until then is
-    lost, so each message is. The node keeps them all, more with every call: with timers, the
-    work is done twice as often after the second message.
+    **Why.** Discovery takes a moment: messages published before that are lost, so every message is.
+    The node keeps all of these objects, and their number grows with every call: with two timers,
+    the callback runs twice as often.
 
-    **Fix.** Make it in the constructor, and keep it: ``self.publisher``.
+    **Fix.** Create it in the constructor, and store it: ``self.publisher``.
 
     **Source.** ``rclpy/node.py``, ``create_publisher``; ROS 2 documentation, "Discovery".
     """
 
     code = "ND124"
     name = "made-in-callback"
-    other_severities = {Severity.WARNING: "what is made is kept, or is a client"}
+    other_severities = {Severity.WARNING: "the object is stored, or is a client"}
     effect = Effect.WRONG_BEHAVIOR
     examples = (
         Example("once", {"talker.py": _NODE.format("        self.timer.cancel()\n")}),
         Example(
             "each time",
             {"talker.py": _NODE.format("")},
-            "11:21: callback 'tick' creates a publisher each time: messages published at once "
-            "reach nobody; create it in the constructor",
+            "11:21: callback 'tick' creates a publisher on each call: messages published "
+            "immediately are lost; create it in the constructor",
         ),
         Example(
-            "each time, and kept",
+            "each time, and stored",
             {"talker.py": _NODE.format("").replace("        publisher", "        self.publisher")},
             Report(
                 "11:26",
-                "callback 'tick' creates a publisher each time: messages published at once reach "
-                "nobody; create it in the constructor",
+                "callback 'tick' creates a publisher on each call: messages published "
+                "immediately are lost; create it in the constructor",
                 severity=Severity.WARNING,
             ),
         ),
@@ -81,19 +81,19 @@ class MadeInCallback(RclpyRule):
                     "            self.other = self.create_timer(1.0, print)\n"
                 ),
             },
-            "once.py:13:21: callback 'tick' creates a publisher each time: messages published at "
-            "once reach nobody; create it in the constructor",
+            "once.py:13:21: callback 'tick' creates a publisher on each call: messages published "
+            "immediately are lost; create it in the constructor",
             Report(
                 "talker.py:12:13",
-                "callback 'tick' creates a timer each time: all of them keep running; create it "
-                "in the constructor",
+                "callback 'tick' creates a timer on each call: all of them keep "
+                "running; create it in the constructor",
                 severity=Severity.WARNING,
             ),
-            "talker.py:13:21: callback 'tick' creates a publisher each time: messages published "
-            "at once reach nobody; create it in the constructor",
+            "talker.py:13:21: callback 'tick' creates a publisher on each call: messages "
+            "published immediately are lost; create it in the constructor",
         ),
         Example(
-            "if there is none yet",
+            "only if it does not exist yet",
             {"talker.py": _NODE.format("        if self.ready:\n            return\n")},
         ),
     )
@@ -117,8 +117,8 @@ class MadeInCallback(RclpyRule):
                 happens = _USES.get(created, "the node keeps them all")
                 happens = "all of them keep running" if created == _TIMER else happens
                 message = (
-                    f"{executed.origin} creates {created} each time: {happens}; create it in the "
-                    "constructor"
+                    f"{executed.origin} creates {created} on each call: {happens}; create it in "
+                    f"the constructor"
                 )
                 _, variable = file.stored_in(call)
                 is_lost = variable and created in _USES

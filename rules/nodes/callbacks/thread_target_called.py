@@ -1,4 +1,4 @@
-"""ND064: threads get functions and are started, timers get a period, coroutines are awaited."""
+"""ND064: threads get functions and are started, timers have a period, coroutines are awaited."""
 
 from __future__ import annotations
 
@@ -26,13 +26,14 @@ _MAIN = "\n\ndef main():\n    rclpy.init()\n    rclpy.spin(Talker())\n"
 
 
 class ThreadTargetCalled(RclpyRule):
-    """A thread target is called instead of passed, a thread never started, a coroutine not awaited.
+    """A thread target is called instead of passed, or a thread or coroutine never runs.
 
-    **Why.** ``Thread(target=self.work())`` does the work immediately, in the constructor, and the
-    thread has nothing to do; a thread that is not started and a coroutine that is not awaited
-    never run; a timer with period 0 uses all CPU time.
+    **Why.** ``Thread(target=self.work())`` calls the function immediately, in the current thread,
+    and the new thread does nothing. A thread that is not started and a coroutine that is not
+    awaited never run. A a timer with period 0 uses all CPU time; use a longer period.
 
-    **Fix.** ``target=self.work``; ``thread.start()``; ``await self.ask()``; a period above 0.
+    **Fix.** Write ``target=self.work``, ``thread.start()``, ``await self.ask()``, and a period
+    greater than 0.
 
     **Source.** Python documentation, ``threading.Thread``, "Coroutines"; rclpy, ``timer.py``.
     """
@@ -59,7 +60,7 @@ class ThreadTargetCalled(RclpyRule):
             },
         ),
         Example(
-            "a timer that ticks once",
+            "a timer that fires once",
             {
                 "talker.py": _NODE.format("", "0.0", "self.once.cancel()\n        await ").replace(
                     "        self.create_timer", "        self.once = self.create_timer"
@@ -69,8 +70,8 @@ class ThreadTargetCalled(RclpyRule):
         Example(
             "called, zero, not awaited",
             {"talker.py": _NODE.format("()", "0.0", "")},
-            "9:33: work() is called here, not in the thread; pass it without ()",
-            "10:27: timer with period 0 uses all CPU time",
+            "9:33: work() is called here, not in the thread; pass the function itself",
+            "10:27: a timer with period 0 uses all CPU time; use a longer period",
             "19:9: coroutine ask() is not awaited: it never runs",
         ),
         Example(
@@ -85,7 +86,7 @@ class ThreadTargetCalled(RclpyRule):
             "19:16: coroutine ask() is not awaited: it is always true",
         ),
         Example(
-            "kept, and awaited later",
+            "stored, and awaited later",
             {
                 "talker.py": "import rclpy\n"
                 + _NODE.format("", "0.1", "self.asked = ")
@@ -94,7 +95,7 @@ class ThreadTargetCalled(RclpyRule):
             },
         ),
         Example(
-            "kept, and nothing else",
+            "stored, and never used",
             {"talker.py": "import rclpy\n" + _NODE.format("", "0.1", "self.asked = ") + _MAIN},
             "20:22: coroutine ask() is not awaited: it never runs",
         ),
@@ -112,18 +113,19 @@ class ThreadTargetCalled(RclpyRule):
                 "        second = threading.Thread(target=self.work)\n"
                 "        return second\n"
             },
-            "22:17: nothing starts this thread: its target never runs; call start()",
+            "22:17: this thread is never started: its target never runs; call start()",
         ),
         Example(
-            "spun immediately",
+            "spin called immediately",
             {
                 "talker.py": "import rclpy\n"
                 + _NODE.format("", "0.1", "await ").replace("self.work)", "rclpy.spin(self))")
             },
-            "10:33: spins here, not in the thread; write target=rclpy.spin, args=(node,)",
+            "10:33: rclpy.spin() is called here, not in the thread; write target=rclpy.spin, "
+            "args=(node,)",
         ),
         Example(
-            "a thread that nothing ends, one that ends with the program, and a number for a tuple",
+            "an endless thread, a daemon thread, and a number instead of a tuple",
             {
                 "reader.py": "from threading import Thread\nimport time\n\n"
                 "from rclpy.node import Node\n\n\n"
@@ -142,7 +144,7 @@ class ThreadTargetCalled(RclpyRule):
             },
             Report(
                 "11:9",
-                "this thread never ends, so the program outlives Ctrl-C; write daemon=True",
+                "this thread never ends: the program does not exit on Ctrl-C; write daemon=True",
                 severity=Severity.WARNING,
             ),
             "12:40: (period) is not a tuple: TypeError in the thread; write (period,)",
@@ -152,13 +154,13 @@ class ThreadTargetCalled(RclpyRule):
     def check_in(self, package: Package, file: RclpyFile) -> Iterator[Diagnostic]:
         for call in file.module.calls_of("threading.Thread"):
             if _is_left(package, file, call, _IDLE):
-                message = "nothing starts this thread: its target never runs; call start()"
+                message = "this thread is never started: its target never runs; call start()"
                 yield self.report(file.module.location(call), message)
             for node, problem in _problems(file, call):
                 yield self.report(file.module.location(node), problem)
             if _is_endless(file, call):
                 message = (
-                    "this thread never ends, so the program outlives Ctrl-C; write daemon=True"
+                    "this thread never ends: the program does not exit on Ctrl-C; write daemon=True"
                 )
                 yield self.report(file.module.location(call), message, severity=Severity.WARNING)
         for node, problem in _unawaited(package, file):
@@ -171,7 +173,9 @@ class ThreadTargetCalled(RclpyRule):
                 continue
             is_guarded = is_guarded_by(file.module, timer.call, argument.node)
             if not is_guarded and not _is_ended(file, timer):
-                yield self.report(argument, "timer with period 0 uses all CPU time")
+                yield self.report(
+                    argument, "a timer with period 0 uses all CPU time; use a longer period"
+                )
 
 
 def _is_ended(file: RclpyFile, timer: Timer) -> bool:
@@ -249,10 +253,15 @@ def _problems(file: RclpyFile, thread: ast.Call) -> Iterator[tuple[ast.AST, str]
         if word.arg == "target" and isinstance(word.value, ast.Call):
             callback = file.callback(word.value)
             if callback.is_called and not callback.is_partial:
-                message = f"{callback.name}() is called here, not in the thread; pass it without ()"
+                message = (
+                    f"{callback.name}() is called here, not in the thread; pass the function itself"
+                )
                 yield word.value, message
             elif file.module.qualified_name(word.value.func) in _SPINS:
-                message = "spins here, not in the thread; write target=rclpy.spin, args=(node,)"
+                message = (
+                    "rclpy.spin() is called here, not in the thread; write "
+                    "target=rclpy.spin, args=(node,)"
+                )
                 yield word.value, message
         elif word.arg == "args" and _is_single(file, word.value):
             text = file.module.text(word.value)

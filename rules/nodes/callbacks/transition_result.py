@@ -28,7 +28,7 @@ _RIGHT = "return super().on_activate(state)"
 
 
 _OWN_TRANSITIONS = ("on_configure", "on_activate", "on_deactivate", "on_cleanup")
-"""The transition callbacks whose names have no other meaning."""
+"""Names that are only used for transition callbacks."""
 _MIN_METHODS = 2
 """The minimum number of such methods in a class meant as a lifecycle node."""
 _WITH_STATE = 2
@@ -36,14 +36,14 @@ _WITH_STATE = 2
 
 
 class TransitionResult(RclpyRule):
-    """A transition callback has a wrong name, signature or result, or publishes too early.
+    """A transition callback has a wrong name, signature or return value, or publishes too early.
 
-    **Why.** The node dies with ``AttributeError: 'NoneType' object has no attribute 'to_label'``
+    **Why.** The node fails with ``AttributeError: 'NoneType' object has no attribute 'to_label'``
     at the transition; a method with another name is never called; publishers of
     ``create_lifecycle_publisher`` drop all messages until ``super().on_activate`` is called.
 
-    **Fix.** Take the state and ``return super().on_activate(state)``, or
-    ``TransitionCallbackReturn.SUCCESS`` where there is no lifecycle publisher.
+    **Fix.** Accept the state, and ``return super().on_activate(state)``, or
+    ``TransitionCallbackReturn.SUCCESS`` if there is no lifecycle publisher.
 
     **Source.** ``rclpy/lifecycle/node.py``, ``LifecycleNodeMixin``; ``managed_entity.py``.
     """
@@ -51,9 +51,12 @@ class TransitionResult(RclpyRule):
     code = "ND066"
     name = "transition-result"
     examples = (
-        Example("passed to super", {"talker.py": _NODE.format("on_activate(self, state)", _RIGHT)}),
         Example(
-            "what another method returns",
+            "returns the result of super()",
+            {"talker.py": _NODE.format("on_activate(self, state)", _RIGHT)},
+        ),
+        Example(
+            "returns the result of another method",
             {
                 "talker.py": _NODE.format("on_configure(self, state)", "return self.open()")
                 + "\n    def open(self):\n        return True\n"
@@ -62,7 +65,7 @@ class TransitionResult(RclpyRule):
             "the transition",
         ),
         Example(
-            "a result that another method returns",
+            "returns a wrong result of another method",
             {
                 "talker.py": _NODE.format("on_configure(self, state)", "return self.open()")
                 + "\n    def open(self):\n        return TransitionCallbackReturn.SUCCESS\n"
@@ -108,7 +111,7 @@ class TransitionResult(RclpyRule):
         Example(
             "another name",
             {"talker.py": _NODE.format("on_activated(self, state)", _RIGHT)},
-            "10:9: rclpy never calls 'on_activated'; did you mean 'on_activate'?",
+            "10:9: rclpy never calls 'on_activated'; closest: 'on_activate'",
         ),
         Example(
             "a plain node",
@@ -183,7 +186,7 @@ class TransitionResult(RclpyRule):
     ) -> Iterator[Diagnostic]:
         left = [name for name in _TRANSITIONS if name not in methods]
         for closest in get_close_matches(function.name, left, 1, 0.85):
-            message = f"rclpy never calls {function.name!r}; did you mean {closest!r}?"
+            message = f"rclpy never calls {function.name!r}; closest: {closest!r}"
             yield self.report(file.module.name_location(function), message)
 
     def _check_publishers(self, file: RclpyFile, class_: NodeClass) -> Iterator[Diagnostic]:

@@ -1,4 +1,4 @@
-"""ND117: callbacks do not wait for what another callback does."""
+"""ND117: callbacks do not wait for other callbacks."""
 
 from __future__ import annotations
 
@@ -50,11 +50,11 @@ _WAITS = (
 class WaitsForCallback(RclpyRule):
     """A callback or constructor waits for an attribute or event that another callback sets.
 
-    **Why.** One thread runs all callbacks: while one waits, the other is never called, and the
-    node hangs.
+    **Why.** One thread runs all callbacks: while one waits, the other cannot run, and the node
+    hangs.
 
-    **Fix.** Return, and go on in the callback that sets it. Or use a ``MultiThreadedExecutor`` and
-    another callback group.
+    **Fix.** Return, and continue in the callback that sets the attribute. Or use a
+    ``MultiThreadedExecutor`` and another callback group.
 
     **Source.** ROS 2 documentation, "Using callback groups".
     """
@@ -63,7 +63,7 @@ class WaitsForCallback(RclpyRule):
     name = "waits-for-callback"
     examples = (
         Example(
-            "an event for which the constructor spins",
+            "an event that the constructor spins for",
             {
                 "relay.py": _NODE.format("        self.arrived.wait()\n").replace(
                     "self.answer)\n\n",
@@ -73,7 +73,7 @@ class WaitsForCallback(RclpyRule):
             },
         ),
         Example(
-            "until a position is reached, that a message has a field of the same name as",
+            "a loop over an attribute named like a message field",
             {
                 "drive.py": "from geometry_msgs.msg import Twist\n"
                 "from nav_msgs.msg import Odometry\n"
@@ -87,11 +87,11 @@ class WaitsForCallback(RclpyRule):
                 "    def drive(self):\n        cmd = Twist()\n        cmd.linear.x = 0.2\n"
                 "        while self.x < 1.0:\n            self.pub.publish(cmd)\n"
             },
-            "20:9: callback 'drive' waits for self.x, which another callback sets: that one never "
-            "runs meanwhile, and the node hangs",
+            "20:9: callback 'drive' waits for self.x, which another callback sets: that callback "
+            "cannot run meanwhile, and the node hangs",
         ),
         Example(
-            "does not wait",
+            "no wait",
             {
                 "relay.py": _NODE.format(
                     "        if self.last is None:\n            return response\n"
@@ -105,11 +105,11 @@ class WaitsForCallback(RclpyRule):
                     "        while self.last is None:\n            time.sleep(0.1)\n"
                 )
             },
-            "22:9: callback 'answer' waits for self.last, which another callback sets: that one "
-            "never runs meanwhile, and the node hangs",
+            "22:9: callback 'answer' waits for self.last, which another callback sets: that "
+            "callback cannot run meanwhile, and the node hangs",
         ),
         Example(
-            "loops over what is true, a sum, a number of messages, a result",
+            "loops over a constant, a sum, a number of messages, a result",
             {
                 "relay.py": _NODE.format(
                     "        while self.last:\n"
@@ -129,14 +129,14 @@ class WaitsForCallback(RclpyRule):
                     "    def has_come(self):\n        return self.last is not None\n\n    def hear",
                 )
             },
-            "25:9: callback 'answer' waits for self.last, which another callback sets: that one "
-            "never runs meanwhile, and the node hangs",
-            "27:9: callback 'answer' waits for self.last, which another callback sets: that one "
-            "never runs meanwhile, and the node hangs",
-            "29:9: callback 'answer' waits for self.last, which another callback sets: that one "
-            "never runs meanwhile, and the node hangs",
-            "31:9: callback 'answer' waits for self.last, which another callback sets: that one "
-            "never runs meanwhile, and the node hangs",
+            "25:9: callback 'answer' waits for self.last, which another callback sets: that "
+            "callback cannot run meanwhile, and the node hangs",
+            "27:9: callback 'answer' waits for self.last, which another callback sets: that "
+            "callback cannot run meanwhile, and the node hangs",
+            "29:9: callback 'answer' waits for self.last, which another callback sets: that "
+            "callback cannot run meanwhile, and the node hangs",
+            "31:9: callback 'answer' waits for self.last, which another callback sets: that "
+            "callback cannot run meanwhile, and the node hangs",
         ),
         Example(
             "a loop over a field of the message",
@@ -145,8 +145,8 @@ class WaitsForCallback(RclpyRule):
                     "        while self.last.data != 'ready':\n            pass\n"
                 )
             },
-            "22:9: callback 'answer' waits for self.last, which another callback sets: that one "
-            "never runs meanwhile, and the node hangs",
+            "22:9: callback 'answer' waits for self.last, which another callback sets: that "
+            "callback cannot run meanwhile, and the node hangs",
         ),
         Example(
             "a loop that ends after some time",
@@ -159,7 +159,7 @@ class WaitsForCallback(RclpyRule):
             },
         ),
         Example(
-            "a loop that calls what sets the field",
+            "a loop that calls the function that sets the field",
             {
                 "relay.py": _NODE.format(
                     "        while self.last.data != 'ready':\n            self.hear(String())\n"
@@ -170,26 +170,26 @@ class WaitsForCallback(RclpyRule):
             "an event",
             {"relay.py": _NODE.format("        self.arrived.wait()\n")},
             "22:9: callback 'answer' waits for self.arrived, which another callback sets: that "
-            "one never runs meanwhile, and the node hangs",
+            "callback cannot run meanwhile, and the node hangs",
         ),
         Example(
-            "an event that must come in time",
+            "an event with a timeout",
             {
                 "relay.py": _NODE.format(
                     "        if not self.arrived.wait(timeout=1.0):\n            return response\n"
                 )
             },
             "22:16: callback 'answer' waits for self.arrived, which another callback sets: that "
-            "one never runs meanwhile, and this waits in vain",
+            "callback cannot run meanwhile, and the wait always times out",
         ),
         Example(
-            "an event, with many threads and one callback group",
+            "an event, with several threads and one callback group",
             {"relay.py": _WAITS},
             "24:9: callback 'answer' waits for self.arrived, which another callback sets: that "
-            "one never runs meanwhile, and the node hangs",
+            "callback cannot run meanwhile, and the node hangs",
         ),
         Example(
-            "an event, with many threads and a callback group for the other",
+            "an event, with several threads and two callback groups",
             {
                 "relay.py": _WAITS.replace(
                     "self.hear, 10)", "self.hear, 10, callback_group=G())"
@@ -201,7 +201,7 @@ class WaitsForCallback(RclpyRule):
             },
         ),
         Example(
-            "an event that a callback of another group sets, too",
+            "an event that a callback of another group also sets",
             {
                 "relay.py": _WAITS.replace(
                     "        self.create_service",
@@ -258,10 +258,10 @@ class WaitsForCallback(RclpyRule):
                 if may_run_meanwhile(file, executed) and not _excludes(file, executed, setters):
                     continue
                 seen.add(node)
-                effect = "this waits in vain" if _is_limited(node) else "the node hangs"
+                effect = "the wait always times out" if _is_limited(node) else "the node hangs"
                 message = (
                     f"{executed.origin} waits for self.{name}, which another callback sets: that "
-                    f"one never runs meanwhile, and {effect}"
+                    f"callback cannot run meanwhile, and {effect}"
                 )
                 yield self.report(file.module.location(node), message)
 

@@ -1,4 +1,4 @@
-"""ND063: nodes read files of their package, not of the author's machine."""
+"""ND063: nodes read installed files, not files on the author's machine."""
 
 from __future__ import annotations
 
@@ -21,8 +21,8 @@ _NODE = "import rclpy\n\n\ndef words():\n    with open({}) as file:\n        ret
 class FileOfAuthor(RclpyRule):
     """A node opens a file in a home directory, or a file of its package by a relative path.
 
-    **Why.** ``FileNotFoundError`` on every other machine; a relative path is resolved against the
-    directory that ``ros2 run`` is called in.
+    **Why.** ``FileNotFoundError`` on every other machine; a relative path is relative to the
+    directory in which ``ros2 run`` is called.
 
     **Fix.** Install the file, and open it from
     ``get_package_share_directory('<package>')``.
@@ -39,21 +39,22 @@ class FileOfAuthor(RclpyRule):
         Example(
             "in a home directory",
             {"talker.py": _NODE.format("'/home/dev/ws/words.txt'")},
-            "5:15: '/home/dev/ws/words.txt' exists only on the author's machine",
+            "5:15: '/home/dev/ws/words.txt' exists only on the author's machine; install the "
+            "file, and use get_package_share_directory()",
         ),
         Example(
             "a relative path",
             {"talker.py": _NODE.format("'config/words.txt'"), "config/words.txt": ""},
-            "talker.py:5:15: 'config/words.txt' is relative to the directory of the shell, not "
-            "the package; use get_package_share_directory()",
+            "talker.py:5:15: 'config/words.txt' is relative to the current directory, not to the "
+            "package; use get_package_share_directory()",
         ),
         Example(
-            "a bare file name; files that are written may be anywhere",
+            "a bare file name; a file that is written",
             {
                 "talker.py": _NODE.format("'words.txt'") + "\n\nopen('words.txt', 'w')\n",
                 "config/words.txt": "",
             },
-            "talker.py:5:15: 'words.txt' is relative to the directory of the shell, not the "
+            "talker.py:5:15: 'words.txt' is relative to the current directory, not to the "
             "package; use get_package_share_directory()",
         ),
     )
@@ -68,7 +69,10 @@ class FileOfAuthor(RclpyRule):
             if not isinstance(text, str):
                 continue
             if re.fullmatch(_HOME, text):
-                message = f"{text!r} exists only on the author's machine"
+                message = (
+                    f"{text!r} exists only on the author's machine; install the file, and "
+                    f"use get_package_share_directory()"
+                )
                 yield self.report(module.location(call.args[0]), message)
             elif (
                 module.qualified_name(call.func) == "open"
@@ -76,8 +80,8 @@ class FileOfAuthor(RclpyRule):
                 and _is_in(package, text)
             ):
                 message = (
-                    f"{text!r} is relative to the directory of the shell, not the package; "
-                    "use get_package_share_directory()"
+                    f"{text!r} is relative to the current directory, not to the package; use "
+                    f"get_package_share_directory()"
                 )
                 yield self.report(module.location(call.args[0]), message)
 

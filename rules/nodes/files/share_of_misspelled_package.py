@@ -25,9 +25,9 @@ _MANIFEST = "<package format='3'><name>talker_py</name></package>\n"
 
 
 class ShareOfMisspelledPackage(RclpyRule):
-    """A node looks up the files of a package whose name is misspelled.
+    """A node looks up the share directory of a package whose name is misspelled.
 
-    **Why.** ``PackageNotFoundError: "package 'taker_py' not found"`` when the line is reached.
+    **Why.** ``PackageNotFoundError: "package 'taker_py' not found"`` when the line is executed.
 
     **Fix.** Use the name in its package.xml.
 

@@ -1,4 +1,4 @@
-"""ND102: a text with the name of a variable in braces is an f-string."""
+"""ND102: strings with variables in braces are f-strings."""
 
 from __future__ import annotations
 
@@ -29,9 +29,9 @@ _FILLED = frozenset({"format", "format_map", "replace"})
 
 
 class LogFPrefixMissing(RclpyRule):
-    """A log message or a text field has a variable in braces, but the string has no ``f`` prefix.
+    """A log message or a string field has a variable in braces, but no ``f`` prefix.
 
-    **Why.** It is logged, or sent, with its braces: ``heard {text}``.
+    **Why.** The braces are logged or sent literally: ``heard {text}``.
 
     **Fix.** Write ``f'heard {text}'``.
 
@@ -58,7 +58,7 @@ class LogFPrefixMissing(RclpyRule):
         ),
         Example("an f-string in a field", {"talker.py": _FIELD.format("f'{count}'", "message")}),
         Example(
-            "a pattern that is filled later",
+            "a template that is formatted later",
             {
                 "talker.py": _FIELD.format(
                     "'{count} heard'", "String(data=message.data.format(count=count))"

@@ -1,4 +1,4 @@
-"""ND018: loggers get text, severities for levels, and each statement has one severity."""
+"""ND018: loggers get strings and valid levels, and each statement has one severity."""
 
 from __future__ import annotations
 
@@ -40,12 +40,12 @@ _NODE_LEVEL = (
 
 
 class LoggerMisused(RclpyRule):
-    """A logger gets a message that is not a str, an invalid level, or varying severities.
+    """A log statement gets a message that is not a str, an invalid level, or varying severities.
 
-    **Why.** rclpy does not convert a message, nor does Python add a number to a str: ``TypeError``
-    when the line is reached. It remembers the severity of each place: ``ValueError: Logger severity
-    cannot be changed between calls``. A level is an enumeration: ``'debug' is not a valid
-    LoggingSeverity``.
+    **Why.** rclpy does not convert messages, and Python does not add a number to a str:
+    ``TypeError`` when the line is executed. rclpy stores the severity of each log statement:
+    ``ValueError: Logger severity cannot be changed between calls``. Levels are enumeration values:
+    ``'debug' is not a valid LoggingSeverity``.
 
     **Fix.** Write ``str(...)`` or an f-string, a separate call for each severity, and
     ``LoggingSeverity.DEBUG`` from ``rclpy.logging``.
@@ -55,7 +55,7 @@ class LoggerMisused(RclpyRule):
 
     code = "ND018"
     name = "logger-misused"
-    other_severities = {Severity.WARNING: "nothing reads the message until debugging is on"}
+    other_severities = {Severity.WARNING: "the message is only evaluated at debug level"}
     examples = (
         Example("a str", {"talker.py": _NODE.format("f'{1}'")}),
         Example(
@@ -69,16 +69,18 @@ class LoggerMisused(RclpyRule):
             "a number as message",
             {"talker.py": _NODE.format("42")},
             Report(
-                "6:32", "log message is not a str: TypeError", fix="Convert the message to a str"
+                "6:32",
+                "log message is not a str: TypeError; convert it",
+                fix="Convert the message to a str",
             ),
             fixed={"talker.py": _NODE.format("str(42)")},
         ),
         Example(
-            "a number as message for those who debug",
+            "a number as a debug message",
             {"talker.py": _NODE.format("42").replace(".info(", ".debug(")},
             Report(
                 "6:33",
-                "log message is not a str: TypeError where debugging is switched on",
+                "log message is not a str: TypeError at debug level; convert it",
                 fix="Convert the message to a str",
                 severity=Severity.WARNING,
             ),
@@ -92,11 +94,11 @@ class LoggerMisused(RclpyRule):
         Example(
             "a number added",
             {"talker.py": _NODE.format("'heard ' + 1")},
-            "6:32: a number is added to a str: TypeError; use an f-string",
+            "6:32: a number cannot be added to a str: TypeError; use an f-string",
         ),
         Example("a call for each severity", {"talker.py": _NODE_SEVERITY.format(_BRANCHES)}),
         Example(
-            "two names of one severity, and a severity that is chosen once",
+            "two names for one severity, and a severity that is chosen once",
             {
                 "talker.py": _NODE_SEVERITY.format(
                     "        log = self.get_logger()\n"
@@ -110,7 +112,7 @@ class LoggerMisused(RclpyRule):
         Example(
             "a method that depends on a condition",
             {"talker.py": _NODE_SEVERITY.format(_CHOICE)},
-            "6:15: log statement with two severities: ValueError; write two calls",
+            "6:15: log statement with two severities: ValueError; write a separate call for each",
         ),
         Example(
             "a severity for the level", {"talker.py": _NODE_LEVEL.format("LoggingSeverity.DEBUG")}
@@ -127,14 +129,18 @@ class LoggerMisused(RclpyRule):
         Example(
             "a str for the level",
             {"talker.py": _NODE_LEVEL.format("'debug'")},
-            "8:37: 'debug' is not a LoggingSeverity: ValueError",
-            "9:36: 'debug' is not a LoggingSeverity: ValueError",
+            "8:37: 'debug' is not a LoggingSeverity: ValueError; use LoggingSeverity.DEBUG or "
+            "another level",
+            "9:36: 'debug' is not a LoggingSeverity: ValueError; use LoggingSeverity.DEBUG or "
+            "another level",
         ),
         Example(
             "a number for the level",
             {"talker.py": _NODE_LEVEL.format("1")},
-            "8:37: 1 is not a LoggingSeverity: ValueError",
-            "9:36: 1 is not a LoggingSeverity: ValueError",
+            "8:37: 1 is not a LoggingSeverity: ValueError; use LoggingSeverity.DEBUG or another "
+            "level",
+            "9:36: 1 is not a LoggingSeverity: ValueError; use LoggingSeverity.DEBUG or another "
+            "level",
         ),
     )
 
@@ -149,7 +155,7 @@ class LoggerMisused(RclpyRule):
                 continue
             message = call.args[0]
             if isinstance(message, ast.BinOp) and _adds_number(file, message):
-                problem = "a number is added to a str: TypeError; use an f-string"
+                problem = "a number cannot be added to a str: TypeError; use an f-string"
                 yield self.report(file.module.location(message), problem)
             if len(call.args) > 1 and not isinstance(message, ast.Starred):
                 at = file.module.location(call.args[1])
@@ -160,10 +166,10 @@ class LoggerMisused(RclpyRule):
                 edits = (Edit(path, start, start, "str("), Edit(path, end, end, ")"))
                 at = file.module.location(message)
                 is_rare = isinstance(call.func, ast.Attribute) and call.func.attr == "debug"
-                when = " where debugging is switched on" if is_rare else ""
+                when = " at debug level" if is_rare else ""
                 yield self.report(
                     at,
-                    f"log message is not a str: TypeError{when}",
+                    f"log message is not a str: TypeError{when}; convert it",
                     Fix("Convert the message to a str", edits),
                     severity=Severity.WARNING if is_rare else None,
                 )
@@ -185,7 +191,9 @@ class LoggerMisused(RclpyRule):
                 continue  # chosen once, for the whole run
             chosen = {self._severity(branch) for branch in (node.body, node.orelse)}
             if None not in chosen and len(chosen) > 1:
-                message = "log statement with two severities: ValueError; write two calls"
+                message = (
+                    "log statement with two severities: ValueError; write a separate call for each"
+                )
                 yield self.report(module.location(node), message)
 
     def _severity(self, node: ast.expr) -> str | None:
@@ -209,7 +217,10 @@ class LoggerMisused(RclpyRule):
                 and not is_severity
                 and not is_handled(file.module, call, "ValueError")
             ):
-                message = f"{value!r} is not a LoggingSeverity: ValueError"
+                message = (
+                    f"{value!r} is not a LoggingSeverity: ValueError; use "
+                    f"LoggingSeverity.DEBUG or another level"
+                )
                 yield self.report(file.module.location(level), message)
 
 

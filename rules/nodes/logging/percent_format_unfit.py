@@ -1,4 +1,4 @@
-"""ND073: format strings with ``%`` get as many values as placeholders."""
+"""ND073: ``%`` format strings get one value for each placeholder."""
 
 from __future__ import annotations
 
@@ -24,12 +24,12 @@ _NODE = (
 
 
 class PercentFormatUnfit(MessageRule):
-    """A ``%`` format string has no placeholder, or several, but gets a single value.
+    """A ``%`` format string with no placeholder or several gets a single value.
 
     **Why.** ``TypeError: not enough arguments for format string``, or ``not all arguments
     converted during string formatting``: in a callback, it ends the node.
 
-    **Fix.** Pass a tuple with a value for each placeholder, or use an f-string. flake8 counts
+    **Fix.** Pass a tuple with a value for each placeholder, or use an f-string. flake8 checks
     tuples (F507).
 
     **Source.** Python documentation, "printf-style String Formatting".
@@ -42,12 +42,12 @@ class PercentFormatUnfit(MessageRule):
         Example(
             "two placeholders",
             {"listener.py": _NODE.format("%d: %s")},
-            "11:32: format string with 2 placeholders gets 1 value: TypeError",
+            "11:32: format string with 2 placeholders gets 1 value: TypeError; use an f-string",
         ),
         Example(
             "no placeholder",
             {"listener.py": _NODE.format("heard 5 %%")},
-            "11:32: format string with no placeholder gets 1 value: TypeError",
+            "11:32: format string with no placeholder gets 1 value: TypeError; use an f-string",
         ),
     )
 
@@ -69,4 +69,4 @@ def _problem(text: str, kind: str | None) -> str:
     if len(places) == 1 or len(re.sub(_PLACE, "", text).split("%")) > 1:
         return ""
     count = f"{len(places)} placeholders" if places else "no placeholder"
-    return f"format string with {count} gets 1 value: TypeError"
+    return f"format string with {count} gets 1 value: TypeError; use an f-string"

@@ -22,10 +22,10 @@ _NODE = (
 class PrintInNode(RclpyRule):
     """A node prints instead of logging.
 
-    Programs that read arguments or keys from a terminal may print.
+    Programs that read arguments or keys from the terminal may print.
 
-    **Why.** Under ``ros2 launch`` the output is buffered: nothing appears while the node runs. It
-    has no time, no name and no severity, and never reaches ``/rosout``.
+    **Why.** Under ``ros2 launch``, the output is buffered and does not appear while the node runs.
+    It has no time, name and severity, and is not published on ``/rosout``.
 
     **Fix.** Use ``self.get_logger().info(...)``.
 
@@ -40,7 +40,7 @@ class PrintInNode(RclpyRule):
         Example(
             "a print",
             {"talker.py": _NODE.format("print")},
-            "6:9: Talker prints: /rosout gets nothing; use get_logger()",
+            "6:9: Talker prints: the output is not on /rosout; use get_logger()",
         ),
         Example("a command line tool", {"talker.py": "import argparse\n" + _NODE.format("print")}),
     )
@@ -60,7 +60,9 @@ class PrintInNode(RclpyRule):
             ]
             if calls:
                 more = f" ({len(calls)} times, first here)" if len(calls) > 1 else ""
-                message = f"{node.name} prints{more}: /rosout gets nothing; use get_logger()"
+                message = (
+                    f"{node.name} prints{more}: the output is not on /rosout; use get_logger()"
+                )
                 yield self.report(file.module.location(calls[0]), message)
 
 

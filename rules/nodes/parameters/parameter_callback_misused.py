@@ -1,4 +1,4 @@
-"""ND084: parameter callbacks are functions of a list, and look for what is declared."""
+"""ND084: parameter callbacks take a list, and compare declared names and types."""
 
 from __future__ import annotations
 
@@ -51,9 +51,9 @@ class ParameterCallbackMisused(RclpyRule):
     """A parameter callback is called, misreads its list, or checks for undeclared parameters.
 
     **Why.** ``TypeError: ('Callback must be callable, got {}', ...)`` at start, ``AttributeError:
-    'list' object has no attribute 'value'`` as soon as a parameter is set. Until the callback
-    returns, ``get_parameter`` gives the old value. A comparison with a name or type that the node
-    does not declare is never true: setting the parameter changes nothing.
+    'list' object has no attribute 'value'`` when a parameter is set. Until the callback returns,
+    ``get_parameter`` returns the old value. A comparison with a name or type that the node does not
+    declare is never true: setting the parameter changes nothing.
 
     **Fix.** Pass the function, iterate over the list, ``for parameter in parameters:``, and use the
     declared name and type.
@@ -69,12 +69,12 @@ class ParameterCallbackMisused(RclpyRule):
     examples = (
         Example("a declared name and type", {"talker.py": _NODE.format("rate", "DOUBLE")}),
         Example(
-            "another name than declared",
+            "an undeclared name",
             {"talker.py": _NODE.format("rates", "DOUBLE")},
             "14:28: never true: the node declares no parameter 'rates'; did you mean 'rate'?",
         ),
         Example(
-            "another type than declared",
+            "a type that differs from the declaration",
             {"talker.py": _NODE.format("rate", "INTEGER")},
             "14:52: never true: 'rate' is declared as double, not INTEGER",
         ),
@@ -103,15 +103,14 @@ class ParameterCallbackMisused(RclpyRule):
             },
             Report(
                 "14:29",
-                "the parameter still has its old value here; use the value that the "
-                "callback is given",
+                "the parameter still has its old value here; use the value that the callback gets",
                 severity=Severity.WARNING,
             ),
         ),
         Example(
             "called",
             {"talker.py": _NODE_USE.format("self.on_set([])", "[0]")},
-            "9:45: self.on_set([]) is called here: TypeError; pass it without ()",
+            "9:45: self.on_set([]) is called here: TypeError; pass the function itself",
         ),
         Example(
             "a str",
@@ -162,9 +161,9 @@ class ParameterCallbackMisused(RclpyRule):
                 "                continue\n"
                 "        return SetParametersResult(successful=True)\n"
             },
-            "16:16: type_ is a Parameter.Type, which never equals ParameterType.PARAMETER_DOUBLE; "
+            "16:16: never true: type_ is a Parameter.Type, not ParameterType.PARAMETER_DOUBLE; "
             "compare with Parameter.Type.DOUBLE, for instance",
-            "18:41: type_ is a Parameter.Type, which never equals 'double'; compare with "
+            "18:41: never true: type_ is a Parameter.Type, not 'double'; compare with "
             "Parameter.Type.DOUBLE, for instance",
         ),
     )
@@ -231,7 +230,7 @@ class ParameterCallbackMisused(RclpyRule):
                 yield self.report(
                     file.module.location(read),
                     "the parameter still has its old value here; use the value that the callback "
-                    "is given",
+                    "gets",
                     severity=Severity.WARNING,
                 )
             for compared, problem in _type_comparisons(file, function):
@@ -253,7 +252,7 @@ def _problem(file: RclpyFile, given: ast.expr) -> str:
     if isinstance(given, ast.Call) and not callback.is_partial:
         inner = file.callback(given.func)
         if callback.is_called or _gives_results(file, inner):
-            return f"{file.module.text(given)} is called here: TypeError; pass it without ()"
+            return f"{file.module.text(given)} is called here: TypeError; pass the function itself"
     if isinstance(file.evaluator.evaluate(given), str):
         return "the callback must be a function, but this is a str: TypeError"
     return ""
@@ -311,7 +310,7 @@ def _type_comparisons(file: RclpyFile, function: ast.AST) -> Iterator[tuple[ast.
     for compared in file.module.below(function, ast.Compare):
         value = _never_equal(file, compared)
         if value:
-            problem = f"type_ is a Parameter.Type, which never equals {value}; compare with "
+            problem = f"never true: type_ is a Parameter.Type, not {value}; compare with "
             yield compared, f"{problem}Parameter.Type.DOUBLE, for instance"
 
 

@@ -43,15 +43,15 @@ _RIGHT = ("('rate', 1.0)", "[Parameter('rate', Parameter.Type.DOUBLE, 2.0)]")
 
 
 class ParameterDeclaredWrongly(RclpyRule):
-    """A parameter is constructed wrongly, or not declared as a name, a default and a descriptor.
+    """A parameter is constructed or declared with invalid arguments.
 
     **Why.** ``ValueError: Type '2' and value ... do not agree``, ``TypeError: Third element ... is
     not a ParameterDescriptor``, ``TypeError: Invalid parameter tuple length``, ``TypeError:
     'FloatingPointRange' object is not subscriptable``.
 
-    **Fix.** ``Parameter('rate', Parameter.Type.DOUBLE, 2.0)``, a list of pairs for
-    ``declare_parameters``, ``ParameterDescriptor(description=...)``; a range is a list with one
-    item.
+    **Fix.** Write ``Parameter('rate', Parameter.Type.DOUBLE, 2.0)`` and
+    ``ParameterDescriptor(description=...)``, pass a list of pairs to ``declare_parameters``, and a
+    range as a list with one item.
 
     **Source.** ``rclpy/parameter.py``; ``rclpy/node.py``, ``declare_parameters``;
     ``ParameterDescriptor.msg``.
@@ -62,13 +62,13 @@ class ParameterDeclaredWrongly(RclpyRule):
     examples = (
         Example("a descriptor", {"talker.py": _NODE.format("'rate'", _TEXT, f", {_TEXT}")}),
         Example(
-            "a str or four values for the descriptor",
+            "a str for the descriptor; four values",
             {"talker.py": _NODE.format("'rate'", "'Hz'", f", {_TEXT}, True")},
             "8:45: expected a ParameterDescriptor, not 'Hz': TypeError",
             "9:38: expected name, default and descriptor, but this has 4 values: TypeError",
         ),
         Example(
-            "a range that is not a list; the class",
+            "a range that is not a list; the descriptor class",
             {
                 "talker.py": _NODE.format(
                     "'rate'",
@@ -88,13 +88,13 @@ class ParameterDeclaredWrongly(RclpyRule):
             },
         ),
         Example(
-            "a number as descriptor",
+            "a number as the descriptor",
             {"talker.py": _NODE.format("1.0", "None", "")},
             "8:32: the parameter name must be a str, not 1.0: TypeError",
         ),
-        Example("pairs, a type with a value", {"talker.py": _NODE_MADE.format(*_RIGHT)}),
+        Example("pairs; a type with a value", {"talker.py": _NODE_MADE.format(*_RIGHT)}),
         Example(
-            "no pairs, a type without a value",
+            "no pairs; a type without a value",
             {
                 "talker.py": _NODE_MADE.format(
                     "'rate', 1.0", "[Parameter('a', Parameter.Type.STRING)]"
@@ -104,7 +104,7 @@ class ParameterDeclaredWrongly(RclpyRule):
             "9:45: type without a value: ValueError",
         ),
         Example(
-            "constructed with a value in place of the type, with another type",
+            "constructed with a value instead of the type; with a different type",
             {
                 "talker.py": _NODE_MADE.format(
                     "('rate', 1.0)",

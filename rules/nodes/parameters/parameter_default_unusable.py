@@ -1,4 +1,4 @@
-"""ND083: parameters have a default or a type that rclpy accepts, in their range."""
+"""ND083: parameters have a type or a default that rclpy accepts, within its range."""
 
 from __future__ import annotations
 
@@ -41,16 +41,16 @@ _NODE_RANGE = (
 
 
 class ParameterDefaultUnusable(RclpyRule):
-    """The default of a parameter is missing, empty, a class, run together, or out of its range.
+    """The default of a parameter is missing, empty, a class, lacks a comma, or is out of its range.
 
     **Why.** ``ValueError: Cannot declare a statically typed parameter with default value of type
     PARAMETER_NOT_SET``, ``TypeError: The given value is not one of the allowed types``, or
     ``InvalidParameterValueException: ... Parameter gain out of range Min: 0.0, Max: 1.0, value:
     5.0``; a range for the other number type is ignored. The constants of ``ParameterType`` are
-    numbers: as a default, they make the parameter an integer. Without default and descriptor, rclpy
-    only warns, and the value is None until it is set. rclpy takes an empty list for a byte array,
-    and then rejects a list of strings. Python joins adjacent strings: ``['north' 'south']`` is the
-    list of one name.
+    numbers: as a default, they make the parameter an integer. Without a default and a descriptor,
+    rclpy only warns, and the value is None until it is set. An empty list declares a byte array, so
+    rclpy rejects a list of strings later. Python joins adjacent strings: ``['north' 'south']`` is a
+    list with one name.
 
     **Fix.** Without a default, pass ``Parameter.Type.DOUBLE``, or a descriptor with
     ``dynamic_typing=True``; the ``type`` of a descriptor is ignored. Change the default or the
@@ -108,7 +108,7 @@ class ParameterDefaultUnusable(RclpyRule):
             "7:32: parameter 'rate' has no default: its value is None until it is set",
         ),
         Example(
-            "a value that the node asks for",
+            "a value from an unset parameter that the node tests",
             {
                 "talker.py": _PLAIN.format("'joints'")
                 + "        self.joints = self.get_parameter('joints').value\n"
@@ -122,7 +122,7 @@ class ParameterDefaultUnusable(RclpyRule):
             ),
         ),
         Example(
-            "names whose values are only tested",
+            "parameters whose values are only tested",
             {
                 "talker.py": _PLAIN.format("'quiet'")
                 + "        self.declare_parameter('dry_run')\n"
@@ -144,7 +144,7 @@ class ParameterDefaultUnusable(RclpyRule):
             ),
         ),
         Example(
-            "a name whose value is tested here, and used there",
+            "a parameter whose value is tested in one place and used in another",
             {
                 "talker.py": _PLAIN.format("'rate'")
                 + "        self.rate = self.get_parameter('rate').value\n\n"
@@ -156,7 +156,7 @@ class ParameterDefaultUnusable(RclpyRule):
             "7:32: parameter 'rate' has no default: its value is None until it is set",
         ),
         Example(
-            "names that a YAML file and a launch file set",
+            "parameters that a YAML file and a launch file set",
             {
                 "talker.py": _PLAIN.format("'rate'").replace("'rate'", "'gain'", 1)
                 + "        self.declare_parameter('rate')\n",
@@ -179,7 +179,7 @@ class ParameterDefaultUnusable(RclpyRule):
             ),
         ),
         Example(
-            "a name without a default, next to one with it, that a YAML file sets",
+            "a parameter without a default, next to one with a default, that a YAML file sets",
             {
                 "talker.py": _PLAIN.format("'rate', 2.0")
                 + "        self.declare_parameter('gain')\n",
@@ -203,7 +203,7 @@ class ParameterDefaultUnusable(RclpyRule):
             "7:45: missing comma after 'north': it is joined to 'south'",
         ),
         Example(
-            "texts on two lines",
+            "strings on two lines",
             {
                 "talker.py": _PLAIN.format(
                     "'hints', ['turn left at the '\n            'first corner', 'north']"
@@ -211,15 +211,15 @@ class ParameterDefaultUnusable(RclpyRule):
             },
         ),
         Example("in the range of its descriptor", {"talker.py": _NODE_RANGE.format("", "0.55")}),
-        Example("on a step of its range", {"talker.py": _NODE_RANGE.format(", step=0.1", "0.7")}),
+        Example("on a step of the range", {"talker.py": _NODE_RANGE.format(", step=0.1", "0.7")}),
         Example(
-            "too large for its range",
+            "above the range",
             {"talker.py": _NODE_RANGE.format("", "5.0")},
             "10:40: default 5.0 is outside the range 0.0 to 1.0 of the descriptor: "
             "InvalidParameterValueException",
         ),
         Example(
-            "between two steps of its range",
+            "between two steps of the range",
             {"talker.py": _NODE_RANGE.format(", step=0.1", "0.25")},
             "10:40: default 0.25 is outside the range 0.0 to 1.0 in steps of 0.1 of the "
             "descriptor: InvalidParameterValueException",

@@ -1,4 +1,4 @@
-"""ND017: the value of a parameter is used as it is, not the Parameter, a call or a field of it."""
+"""ND017: the value of a parameter is used, not the Parameter object, a call or a field."""
 
 from __future__ import annotations
 
@@ -46,12 +46,12 @@ _MISNAMED = ("array_value", "boolean_value", "float_value", "int_value", "str_va
 
 
 class ParameterObjectUsed(RclpyRule):
-    """A Parameter object is used instead of its value, or the value is called or asked for a field.
+    """A Parameter object is used instead of its value, or the value is called or has a field read.
 
     **Why.** ``TypeError: unsupported operand type(s) for /: 'float' and 'Parameter'``, ``'float'
     object is not callable``, ``AttributeError: 'float' object has no attribute 'double_value'``. A
-    condition is always true, a comparison with a value never is, and a str shows the address of the
-    object.
+    condition is always true, a comparison with a value is never true, and a str contains the
+    address of the object.
 
     **Fix.** ``self.get_parameter('rate').value``, without parentheses or a field after it; the
     field is one of ``get_parameter_value()``.
@@ -69,7 +69,7 @@ class ParameterObjectUsed(RclpyRule):
             {"talker.py": _NODE.format("")},
             Report(
                 "8:16",
-                "this is the Parameter (used in line 9), not its value; append .value",
+                "this is the Parameter object (used in line 9), not its value; append .value",
                 fix="Append .value",
             ),
             fixed={"talker.py": _NODE.format(".value")},
@@ -79,14 +79,18 @@ class ParameterObjectUsed(RclpyRule):
             {"talker.py": _OTHERS.format("", "", "")},
             Report(
                 "7:17",
-                "this is the Parameter (used in line 10), not its value; append .value",
+                "this is the Parameter object (used in line 10), not its value; append .value",
                 fix="Append .value",
             ),
             Report(
-                "8:12", "this is the Parameter, not its value; append .value", fix="Append .value"
+                "8:12",
+                "this is the Parameter object, not its value; append .value",
+                fix="Append .value",
             ),
             Report(
-                "9:27", "this is the Parameter, not its value; append .value", fix="Append .value"
+                "9:27",
+                "this is the Parameter object, not its value; append .value",
+                fix="Append .value",
             ),
             fixed={"talker.py": _OTHERS.format(".value", ".value", ".value")},
         ),
@@ -132,7 +136,7 @@ class ParameterObjectUsed(RclpyRule):
             fix = Fix("Append .value", (Edit(file.module.path, end, end, ".value"),))
             line = file.module.location(use).line
             where = "" if line == read.location.line else f" (used in line {line})"
-            message = f"this is the Parameter{where}, not its value; append .value"
+            message = f"this is the Parameter object{where}, not its value; append .value"
             yield self.report(read, message, fix)
 
     def _check_call(self, file: RclpyFile) -> Iterator[Diagnostic]:

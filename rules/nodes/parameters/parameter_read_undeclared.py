@@ -49,7 +49,7 @@ _LOADING = (
 class ParameterReadUndeclared(RclpyRule):
     """A node reads or sets a parameter that it has not declared, or not yet.
 
-    **Why.** ``rclpy.exceptions.ParameterNotDeclaredException`` when the line is reached.
+    **Why.** ``rclpy.exceptions.ParameterNotDeclaredException`` when the line is executed.
 
     **Fix.** Call ``self.declare_parameter`` with a default first.
 
@@ -72,7 +72,7 @@ class ParameterReadUndeclared(RclpyRule):
             },
         ),
         Example(
-            "all in a list of another module, and another one",
+            "all names in a list of another module, and one more",
             {
                 "limits.py": "RATES = ['rate', 'turn_rate']\nGAINS = ['gain', 'rates']\n",
                 "a.py": _NODE.format(_LISTED.format("RATES"), ""),
@@ -88,7 +88,7 @@ class ParameterReadUndeclared(RclpyRule):
             "'rates'?",
         ),
         Example(
-            "read in a list, undeclared",
+            "undeclared names in a list",
             {"talker.py": _NODE.format(_DECLARED, _OTHERS)},
             "9:46: parameter 'rats' is not declared: ParameterNotDeclaredException; did you mean "
             "'rate'?",

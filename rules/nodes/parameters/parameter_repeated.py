@@ -21,8 +21,8 @@ _NODE = (
 class ParameterRepeated(RclpyRule):
     """A node declares a parameter twice, or one that rclpy declares itself.
 
-    That is ``use_sim_time``, and with ``automatically_declare_parameters_from_overrides`` each
-    parameter that a file, a launch file or the command line sets.
+    rclpy declares ``use_sim_time`` and, with ``automatically_declare_parameters_from_overrides``,
+    each parameter that a file, a launch file or the command line sets.
 
     **Why.** ``rclpy.exceptions.ParameterAlreadyDeclaredException`` at start.
 
@@ -34,7 +34,8 @@ class ParameterRepeated(RclpyRule):
     code = "ND016"
     name = "parameter-repeated"
     other_severities = {
-        Severity.WARNING: "rclpy declares what is set, and no file of the package sets it"
+        Severity.WARNING: "rclpy only declares parameters that are set, and no file of the "
+        "package sets it"
     }
     examples = (
         Example("two parameters", {"talker.py": _NODE.format("period")}),
@@ -61,13 +62,13 @@ class ParameterRepeated(RclpyRule):
             "it: ParameterAlreadyDeclaredException; check has_parameter() first",
             Report(
                 "talker.py:8:32",
-                "parameter 'period' is declared automatically when something sets it: "
+                "parameter 'period' is declared automatically when it is set: "
                 "ParameterAlreadyDeclaredException; check has_parameter() first",
                 severity=Severity.WARNING,
             ),
         ),
         Example(
-            "options that may be given, or that only allow what is undeclared",
+            "options that may be set, or that only allow undeclared parameters",
             {
                 "talker.py": _NODE.format("period").replace("'talker'", "'talker', **options"),
                 "listener.py": _NODE.format("period").replace(
@@ -77,7 +78,7 @@ class ParameterRepeated(RclpyRule):
             },
         ),
         Example(
-            "asked for first",
+            "tested first",
             {
                 "talker.py": _NODE.format("period")
                 .replace(
@@ -124,7 +125,7 @@ class ParameterRepeated(RclpyRule):
             if not isinstance(name, str) or parameter.is_conditional:
                 continue
             path = _set_in(package, name)
-            where = f"{path} sets it" if path else "something sets it"
+            where = f"{path} sets it" if path else "it is set"
             message = (
                 f"parameter {name!r} is declared automatically when {where}: "
                 "ParameterAlreadyDeclaredException; check has_parameter() first"

@@ -1,4 +1,4 @@
-"""ND049: parameter callbacks return a usable result."""
+"""ND049: parameter callbacks return a SetParametersResult."""
 
 from __future__ import annotations
 
@@ -65,7 +65,7 @@ class ParameterResultMissing(RclpyRule):
             "rejected",
         ),
         Example(
-            "the truth that a method returns",
+            "a bool that a method returns",
             {
                 "talker.py": _NODE.format(
                     "parameters", "        return self.accept(parameters)\n\n"
@@ -100,7 +100,7 @@ class ParameterResultMissing(RclpyRule):
             "yielding.py:10:9: on_set() is a generator: it does not return a SetParametersResult",
         ),
         Example(
-            "the result of a method that makes it",
+            "the return value of a method",
             {
                 "live.py": "from rcl_interfaces.msg import SetParametersResult\n"
                 "from rclpy.node import Node\n\n\n"

@@ -26,9 +26,10 @@ _RANGE = (
 class ParameterSetRefused(RclpyRule):
     """A node sets one of its parameters to a value that rclpy rejects.
 
-    **Why.** No error: ``set_parameters`` returns ``successful=False`` and the reason, ``Wrong
-    parameter type``, ``Trying to set a read-only parameter`` or ``out of range``, and the parameter
-    keeps its value. Undeclaring a read-only parameter raises ``ParameterImmutableException``.
+    **Why.** There is no error: ``set_parameters`` returns ``successful=False`` and the reason,
+    ``Wrong parameter type``, ``Trying to set a read-only parameter`` or ``out of range``, and the
+    parameter keeps its value. Undeclaring a read-only parameter raises
+    ``ParameterImmutableException``.
 
     **Fix.** Use a value of the declared type and range; remove read_only from the descriptor.
 
@@ -42,19 +43,19 @@ class ParameterSetRefused(RclpyRule):
         Example(
             "another type",
             {"talker.py": _NODE.format("", "value=2")},
-            "12:30: 'rate' (talker.py:9) is declared as double, but this is an integer: it keeps "
-            "its value",
+            "12:30: 'rate' (talker.py:9) is declared as double, but this is an integer: the value "
+            "does not change",
         ),
         Example(
             "read-only",
             {"talker.py": _NODE.format(_FIXED, "value=2.0")},
-            "12:30: 'rate' (talker.py:9) is read-only: it keeps its value",
+            "12:30: 'rate' (talker.py:9) is read-only: the value does not change",
         ),
         Example(
             "no value",
             {"talker.py": _NODE.format("", "")},
-            "12:30: 'rate' (talker.py:9) is declared as double, but this has no value: it keeps "
-            "its value",
+            "12:30: 'rate' (talker.py:9) is declared as double, but this has no value: the value "
+            "does not change",
         ),
         Example(
             "out of range, undeclared although read-only",
@@ -63,9 +64,9 @@ class ParameterSetRefused(RclpyRule):
                 "fixed.py": _NODE.format(_FIXED, "value=1.0")
                 + "        self.undeclare_parameter('rate')\n",
             },
-            "far.py:12:30: 20.0 is outside the range 0.0 to 9.0 of 'rate' (far.py:9): it keeps "
-            "its value",
-            "fixed.py:12:30: 'rate' (fixed.py:9) is read-only: it keeps its value",
+            "far.py:12:30: 20.0 is outside the range 0.0 to 9.0 of 'rate' (far.py:9): the value "
+            "does not change",
+            "fixed.py:12:30: 'rate' (fixed.py:9) is read-only: the value does not change",
             "fixed.py:13:9: parameter 'rate' is read-only: ParameterImmutableException",
         ),
     )
@@ -89,15 +90,17 @@ def _problem(declared: Declared, made: ParameterMade) -> str:
     at = f"{made.name!r} ({place.location.path}:{place.location.line})"
     descriptor = place.descriptor
     if descriptor is not None and descriptor.is_read_only:
-        return f"{at} is read-only: it keeps its value"
+        return f"{at} is read-only: the value does not change"
     if made.type is not None and made.type != kind:
         given = "has no value" if made.type == "not_set" else f"is {a_type(made.type)}"
-        return f"{at} is declared as {kind}, but this {given}: it keeps its value"
+        return f"{at} is declared as {kind}, but this {given}: the value does not change"
     value = made.value
     if descriptor is not None and isinstance(value, int | float) and made.type == kind:
         for limits in descriptor.ranges:
             if limits.type == kind and not limits.allows(value):
-                return f"{value} is outside the range {limits.text} of {at}: it keeps its value"
+                return (
+                    f"{value} is outside the range {limits.text} of {at}: the value does not change"
+                )
     return ""
 
 

@@ -56,12 +56,11 @@ _VARIABLES = (
 
 
 class ParameterValueUnfit(RclpyRule):
-    """The value of a parameter is used, or read, as if it had another type than declared.
+    """The value of a parameter is read or used with a type that differs from the declaration.
 
     **Why.** ``TypeError: unsupported operand type(s) for /: 'float' and 'str'``, ``'float' object
     cannot be interpreted as an integer``. A bool never equals ``'true'``: ``==`` is always false,
-    and nothing complains. The fields of ParameterValue that belong to other types are 0, False or
-    empty, whatever the parameter is set to.
+    without an error. The fields of ParameterValue for other types are always 0, False or empty.
 
     **Fix.** Declare the parameter with a default of the type that the code needs, and read
     ``.value`` or the field of that type.
@@ -97,7 +96,7 @@ class ParameterValueUnfit(RclpyRule):
             "16:19: 'rate' is declared as double, but 'Hz: ' is a str: TypeError",
         ),
         Example(
-            "a bool compared with text, a number with text, text with a number",
+            "a bool and a number compared with a str, a str with a number",
             {
                 "talker.py": _COMPARED.format("False", "== 'true'")
                 + "        return self.get_parameter('rate').value in ('fast', 'slow')\n",
@@ -164,7 +163,7 @@ class ParameterValueUnfit(RclpyRule):
             fixed={"talker.py": _VARIABLES.format("double_value")},
         ),
         Example(
-            "a text as a condition",
+            "a str as a condition",
             {
                 "saver.py": "from rclpy.node import Node\n\n\n"
                 "class Saver(Node):\n    def __init__(self):\n"
@@ -180,7 +179,7 @@ class ParameterValueUnfit(RclpyRule):
                 "        if self.save == 'true' or self.names:\n"
                 "            self.get_logger().info('saves')\n"
             },
-            "13:12: 'save' is the text 'false', which is true; declare False",
+            "13:12: 'save' is the str 'false', which is always true; declare False",
         ),
     )
 
@@ -269,7 +268,7 @@ def _text_conditions(package: Package, file: RclpyFile) -> Iterator[tuple[ast.ex
             defaults = [item.default for item in file.parameters if item.name == name]
             text = defaults[0] if kind == "string" and len(defaults) == 1 else None
             if isinstance(text, str) and text.lower() in _NO:
-                yield node, f"{name!r} is the text {text!r}, which is true; declare False"
+                yield node, f"{name!r} is the str {text!r}, which is always true; declare False"
 
 
 def _is_value(node: ast.expr) -> bool:

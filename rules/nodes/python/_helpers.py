@@ -1,4 +1,4 @@
-"""Methods that a constructor calls too early: they use what is set further down."""
+"""Methods that a constructor calls before it sets the attributes that they use."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""ND055: functions of rclpy get values of usable types, in the order that they expect."""
+"""ND055: functions of rclpy get arguments of the right types, in the right order."""
 
 from __future__ import annotations
 
@@ -84,7 +84,7 @@ class ArgumentUnusable(RclpyRule):
     call. ``create_timer`` takes the period first, ``create_publisher`` and the like the type.
 
     **Fix.** Pass what the parameter expects: a class for a type, a str for a name, a function for a
-    callback; swap what is swapped.
+    callback; swap swapped arguments.
 
     **Source.** ``rclpy/node.py``, ``rclpy/parameter.py``.
     """
@@ -92,7 +92,9 @@ class ArgumentUnusable(RclpyRule):
     code = "ND055"
     name = "argument-unusable"
     examples = (
-        Example("usable", {"talker.py": _NODE.format("String", "self.tick", "[1.0, 2.0]")}),
+        Example(
+            "valid arguments", {"talker.py": _NODE.format("String", "self.tick", "[1.0, 2.0]")}
+        ),
         Example("a method of the same name", _HELPER),
         Example(
             "an object, a str, mixed types",
@@ -112,14 +114,14 @@ class ArgumentUnusable(RclpyRule):
                 "asker.py": _ASKER.format("Trigger.Request", "'report'", "'alone'")
                 + _CLIENT.format("String", "7", "MutuallyExclusiveCallbackGroup")
             },
-            "10:28: this is only a part of a service: RuntimeError; pass Trigger",
+            "10:28: this is only one part of a service: RuntimeError; pass Trigger",
             "10:70: the callback group must be a CallbackGroup, but this is a str: AttributeError",
             "11:28: 'String' is not a service type: RuntimeError",
             "11:36: the name must be a str, but this is an int: TypeError",
             "11:54: this is a class, not a callback group; instantiate it",
         ),
         Example(
-            "types of topics in a bag",
+            "topic types in a bag",
             {
                 "record.py": "import rclpy\nimport rosbag2_py\n\n\n"
                 "def topics(kind):\n"
@@ -131,11 +133,11 @@ class ArgumentUnusable(RclpyRule):
                 "    yield rosbag2_py.TopicMetadata(\n"
                 "        id=0, name='a', type='std_msgs/msg/String', serialization_format='cdr')\n"
             },
-            "10:30: 'String' is not the full name of a type, such as 'std_msgs/msg/String': "
-            "nothing can read the bag",
+            "10:30: 'String' is not a full type name, such as 'std_msgs/msg/String': the bag "
+            "cannot be read",
         ),
         Example(
-            "period and type in order",
+            "period and type in the right order",
             {"talker.py": _NODE_ORDER.format("String, 'chatter'", "0.5, self.tick")},
         ),
         Example(
@@ -155,9 +157,9 @@ class ArgumentUnusable(RclpyRule):
         ),
         Example("an action type", {"sender.py": _SENDER.format("self, Fibonacci", _GOAL)}),
         Example(
-            "a part of the action",
+            "a part of an action",
             {"sender.py": _SENDER.format("self, Fibonacci.Goal", _GOAL)},
-            "9:42: this is only a part of an action; pass Fibonacci",
+            "9:42: this is only one part of an action; pass Fibonacci",
         ),
         Example(
             "a message type",
@@ -177,8 +179,8 @@ class ArgumentUnusable(RclpyRule):
                 for word in call.keywords:
                     name = file.evaluator.evaluate(word.value) if word.arg == "type" else ""
                     if isinstance(name, str) and name and not re.fullmatch(_FULL_NAME, name):
-                        message = f"{name!r} is not the full name of a type, such as "
-                        message += "'std_msgs/msg/String': nothing can read the bag"
+                        message = f"{name!r} is not a full type name, such as "
+                        message += "'std_msgs/msg/String': the bag cannot be read"
                         yield self.report(file.module.location(word.value), message)
 
     def _check_types(self, file: RclpyFile) -> Iterator[Diagnostic]:
@@ -253,7 +255,7 @@ def _service_problem(file: RclpyFile, node: ast.expr) -> str:
     """Return the message for a type that is not a service."""
     full = file.module.qualified_name(node) or ""
     if re.fullmatch(r"\w+\.srv\.\w+\.(Request|Response)", full):
-        return f"this is only a part of a service: RuntimeError; pass {full.split('.')[2]}"
+        return f"this is only one part of a service: RuntimeError; pass {full.split('.')[2]}"
     if re.fullmatch(r"\w+\.(msg|action)\.[A-Z][A-Za-z0-9]*", full):
         return f"{full.rpartition('.')[2]!r} is not a service type: RuntimeError"
     return ""
@@ -274,7 +276,7 @@ def _action_problem(file: RclpyFile, node: ast.expr) -> str:
     """Return the message for a wrong type of an action server or client."""
     full = file.module.qualified_name(node) or ""
     if re.fullmatch(r"(?!rclpy\.)\w+\.action\.[A-Z][A-Za-z0-9]*\.(Goal|Result|Feedback)", full):
-        return f"this is only a part of an action; pass {full.split('.')[2]}"
+        return f"this is only one part of an action; pass {full.split('.')[2]}"
     if re.fullmatch(r"\w+\.(msg|srv)\.[A-Z][A-Za-z0-9]*", full) and file.interface(node):
         return f"{full.rpartition('.')[2]!r} is not an action type"
     return ""

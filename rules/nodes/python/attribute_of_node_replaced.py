@@ -1,4 +1,4 @@
-"""ND013: a node does not overwrite what it inherits."""
+"""ND013: nodes do not replace inherited attributes."""
 
 from __future__ import annotations
 
@@ -46,9 +46,8 @@ class AttributeOfNodeReplaced(RclpyRule):
     """A node assigns to a property of Node, or overrides a method that rclpy calls.
 
     **Why.** ``AttributeError: property 'publishers' of 'Talker' object has no setter``; an
-    ``executor`` of another kind fails with ``has no attribute 'add_node'``. After a
-    ``destroy_node`` that does not call the one of rclpy, the node stays in the graph, and its
-    callbacks run with what is closed.
+    ``executor`` of another type fails with ``has no attribute 'add_node'``. If ``destroy_node``
+    does not call ``super()``, the node stays in the graph, and its callbacks use closed resources.
 
     **Fix.** Choose another name, such as ``self._publishers``; end ``destroy_node`` with
     ``super().destroy_node()``.
@@ -59,7 +58,7 @@ class AttributeOfNodeReplaced(RclpyRule):
     code = "ND013"
     name = "attribute-of-node-replaced"
     other_severities = {
-        Severity.WARNING: "it is ``destroy_node``, which does not call the one of rclpy"
+        Severity.WARNING: "it is ``destroy_node`` without ``super().destroy_node()``"
     }
     examples = (
         Example("another name", {"talker.py": _NODE.format("my_publishers")}),
@@ -79,9 +78,12 @@ class AttributeOfNodeReplaced(RclpyRule):
             "name",
             "9:9: 'timers' overrides an attribute of rclpy's Node; choose another name",
         ),
-        Example("complete", {"driver.py": _NODE_DESTROY.format("super().destroy_node()")}),
         Example(
-            "incomplete",
+            "destroy_node with super()",
+            {"driver.py": _NODE_DESTROY.format("super().destroy_node()")},
+        ),
+        Example(
+            "destroy_node without super()",
             {"driver.py": _NODE_DESTROY.format("self.port = None")},
             Report(
                 "8:9",

@@ -1,4 +1,4 @@
-"""ND046: attributes that a node uses on itself exist."""
+"""ND046: attributes that a node uses exist."""
 
 from __future__ import annotations
 
@@ -50,10 +50,10 @@ _ELSEWHERE = {
 
 
 class AttributeOfNodeUnknown(RclpyRule):
-    """A node uses an attribute or method of itself that is not defined.
+    """A node uses an attribute or method of ``self`` that is not defined.
 
     **Why.** ``AttributeError: 'Talker' object has no attribute 'create_subscriber'`` when the line
-    is reached: at start in a constructor, at the first message in a callback.
+    is executed: in a constructor at start, in a callback at the first message.
 
     **Fix.** Correct the spelling, or define it.
 
@@ -62,7 +62,7 @@ class AttributeOfNodeUnknown(RclpyRule):
 
     code = "ND046"
     name = "attribute-of-node-unknown"
-    other_severities = {Severity.WARNING: "it only shows while the node is being stopped"}
+    other_severities = {Severity.WARNING: "it only fails while the node shuts down"}
     examples = (
         Example("defined", {"talker.py": _NODE.format("on_timer", "pub")}),
         Example(
@@ -73,7 +73,7 @@ class AttributeOfNodeUnknown(RclpyRule):
             },
         ),
         Example(
-            "after spin, and in a program that goes on with its work there",
+            "after spin, and in a program that continues after spin",
             {
                 "talker.py": _NODE.format("on_timer", "pub") + _MAIN,
                 "worker.py": _NODE.format("on_timer", "pub").replace(
@@ -104,11 +104,11 @@ class AttributeOfNodeUnknown(RclpyRule):
                     "    def on_timer(self):\n        ", "        def on_timer(self):\n            "
                 )
             },
-            "10:32: neither Talker nor rclpy's Node has 'on_timer': AttributeError; the one of "
-            "line 12 is inside another method: indent it less",
+            "10:32: neither Talker nor rclpy's Node has 'on_timer': AttributeError; the one in "
+            "line 12 is inside another method; indent it less",
         ),
         Example(
-            "of a node with a lifecycle",
+            "a method of a lifecycle node",
             {
                 "pump.py": "from rclpy.lifecycle import LifecycleNode\n\n\n"
                 "class Pump(LifecycleNode):\n"
@@ -145,7 +145,7 @@ class AttributeOfNodeUnknown(RclpyRule):
             inner = _inner_function(node, name)
             hint = f"; did you mean {closest!r}?" if closest else ""
             if inner is not None:
-                hint = f"; the one of line {inner.lineno} is inside another method: indent it less"
+                hint = f"; the one in line {inner.lineno} is inside another method; indent it less"
             message = f"neither {node.name} nor rclpy's Node has {name!r}: AttributeError{hint}"
             module = node.file.module
             is_late = only_while_stopping(module, attribute)

@@ -70,13 +70,13 @@ _CALLED_BY_NODE = (
 
 
 class AttributeUsedBeforeSet(RclpyRule):
-    """A node uses an attribute before it is set: further down, or by a later message.
+    """A node uses an attribute before it is set.
 
     **Why.** ``AttributeError: 'Talker' object has no attribute 'pub'`` at start. A timer may run
     before the first message.
 
-    **Fix.** Set it first, in the constructor: to ``None`` where only a message brings a value. A
-    method such as ``get_name`` is called by the constructor of rclpy's Node: give it another name.
+    **Fix.** Set it first, in the constructor: to ``None`` if only a message provides a value. The
+    constructor of Node calls methods such as ``get_name``: rename them.
 
     **Source.** Python documentation, "Classes";
     https://github.com/4am-robotics/cob_command_tools/issues/95.
@@ -84,11 +84,11 @@ class AttributeUsedBeforeSet(RclpyRule):
 
     code = "ND062"
     name = "attribute-used-before-set"
-    other_severities = {Severity.WARNING: "it depends on what comes first, a timer or a message"}
+    other_severities = {Severity.WARNING: "it depends on whether a timer or a message comes first"}
     examples = (
         Example("set first", {"talker.py": _NODE.format(_MAKE + _USE)}),
         Example(
-            "set under names that a table has",
+            "set by names in a table",
             {
                 "talker.py": _NODE.format(
                     "        for name, value in {'rate': 1.0}.items():\n"
@@ -108,8 +108,8 @@ class AttributeUsedBeforeSet(RclpyRule):
                 "talker.py": _NODE.format("        self.robot = 'robin'\n")
                 + "\n    def get_name(self):\n        return self.robot\n"
             },
-            "11:16: rclpy's Node calls get_name() while it is made, before self.robot is set in "
-            "line 8: AttributeError; rename the method",
+            "11:16: rclpy's Node calls get_name() during construction, before self.robot is set "
+            "in line 8: AttributeError; rename the method",
         ),
         Example(
             "in a method that the constructor calls, also before the one of the base class",
@@ -137,7 +137,7 @@ class AttributeUsedBeforeSet(RclpyRule):
             "talker.py:23:9: say() uses self.pub, which is set later, in line 24: AttributeError",
         ),
         Example(
-            "a timer that uses what a message brings",
+            "a timer that uses an attribute that a message sets",
             {
                 "talker.py": _TIMER.format("", "self.last"),
                 "set.py": _TIMER.format("        self.last = None\n", "self.last"),
@@ -155,7 +155,7 @@ class AttributeUsedBeforeSet(RclpyRule):
             ),
         ),
         Example(
-            "a callback that uses what is None until another message comes",
+            "a callback that uses an attribute that is None until another message arrives",
             {
                 "talker.py": _BOTH.format("None", "self.info.width"),
                 "whole.py": _BOTH.format("None", "self.info"),
@@ -165,7 +165,7 @@ class AttributeUsedBeforeSet(RclpyRule):
             Report(
                 "talker.py:13:15",
                 "self.info is None until the callback 'learn' sets it, and this may "
-                "run before the first message there; ask for None first",
+                "run before the first message there; check for None first",
                 severity=Severity.WARNING,
             ),
         ),
@@ -191,7 +191,7 @@ class AttributeUsedBeforeSet(RclpyRule):
             ),
         ),
         Example(
-            "in a method with a name of its own",
+            "in a method with another name",
             {
                 "talker.py": _NODE.format("        self.robot = 'robin'\n")
                 + "\n    def robot_name(self):\n        return self.robot\n"
@@ -219,8 +219,8 @@ class AttributeUsedBeforeSet(RclpyRule):
                 "        self.gain = self.limit * self.offset * self.gains[0]\n"
                 "        self.get_logger().info(f'gain {self.gain}')\n",
             },
-            "rover/steering.py:11:48: the constructor of Controller calls setup() while it is "
-            "made, before self.gains is set in line 8: AttributeError; set it before "
+            "rover/steering.py:11:48: the constructor of Controller calls setup() during "
+            "construction, before self.gains is set in line 8: AttributeError; set it before "
             "super().__init__()",
         ),
     )
@@ -297,8 +297,8 @@ class AttributeUsedBeforeSet(RclpyRule):
                 is_handled_there = is_handled(file.module, used, "AttributeError")
                 if line > (call.end_lineno or call.lineno) and not is_handled_there:
                     message = (
-                        f"{caller} calls {name}() while it is made, before self.{used.attr} "
-                        f"is set in line {line}: AttributeError; {hint}"
+                        f"{caller} calls {name}() during construction, before self.{used.attr} is "
+                        f"set in line {line}: AttributeError; {hint}"
                     )
                     yield self.report(file.module.location(used), message)
                     break
@@ -344,7 +344,7 @@ def _message(name: str, setter: str, *, is_timer: bool, is_none: bool) -> str:
         first = first if is_timer else f"{first} there"
     early = f"the timer may run before {first}" if is_timer else f"this may run before {first}"
     if is_none:
-        return f"self.{name} is None until {setting} sets it, and {early}; ask for None first"
+        return f"self.{name} is None until {setting} sets it, and {early}; check for None first"
     return (
         f"self.{name} is only set by {setting}, and {early}: AttributeError; set it in the "
         "constructor"

@@ -1,4 +1,4 @@
-"""ND134: what is compared is used."""
+"""ND134: results of comparisons are used."""
 
 from __future__ import annotations
 
@@ -21,11 +21,11 @@ _NODE = (
 
 
 class ComparisonWithoutEffect(PythonRule):
-    """The result of a comparison is not used: ``==`` for ``=``, or ``a == 1 or 2``.
+    """The result of a comparison is not used: ``==`` instead of ``=``, or ``a == 1 or 2``.
 
-    **Why.** Nothing is assigned, or the condition is always true, and Python does not complain.
+    **Why.** Nothing is assigned, or the condition is always true, without an error.
 
-    **Fix.** ``self.limit = msg.data``; ``if word in ('stop', 'halt'):``.
+    **Fix.** Write ``self.limit = msg.data``, or ``if word in ('stop', 'halt'):``.
 
     **Source.** Python language reference, "Expression statements".
     """
@@ -35,18 +35,18 @@ class ComparisonWithoutEffect(PythonRule):
     effect = Effect.WRONG_BEHAVIOR
     examples = (
         Example("assigned", {"limiter.py": _NODE.format("self.limit = msg.data")}),
-        Example("asked", {"limiter.py": _NODE.format("return self.limit == msg.data")}),
+        Example("a condition", {"limiter.py": _NODE.format("return self.limit == msg.data")}),
         Example(
             "compared",
             {"limiter.py": _NODE.format("self.limit == msg.data")},
-            "12:9: self.limit is compared, and the result is dropped; write self.limit = ...",
+            "12:9: self.limit is compared, but the result is not used; write self.limit = ...",
         ),
         Example(
             "one of two words",
             {"limiter.py": _NODE.format("return 1 if msg.data == 'a' or msg.data == 'b' else 2")},
         ),
         Example(
-            "a word, or the truth of another one",
+            "a word, or another variable as a condition",
             {"limiter.py": _NODE.format("return 1 if msg.data == 'a' or 'b' else 2")},
             "12:40: or 'b' makes this condition always true; write msg.data in (...)",
         ),
@@ -63,7 +63,7 @@ class ComparisonWithoutEffect(PythonRule):
             match statement.value:
                 case ast.Compare(left=ast.Name() | ast.Attribute() as left, ops=[ast.Eq()]):
                     text = module.text(left)
-                    message = f"{text} is compared, and the result is dropped; write {text} = ..."
+                    message = f"{text} is compared, but the result is not used; write {text} = ..."
                     yield self.report(module.location(statement), message)
         for choice in module.walk(ast.BoolOp):
             match choice:

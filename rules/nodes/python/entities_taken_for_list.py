@@ -57,7 +57,7 @@ class EntitiesTakenForList(RclpyRule):
             "8:9: 'clients' is a property of Node that returns a generator: TypeError",
         ),
         Example(
-            "its length",
+            "len() of a property",
             _files("print(len(self.timers))"),
             "8:19: 'timers' is a property of Node that returns a generator: TypeError",
         ),

@@ -1,4 +1,4 @@
-"""ND135: indices are whole numbers."""
+"""ND135: indices are integers."""
 
 from __future__ import annotations
 
@@ -32,10 +32,10 @@ _AHEAD = _HEAD + (
 class FloatAsIndex(PythonRule):
     """The result of a division is an index, or bounds a slice or a range.
 
-    **Why.** ``/`` always gives a float: ``TypeError: slice indices must be integers``, or
+    **Why.** ``/`` always returns a float: ``TypeError: slice indices must be integers``, or
     ``'float' object cannot be interpreted as an integer``.
 
-    **Fix.** ``//``, or ``int(...)``.
+    **Fix.** Use ``//`` or ``int(...)``.
 
     **Source.** Python documentation, "Numeric Types".
     """
@@ -43,10 +43,10 @@ class FloatAsIndex(PythonRule):
     code = "ND135"
     name = "float-as-index"
     examples = (
-        Example("whole numbers", {"front.py": _NODE.format("//", "//")}),
-        Example("the beam ahead", {"front.py": _AHEAD.format("//")}),
+        Example("integers", {"front.py": _NODE.format("//", "//")}),
+        Example("the middle beam of a scan", {"front.py": _AHEAD.format("//")}),
         Example(
-            "the beam ahead, by a division",
+            "the middle beam of a scan, by a division",
             {"front.py": _AHEAD.format("/")},
             "12:34: a float cannot be an index: TypeError; divide with //",
             "12:56: a float cannot be an index: TypeError; divide with //",
@@ -54,12 +54,12 @@ class FloatAsIndex(PythonRule):
         Example(
             "divisions",
             {"front.py": _NODE.format("/", "/")},
-            "12:29: a float cannot bound a slice: TypeError; divide with //",
-            "12:40: a float cannot bound a slice: TypeError; divide with //",
-            "13:29: range() takes no float: TypeError; divide with //",
+            "12:29: a float cannot be a slice index: TypeError; divide with //",
+            "12:40: a float cannot be a slice index: TypeError; divide with //",
+            "13:29: range() does not accept a float: TypeError; divide with //",
         ),
         Example(
-            "made whole later",
+            "converted later",
             {
                 "front.py": _NODE.format("/", "//").replace(
                     "        front =", "        middle = int(middle)\n        front ="
@@ -67,7 +67,7 @@ class FloatAsIndex(PythonRule):
             },
         ),
         Example(
-            "a range of numpy, and a path as a key",
+            "numpy.arange, and a path as a key",
             {
                 "other.py": "import numpy as np\n\n\n"
                 "def numbers(count, folder, files):\n"
@@ -85,8 +85,8 @@ class FloatAsIndex(PythonRule):
                 "    cv2.line(image, (0, 0), (width // 2, int(height / 2)), (0, 0, 255))\n"
                 "    return np.zeros((height, width / 2))\n"
             },
-            "7:15: cv2.circle() takes no float here: it fails; divide with //",
-            "10:30: numpy.zeros() takes no float here: it fails; divide with //",
+            "7:15: cv2.circle() does not accept a float here: it fails; divide with //",
+            "10:30: numpy.zeros() does not accept a float here: it fails; divide with //",
         ),
     )
 
@@ -102,7 +102,7 @@ class FloatAsIndex(PythonRule):
         for call in module.calls_of("range"):
             for given in call.args:
                 if _is_quotient(file, given) and not is_handled(module, call, "TypeError"):
-                    message = "range() takes no float: TypeError; divide with //"
+                    message = "range() does not accept a float: TypeError; divide with //"
                     yield self.report(module.location(given), message)
 
         for name, places in _OF_INTEGERS.items():
@@ -116,7 +116,7 @@ class FloatAsIndex(PythonRule):
         pair = file.evaluator.single_value(given)
         for part in pair.elts if isinstance(pair, ast.Tuple) else ():
             if _is_quotient(file, part) and not is_handled(file.module, given, "TypeError"):
-                message = f"{name}() takes no float here: it fails; divide with //"
+                message = f"{name}() does not accept a float here: it fails; divide with //"
                 yield self.report(file.module.location(part), message)
                 break
 
@@ -127,7 +127,7 @@ class FloatAsIndex(PythonRule):
                 continue
             for bound in (node.lower, node.upper, node.step):
                 if bound is not None and _is_quotient(file, bound):
-                    message = "a float cannot bound a slice: TypeError; divide with //"
+                    message = "a float cannot be a slice index: TypeError; divide with //"
                     if not is_handled(module, node, "TypeError"):
                         yield self.report(module.location(bound), message)
 

@@ -1,4 +1,4 @@
-"""ND132: what methods keep for later is an attribute, not a local variable."""
+"""ND132: methods set attributes, not local variables of the same name."""
 
 from __future__ import annotations
 
@@ -29,10 +29,10 @@ _LOGGED = "self.get_logger().info(f'open: {is_open}')"
 class LocalForAttribute(RclpyRule):
     """A method sets a local variable instead of the attribute of the same name.
 
-    **Why.** The variable is gone when the method returns; the attribute keeps the value that the
-    constructor gave it, and what other methods do with it never changes.
+    **Why.** The variable disappears when the method returns; the attribute keeps the value from the
+    constructor, so other methods never see the new one.
 
-    **Fix.** Write ``self.`` in front of the name.
+    **Fix.** Write ``self.`` before the name.
 
     **Source.** Python tutorial, "Class and Instance Variables".
     """
@@ -41,8 +41,10 @@ class LocalForAttribute(RclpyRule):
     name = "local-for-attribute"
     effect = Effect.WRONG_BEHAVIOR
     examples = (
-        Example("kept", {"gate.py": _NODE.format("self.is_open", "return")}),
-        Example("used where it is set", {"gate.py": _NODE.format("is_open", "return is_open")}),
+        Example("the attribute set", {"gate.py": _NODE.format("self.is_open", "return")}),
+        Example(
+            "a local variable that is used", {"gate.py": _NODE.format("is_open", "return is_open")}
+        ),
         Example(
             "an attribute that another module sets",
             {
@@ -51,14 +53,14 @@ class LocalForAttribute(RclpyRule):
             },
         ),
         Example(
-            "set to what the attribute is set to, and only logged",
+            "set like the attribute, and only logged",
             {"gate.py": _NODE.replace("msg.data", "False").format("is_open", _LOGGED)},
         ),
         Example(
             "only logged",
             {"gate.py": _NODE.format("is_open", _LOGGED)},
-            "13:9: 'is_open' is a local variable, which ends with on_open(): self.is_open never "
-            "changes; write self.is_open",
+            "13:9: 'is_open' is a local variable of on_open(): self.'is_open' never changes; "
+            "write self.'is_open'",
         ),
     )
 
@@ -70,8 +72,8 @@ class LocalForAttribute(RclpyRule):
                 for name in _only_logged(file, class_, method):
                     if not is_used_elsewhere(package, file, name.id):
                         message = (
-                            f"{name.id!r} is a local variable, which ends with {method.name}(): "
-                            f"self.{name.id} never changes; write self.{name.id}"
+                            f"{name.id!r} is a local variable of {method.name}(): "
+                            f"self.{name.id!r} never changes; write self.{name.id!r}"
                         )
                         yield self.report(file.module.location(name), message)
 

@@ -1,4 +1,4 @@
-"""ND093: methods of rclpy objects are called, not only referenced."""
+"""ND093: methods are called, not only referenced."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ _PARTS = _HEAD + (
 
 
 class MethodNotCalled(RclpyRule):
-    """A method of rclpy or of the node is referenced where only a call makes sense.
+    """A method of rclpy or of the node is not called, because its parentheses are missing.
 
     **Why.** ``AttributeError: 'function' object has no attribute 'now'``; as a condition, a
     method is always true; as a statement, it does nothing.
@@ -56,13 +56,12 @@ class MethodNotCalled(RclpyRule):
     code = "ND093"
     name = "method-not-called"
     other_severities = {
-        Severity.WARNING: "it is a shutdown after the spin, where the program ends, or a message "
-        "that is not logged"
+        Severity.WARNING: "it is a shutdown at the end of the program, or a log message"
     }
     examples = (
         Example("called", {"talker.py": _NODE.format("()", "()", "()", "()", "()")}),
         Example(
-            "not called: for its result, as conditions, as a statement",
+            "not called: as a value, as conditions, as a statement",
             {"talker.py": _NODE.format("", "", "", "", "")},
             "10:22: 'get_clock' is a method that is not called; write get_clock()",
             "11:15: rclpy.ok is a function: always true; write rclpy.ok()",

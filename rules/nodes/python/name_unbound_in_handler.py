@@ -1,4 +1,4 @@
-"""ND103: handlers of exceptions use names that are assigned."""
+"""ND103: exception handlers use names that are assigned."""
 
 from __future__ import annotations
 
@@ -21,12 +21,12 @@ _CODE = (
 
 
 class NameUnboundInHandler(PythonRule):
-    """A handler uses a name that the failing statement itself would have assigned.
+    """An exception handler uses a name that the failing statement would have assigned.
 
-    **Why.** ``UnboundLocalError``, instead of the handler's work: when the statement fails, nothing
-    is assigned.
+    **Why.** When the statement fails, the name is not assigned: the handler raises
+    ``UnboundLocalError``.
 
-    **Fix.** Use what went into the statement, or assign the name before the ``try``.
+    **Fix.** Use the argument of the failing call, or assign the name before the ``try``.
 
     **Source.** Python documentation, "Naming and binding".
     """
@@ -36,7 +36,7 @@ class NameUnboundInHandler(PythonRule):
     examples = (
         Example("the argument", {"a.py": _CODE.format("int(text)", "", "ValueError", "text")}),
         Example(
-            "what fails assigns the name",
+            "the failing statement assigns the name",
             {"a.py": _CODE.format("int(text)", "        print(1)\n", "ValueError", "value")},
             "7:15: 'value' is not assigned when the first statement of `try` fails: "
             "UnboundLocalError",

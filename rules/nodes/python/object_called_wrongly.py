@@ -45,7 +45,8 @@ class ObjectCalledWrongly(RclpyRule):
     ``TypeError: 'NoneType' object is not callable``. ``NotImplementedError: Service classes can not
     be instantiated``, ``TypeError: 'int' object is not callable``.
 
-    **Fix.** ``Trigger.Request()``, ``add_done_callback(self.done)``, no parentheses.
+    **Fix.** Write ``Trigger.Request()`` and ``add_done_callback(self.done)``, without extra
+    parentheses.
 
     **Source.** ``rclpy/node.py``, ``create_timer`` and ``create_subscription``; ``rclpy/task.py``;
     rosidl_generator_py.
@@ -86,11 +87,12 @@ class ObjectCalledWrongly(RclpyRule):
         ),
         Example("a callback passed", {"talker.py": _NODE_CALLBACKS.format("self.tick")}),
         Example(
-            "a callback of a timer or topic called",
+            "the callback of a timer or subscription called",
             {"talker.py": _NODE_CALLBACKS.format("self.tick()")},
             Report(
                 "7:32",
-                "self.tick() is called here: its return value becomes the callback",
+                "self.tick() is called here, and its return value becomes the "
+                "callback; remove the parentheses",
                 fix="Remove the parentheses",
             ),
             fixed={"talker.py": _NODE_CALLBACKS.format("self.tick")},
@@ -117,7 +119,10 @@ class ObjectCalledWrongly(RclpyRule):
                 _, end = file.module.span(callback.node)
                 edit = Edit(file.module.path, end - 2, end, "")
                 fix = Fix("Remove the parentheses", (edit,))
-            message = f"{text} is called here: its return value becomes the callback"
+            message = (
+                f"{text} is called here, and its return value becomes the callback; remove "
+                f"the parentheses"
+            )
             yield self.report(callback, message, fix)
 
 

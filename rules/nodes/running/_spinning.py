@@ -1,4 +1,4 @@
-"""What of a file only runs while its nodes are spun."""
+"""Code of a file that only runs while its nodes are spun."""
 
 from __future__ import annotations
 

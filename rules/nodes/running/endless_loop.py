@@ -58,8 +58,8 @@ _CALLBACK = (
 class EndlessLoop(RclpyRule):
     """A constructor or callback of a node loops forever.
 
-    **Why.** The node never reaches ``rclpy.spin``, or never returns to it: it may publish, but
-    its subscriptions, services and parameters never respond.
+    **Why.** The program never reaches ``rclpy.spin``, or never returns to it: the node may publish,
+    but its subscriptions, services and parameters do not work.
 
     **Fix.** Run one step of the loop in a timer callback.
 
@@ -69,8 +69,8 @@ class EndlessLoop(RclpyRule):
     code = "ND031"
     name = "endless-loop"
     other_severities = {
-        Severity.WARNING: "the file has no callbacks or clients: it only publishes; or the loop is "
-        "entered in an emergency alone, and may be meant"
+        Severity.WARNING: "the file has no callbacks or clients and only publishes, or the loop "
+        "is only entered in an emergency"
     }
     examples = (
         Example(
@@ -91,7 +91,7 @@ class EndlessLoop(RclpyRule):
             ),
         ),
         Example(
-            "a loop that sends requests and does not look at the responses",
+            "a loop that sends requests and ignores the responses",
             {
                 "caller.py": _NODE.format(
                     "        self.client = self.create_client(Trigger, 'reset')\n" + _LOOP
@@ -127,12 +127,12 @@ class EndlessLoop(RclpyRule):
             "12:9: endless loop: the constructor of Talker never returns; use a timer",
         ),
         Example(
-            "a loop in a callback of one thread, whatever its group",
+            "a loop in a callback, with one thread and any callback group",
             {"talker.py": _CALLBACK.format("rclpy.spin(Talker())")},
             "14:9: endless loop: callback 'work' never returns; use a timer",
         ),
         Example(
-            "a loop in a callback of many threads",
+            "a loop in a callback, with several threads",
             {"talker.py": _CALLBACK.format("rclpy.spin(Talker(), MultiThreadedExecutor())")},
         ),
         Example(
@@ -141,7 +141,7 @@ class EndlessLoop(RclpyRule):
             "15:9: endless loop: callback 'work' never returns; use a timer",
         ),
         Example(
-            "a loop when a future is done, in many threads",
+            "a loop when a future is done, in several threads",
             {
                 "caller.py": _DONE.format("rclpy.spin(Caller(), MultiThreadedExecutor())").replace(
                     "import rclpy\n",
@@ -151,7 +151,7 @@ class EndlessLoop(RclpyRule):
             },
         ),
         Example(
-            "a loop that keeps a robot from moving",
+            "a loop that stops a robot in an emergency",
             {
                 "talker.py": _NODE.format("        self.create_timer(1, self.tick)\n\n").replace(
                     "        pass",

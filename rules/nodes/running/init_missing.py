@@ -58,7 +58,7 @@ class InitMissing(Rule):
             "never",
             {**_FILES, "demo/talker.py": _NODE.format("    node = Talker()\n" + _SPIN)},
             "demo/talker.py:12:12: Talker is constructed without rclpy.init(): "
-            "NotInitializedException",
+            "NotInitializedException; call it first",
         ),
         Example(
             "too late",
@@ -111,4 +111,4 @@ def _problem(package: Package, run: Execution, made: ast.Call) -> str | None:
     if late is not None:
         line = file.module.location(late).line
         return f"{name} is constructed before rclpy.init() in line {line}: NotInitializedException"
-    return f"{name} is constructed without rclpy.init(): NotInitializedException"
+    return f"{name} is constructed without rclpy.init(): NotInitializedException; call it first"

@@ -1,4 +1,4 @@
-"""ND005: rclpy is initialized once, with the command line, by a plain call."""
+"""ND005: rclpy is initialized once, with the command line, and not in a ``with`` statement."""
 
 from __future__ import annotations
 
@@ -25,12 +25,12 @@ _PLAIN = "import rclpy\n\n\ndef main():\n    rclpy.init()\n"
 
 
 class InitMisused(RclpyRule):
-    """``rclpy.init()`` is called twice in a row, gets no arguments, or is a context manager.
+    """``rclpy.init()`` is called twice, gets an empty list, or is used as a context manager.
 
     **Why.** ``RuntimeError: Context.init() must only be called once``. An empty list replaces the
-    command line: ``--ros-args``, with the remappings and parameters of a launch file, have no
-    effect. On Humble and Jazzy ``init`` returns None: ``TypeError: 'NoneType' object does not
-    support the context manager protocol``.
+    command line: ``--ros-args``, with the remappings and parameters of a launch file, is ignored.
+    On Humble and Jazzy ``init`` returns None: ``TypeError: 'NoneType' object does not support the
+    context manager protocol``.
 
     **Fix.** Keep the first call; write ``rclpy.init(args=args)``, where ``None`` means the command
     line, and ``rclpy.try_shutdown()`` in a ``finally``.
@@ -42,8 +42,8 @@ class InitMisused(RclpyRule):
     code = "ND005"
     name = "init-misused"
     other_severities = {
-        Severity.WARNING: "the program reads its command line itself, or its caller decides: "
-        "the function has other required arguments"
+        Severity.WARNING: "the program parses its command line itself, or the function has other "
+        "required arguments"
     }
     examples = (
         Example("once", {"talker.py": _MAIN.format("")}),
@@ -70,21 +70,21 @@ class InitMisused(RclpyRule):
         ),
         Example("the command line", {"talker.py": _MAIN_ARGUMENTS.format("args=args")}),
         Example(
-            "a context of its own, next to the one of the program",
+            "a separate context",
             {"talker.py": _MAIN_ARGUMENTS.format("args=[], context=rclpy.Context()")},
         ),
         Example(
-            "an empty list in place of the command line",
+            "an empty list instead of the command line",
             {"talker.py": _MAIN_ARGUMENTS.format("args=[]")},
             Report(
                 "5:21",
-                "an empty list replaces the command line: --ros-args have no effect",
+                "an empty list replaces the command line: --ros-args is ignored; pass args",
                 fix="Pass the arguments",
             ),
             fixed={"talker.py": _MAIN_ARGUMENTS.format("args=args")},
         ),
         Example(
-            "an empty list, for a program with options of its own",
+            "an empty list, in a program with its own options",
             {
                 "talker.py": f"import argparse\n{_MAIN_ARGUMENTS.format('[]')}".replace(
                     "args=None", ""
@@ -92,12 +92,12 @@ class InitMisused(RclpyRule):
             },
             Report(
                 "6:16",
-                "an empty list replaces the command line: --ros-args have no effect",
+                "an empty list replaces the command line: --ros-args is ignored; pass args",
                 severity=Severity.WARNING,
             ),
         ),
         Example(
-            "an empty list, for a process that gets all it needs from another",
+            "an empty list, in a function with other required arguments",
             {
                 "talker.py": _MAIN_ARGUMENTS.format("args=[]").replace(
                     "args=None", "configuration, queue"
@@ -105,7 +105,7 @@ class InitMisused(RclpyRule):
             },
             Report(
                 "5:21",
-                "an empty list replaces the command line: --ros-args have no effect",
+                "an empty list replaces the command line: --ros-args is ignored; pass args",
                 severity=Severity.WARNING,
             ),
         ),
@@ -170,7 +170,7 @@ class InitMisused(RclpyRule):
             if any(argument.arg == "args" for argument in own):
                 edit = Edit(file.module.path, *file.module.span(given[0]), "args")
                 fix = Fix("Pass the arguments", (edit,))
-            message = "an empty list replaces the command line: --ros-args have no effect"
+            message = "an empty list replaces the command line: --ros-args is ignored; pass args"
             is_meant = any(
                 item.module.partition(".")[0] in _PARSERS for item in file.module.imports
             )

@@ -17,7 +17,7 @@ _GUARD = "\n\nif __name__ == '__main__':\n    main()\n"
 class MainGuardMissing(Rule):
     """An installed script defines ``main`` but does not call it.
 
-    **Why.** ``ros2 run`` returns at once, with exit code 0 and no output.
+    **Why.** ``ros2 run`` exits at once, with exit code 0 and no output.
 
     **Fix.** End with ``if __name__ == '__main__': main()``.
 
@@ -34,7 +34,8 @@ class MainGuardMissing(Rule):
             {"CMakeLists.txt": _LISTS, "talker/node.py": _MAIN},
             Report(
                 "talker/node.py:5:5",
-                "installed as a program, but main() is never called",
+                "installed as a program, but main() is never called: it exits at once; "
+                "add the call",
                 fix="Add a call of main()",
             ),
             fixed={"talker/node.py": _MAIN + _GUARD},
@@ -68,7 +69,12 @@ class MainGuardMissing(Rule):
             end = len(module.source.text)
             text = _GUARD if module.source.text.endswith("\n") else f"\n{_GUARD}"
             fix = Fix("Add a call of main()", (Edit(path, end, end, text),))
-            yield self.report(main, "installed as a program, but main() is never called", fix)
+            yield self.report(
+                main,
+                "installed as a program, but main() is never called: it exits "
+                "at once; add the call",
+                fix,
+            )
 
     def _guard_problem(self, module: PythonModule) -> tuple[Location, str] | None:
         """Return the message for a wrong comparison of ``__name__``, and its place."""

@@ -33,7 +33,7 @@ _NODE = (
 class NodeNeverSpun(RclpyRule):
     """A node has timers or subscriptions, but nothing in the program spins it.
 
-    **Why.** Callbacks run only while the node is spun: the program ends at once, or hangs without
+    **Why.** Callbacks only run while the node is spun: the program exits at once, or hangs without
     doing anything.
 
     **Fix.** Call ``rclpy.spin(node)``.
@@ -50,15 +50,15 @@ class NodeNeverSpun(RclpyRule):
         Example(
             "never spun",
             {"talker.py": _NODE.format("")},
-            "16:12: nothing spins this Talker: its callbacks never run; call rclpy.spin()",
+            "16:12: Talker is never spun: its callbacks never run; call rclpy.spin()",
         ),
         Example(
             "sleeping in a loop",
             {"talker.py": _NODE.format("    time.sleep(9)\n")},
-            "16:12: nothing spins this Talker: its callbacks never run; call rclpy.spin()",
+            "16:12: Talker is never spun: its callbacks never run; call rclpy.spin()",
         ),
         Example(
-            "one of two nodes, and a node of a node",
+            "one of two nodes, and a node in a node",
             {
                 "talker.py": _NODE.replace(
                     "        self.create_timer(1",
@@ -67,8 +67,8 @@ class NodeNeverSpun(RclpyRule):
                     "        self.create_timer(1",
                 ).format("    other = Talker()\n    rclpy.spin(other)\n"),
             },
-            "8:22: nothing spins what this rclpy.create_node makes: its callbacks never run",
-            "18:12: nothing spins what this Talker makes: its callbacks never run",
+            "8:22: the node from rclpy.create_node is never spun: its callbacks never run",
+            "18:12: the node from Talker is never spun: its callbacks never run",
         ),
         Example(
             "spun in a loop",
@@ -109,7 +109,7 @@ class NodeNeverSpun(RclpyRule):
         if file.init_calls and file.spin_calls:
             for call in _left_out(package, file, waiting):
                 name = file.module.text(call.func)
-                message = f"nothing spins what this {name} makes: its callbacks never run"
+                message = f"the node from {name} is never spun: its callbacks never run"
                 yield self.report(file.module.location(call), message)
         if not file.init_calls or not waiting:
             return
@@ -123,7 +123,7 @@ class NodeNeverSpun(RclpyRule):
         for call in file.module.walk(ast.Call):
             if isinstance(call.func, ast.Name) and call.func.id in waiting:
                 message = (
-                    f"nothing spins this {call.func.id}: its callbacks never run; call rclpy.spin()"
+                    f"{call.func.id} is never spun: its callbacks never run; call rclpy.spin()"
                 )
                 yield self.report(file.module.location(call), message)
 

@@ -1,4 +1,4 @@
-"""ND001: node classes inherit from Node, and call its constructor with a name, first."""
+"""ND001: node classes inherit from Node, and first call its constructor with a name."""
 
 from __future__ import annotations
 
@@ -36,11 +36,11 @@ _NODE_BASE = (
 
 
 class NodeNotConstructed(RclpyRule):
-    """A node class does not inherit from Node, or does not call its constructor first, with a name.
+    """A node class does not inherit from Node, or does not first call its constructor with a name.
 
     **Why.** ``TypeError: Node.__init__() missing 1 required positional argument: 'node_name'``, or
     ``AttributeError`` at the first use of the node: ``'Talker' object has no attribute
-    '_Node__...'``, without the base ``'create_timer'``.
+    '_Node__...'``, or ``'create_timer'`` without the base class.
 
     **Fix.** Write ``class Talker(Node):``, and start ``def __init__(self):`` with
     ``super().__init__('talker')``.
@@ -67,7 +67,7 @@ class NodeNotConstructed(RclpyRule):
             "5:9: Talker.__init__() does not call super().__init__(): AttributeError",
         ),
         Example(
-            "a class that never is the node",
+            "a class that is never used as a node",
             {
                 "talker.py": _NODE.format("self.node = node")
                 .replace("(self)", "(self, node)")
@@ -82,7 +82,7 @@ class NodeNotConstructed(RclpyRule):
             ),
         ),
         Example(
-            "the class above Node",
+            "super() with the class Node",
             {"talker.py": _NODE.format("super(Node, self).__init__('talker')")},
             "6:9: this super() skips the constructor of Node; write super()",
         ),
@@ -131,7 +131,7 @@ class NodeNotConstructed(RclpyRule):
             {"talker.py": _NODE_BASE.format("") + "\n\nclass Both(Node, Talker):\n    pass\n"},
         ),
         Example(
-            "the outline of a node",
+            "an abstract node",
             {
                 "talker.py": "from rclpy.node import Node\n\n\nclass Talker(Node):\n"
                 "    def __init__(self):\n        pass\n"
@@ -158,15 +158,17 @@ class NodeNotConstructed(RclpyRule):
         Example(
             "a node without a base class",
             {"talker.py": _NODE_BASE.format("")},
-            "4:7: class 'Talker' uses methods of Node; inherit from Node",
+            "4:7: 'Talker' uses methods of Node, but does not inherit from it: AttributeError; "
+            "inherit from Node",
         ),
         Example(
             "object as base class",
             {"talker.py": _NODE_BASE.format("(object)")},
-            "4:7: class 'Talker' uses methods of Node; inherit from Node",
+            "4:7: 'Talker' uses methods of Node, but does not inherit from it: AttributeError; "
+            "inherit from Node",
         ),
         Example(
-            "a class in front of Node that ends the chain of constructors, and one that does not",
+            "base classes before Node, with and without super()",
             {
                 "package.xml": "<package><name>rover</name></package>\n",
                 "rover/__init__.py": "",
@@ -181,7 +183,7 @@ class NodeNotConstructed(RclpyRule):
                 "class Counter(Counting, Node):\n    def __init__(self):\n"
                 "        super().__init__('counter')\n        self.create_timer(1.0, print)\n",
             },
-            "rover/nodes.py:7:9: Remembering.__init__() comes first, and calls no "
+            "rover/nodes.py:7:9: Remembering.__init__() comes first, but does not call "
             "super().__init__(): Node is not initialized",
         ),
     )
@@ -199,7 +201,9 @@ class NodeNotConstructed(RclpyRule):
                 continue
             ending = _ending(package, file, node)
             if ending is not None:
-                message = f"{ending[1]}.__init__() comes first, and calls no super().__init__(): "
+                message = (
+                    f"{ending[1]}.__init__() comes first, but does not call super().__init__(): "
+                )
                 message += "Node is not initialized"
                 yield self.report(file.module.location(ending[0]), message)
             if node.calls_super_init or node.constructor is None or node.is_made_later:
@@ -241,7 +245,10 @@ class NodeNotConstructed(RclpyRule):
     def _check_base(self, package: Package, file: RclpyFile) -> Iterator[Diagnostic]:
         for class_ in file.module.classes.values():
             if _lacks_base(file, class_.node) and class_.name not in names_of_bases(package):
-                message = f"class {class_.name!r} uses methods of Node; inherit from Node"
+                message = (
+                    f"{class_.name!r} uses methods of Node, but does not inherit from it: "
+                    f"AttributeError; inherit from Node"
+                )
                 yield self.report(class_, message)
 
 

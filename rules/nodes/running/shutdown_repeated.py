@@ -20,8 +20,8 @@ _AFTER = _MAIN.replace("pass\n    finally:\n        rclpy", "{}\n    rclpy")
 class ShutdownRepeated(RclpyRule):
     """``rclpy.shutdown()`` runs after a signal has already shut rclpy down.
 
-    **Why.** The handler of SIGINT and SIGTERM does it first: ``RCLError: rcl_shutdown already
-    called on the given context``, and the node ends with an error.
+    **Why.** The handler of SIGINT and SIGTERM calls it first: ``RCLError: rcl_shutdown already
+    called on the given context``, and the node exits with an error.
 
     **Fix.** Write ``rclpy.try_shutdown()``.
 

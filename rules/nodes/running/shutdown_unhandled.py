@@ -1,4 +1,4 @@
-"""ND008: nodes stop without a traceback."""
+"""ND008: nodes exit without a traceback."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ class ShutdownUnhandled(RclpyRule):
     """A node does not catch the exceptions that end ``spin``.
 
     **Why.** Ctrl-C raises KeyboardInterrupt, SIGTERM (``docker stop``, systemd, a launch file)
-    raises ExternalShutdownException: the node ends with a traceback and exit code 1.
+    raises ExternalShutdownException: the node exits with a traceback and exit code 1.
 
     **Fix.** Wrap ``rclpy.spin`` in ``try``, with
     ``except (KeyboardInterrupt, ExternalShutdownException): pass``.

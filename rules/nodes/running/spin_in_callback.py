@@ -42,11 +42,11 @@ _SPINNING = (
 class SpinInCallback(RclpyRule):
     """A callback or the constructor of a node spins the node itself.
 
-    **Why.** ``rclpy.spin_...`` moves the node to another executor and removes it from there when
-    done: the first call works, and after that no callback of the node runs. ``rclpy.spin`` in
-    the constructor returns at shutdown: until then, the caller does not get the node.
+    **Why.** ``rclpy.spin_...`` moves the node to another executor and removes it afterward: the
+    first call works, but then no callback of the node runs. ``rclpy.spin`` in the constructor
+    returns only at shutdown: until then, the caller does not get the node.
 
-    **Fix.** Spin the node in ``main``, after it is made. In callbacks, use
+    **Fix.** Spin the node in ``main``, after it is constructed. In callbacks, use
     ``future.add_done_callback``, or an ``async`` callback that awaits the future.
 
     **Source.** rclpy issue 1313; ROS 2 documentation, "Synchronous vs. asynchronous service
@@ -56,12 +56,12 @@ class SpinInCallback(RclpyRule):
     code = "ND033"
     name = "spin-in-callback"
     other_severities = {
-        Severity.WARNING: "it is in the constructor, and nothing else spins the node"
+        Severity.WARNING: "it is in the constructor, and the node is not spun elsewhere"
     }
     examples = (
         Example("a callback", {"caller.py": _NODE.format("future.add_done_callback(self.answer)")}),
         Example(
-            "a node that another one has for its calls",
+            "a separate node for service calls",
             {
                 "caller.py": _NODE.format("rclpy.spin_until_future_complete(self, future)").replace(
                     "        self.create_timer(1.0, self.ask)\n", ""
@@ -75,7 +75,7 @@ class SpinInCallback(RclpyRule):
             },
         ),
         Example(
-            "a spin before the node ends",
+            "a spin before the node exits",
             {
                 "caller.py": _NODE.format("rclpy.spin_until_future_complete(self, future)").replace(
                     "self.ask)", "self.tick)"
@@ -85,7 +85,7 @@ class SpinInCallback(RclpyRule):
             },
         ),
         Example(
-            "a spin until the first message is there, in what starts the callbacks",
+            "a spin until the first message arrives, before the callbacks start",
             {
                 "caller.py": _NODE.format("future.add_done_callback(self.answer)")
                 .replace(
@@ -106,10 +106,10 @@ class SpinInCallback(RclpyRule):
             "a spin",
             {"caller.py": _NODE.format("rclpy.spin_until_future_complete(self, future)")},
             "12:9: rclpy.spin_until_future_complete(self) runs in callback 'ask' of the same "
-            "node: no callback runs after that",
+            "node: no callback runs afterward; use add_done_callback() or await",
         ),
         Example(
-            "a spin, after which the program ends",
+            "a spin, after which the program exits",
             {
                 "caller.py": _NODE.format(
                     "rclpy.spin_until_future_complete(self, future)\n        rclpy.shutdown()"
@@ -117,7 +117,7 @@ class SpinInCallback(RclpyRule):
             },
         ),
         Example(
-            "a spin, after which the program may end",
+            "a spin, after which the program may exit",
             {
                 "caller.py": _NODE.format(
                     "rclpy.spin_until_future_complete(self, future)\n"
@@ -125,7 +125,7 @@ class SpinInCallback(RclpyRule):
                 )
             },
             "12:9: rclpy.spin_until_future_complete(self) runs in callback 'ask' of the same "
-            "node: no callback runs after that",
+            "node: no callback runs afterward; use add_done_callback() or await",
         ),
         Example(
             "a spin when a future is done",
@@ -141,24 +141,23 @@ class SpinInCallback(RclpyRule):
                 )
             },
             "16:9: rclpy.spin_until_future_complete(self) runs in callback 'answer' of the same "
-            "node: no callback runs after that",
+            "node: no callback runs afterward; use add_done_callback() or await",
         ),
         Example(
             "a constructor that spins",
             {"talker.py": _SPINNING.format("")},
             Report(
                 "9:9",
-                "spin() runs in the constructor of Talker, which returns only at "
-                "the shutdown: the code after it runs too late; spin the node in "
-                "main()",
+                "spin() runs in the constructor of Talker, and returns only at "
+                "shutdown: the code after it runs too late; spin the node in main()",
                 severity=Severity.WARNING,
             ),
         ),
         Example(
             "a constructor that spins, and main() as well",
             {"talker.py": _SPINNING.format("\n\ndef main():\n    rclpy.spin(Talker())\n")},
-            "9:9: spin() runs in the constructor of Talker, which returns only at the shutdown: "
-            "the code after it runs too late; spin the node in main()",
+            "9:9: spin() runs in the constructor of Talker, and returns only at shutdown: the "
+            "code after it runs too late; spin the node in main()",
         ),
     )
 
@@ -183,7 +182,9 @@ class SpinInCallback(RclpyRule):
                 if any(isinstance(x, _PLAIN) for x in _endings_after(file, call.call)):
                     continue
                 message = f"rclpy.{call.name}({node.id}) runs in {origin} of the same node"
-                yield self.report(call, f"{message}: no callback runs after that")
+                yield self.report(
+                    call, f"{message}: no callback runs afterward; use add_done_callback() or await"
+                )
 
     def _check_constructors(self, file: RclpyFile) -> Iterator[Diagnostic]:
         functions = {executed.function: executed.origin for executed in in_constructors(file)}
@@ -196,8 +197,8 @@ class SpinInCallback(RclpyRule):
             if call.name == "spin" and not _is_self(file, call.call):
                 continue
             message = (
-                f"spin() runs in {origin}, which returns only at the shutdown: the code after it "
-                "runs too late; spin the node in main()"
+                f"spin() runs in {origin}, and returns only at shutdown: the code after it runs "
+                f"too late; spin the node in main()"
             )
             severity = None if outside else Severity.WARNING
             yield self.report(call, message, severity=severity)

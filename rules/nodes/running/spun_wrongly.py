@@ -1,4 +1,4 @@
-"""ND057: live nodes are spun, by executors that have them."""
+"""ND057: nodes are spun before the shutdown, by executors that contain them."""
 
 from __future__ import annotations
 
@@ -46,15 +46,15 @@ _SPIN = "    executor.spin()\n"
 
 
 class SpunWrongly(RclpyRule):
-    """``rclpy.spin`` gets a class or executor or is too late, or an executor is empty or not spun.
+    """``rclpy.spin`` gets no node or comes too late, or an executor is empty or never spun.
 
-    **Why.** No callback is ever called: an executor without nodes waits forever, and does nothing
-    unless it is spun; after ``rclpy.shutdown()``, for which ``rclpy.spin`` waits, spinning has no
-    effect. A class in place of a node is a ``TypeError: 'property' object is not iterable``. Two
-    threads cannot spin at the same time, and ``rclpy.spin(node)`` takes the node to another
-    executor, with one thread.
+    **Why.** No callback ever runs: an executor without nodes waits forever, and one that is not
+    spun does nothing. After ``rclpy.shutdown()``, which ends ``rclpy.spin``, spinning has no
+    effect. A class instead of a node is a ``TypeError: 'property' object is not iterable``. Two
+    threads cannot spin the same node, and ``rclpy.spin(node)`` moves the node to another executor,
+    with one thread.
 
-    **Fix.** ``rclpy.spin(node)``, or ``executor.add_node(node)`` and ``executor.spin()``.
+    **Fix.** Call ``rclpy.spin(node)``, or ``executor.add_node(node)`` and ``executor.spin()``.
 
     **Source.** ``rclpy/__init__.py``; ``rclpy/executors.py``.
     """
@@ -68,7 +68,7 @@ class SpunWrongly(RclpyRule):
             {"talker.py": _NODE.format("    rclpy.spin(node)\n")},
         ),
         Example(
-            "a class for a node",
+            "a class instead of a node",
             {"talker.py": _NODE.format("    rclpy.spin(Talker)\n")},
             "14:5: 'Talker' is a class, not a node: TypeError; write Talker()",
         ),
@@ -103,7 +103,7 @@ class SpunWrongly(RclpyRule):
         Example(
             "two nodes, one after the other",
             {"talker.py": _NODE.format("    rclpy.spin(node)\n    rclpy.spin(Talker())\n")},
-            "15:5: the spin of line 14 returns only at the shutdown: this node is never spun; add "
+            "15:5: the spin in line 14 returns only at shutdown: this node is never spun; add "
             "both to an executor",
         ),
         Example(
@@ -115,8 +115,8 @@ class SpunWrongly(RclpyRule):
                     "    rclpy.spin_until_future_complete(node, node.ask())\n"
                 )
             },
-            "16:5: the thread of line 15 spins 'node' already: ValueError: generator already "
-            "executing; wait for the future in another way",
+            "16:5: the thread in line 15 already spins 'node': ValueError: generator already "
+            "executing; use add_done_callback()",
         ),
         Example(
             "a thread that another method starts, which this one does not call",
@@ -125,14 +125,14 @@ class SpunWrongly(RclpyRule):
         Example(
             "a thread that the constructor starts",
             {"talker.py": _THREAD.format("        self.start()\n", "")},
-            "17:9: the thread of line 14 spins 'self' already: ValueError: generator already "
-            "executing; wait for the future in another way",
+            "17:9: the thread in line 14 already spins 'self': ValueError: generator already "
+            "executing; use add_done_callback()",
         ),
         Example(
             "a thread that the method starts itself",
             {"talker.py": _THREAD.format("", "        self.start()\n")},
-            "17:9: the thread of line 13 spins 'self' already: ValueError: generator already "
-            "executing; wait for the future in another way",
+            "17:9: the thread in line 13 already spins 'self': ValueError: generator already "
+            "executing; use add_done_callback()",
         ),
         Example(
             "an executor with a node, spun", {"talker.py": _NODE_EXECUTORS.format(_ADD + _SPIN)}
@@ -165,7 +165,7 @@ class SpunWrongly(RclpyRule):
             "15:16: executor is never spun: the callbacks of 'other' never run",
         ),
         Example(
-            "one of many threads",
+            "one thread instead of several",
             {
                 "talker.py": _NODE_EXECUTORS.replace("SingleThreaded", "MultiThreaded")
                 .replace("Executor()", "Executor(num_threads=1)")
@@ -179,7 +179,7 @@ class SpunWrongly(RclpyRule):
             ),
         ),
         Example(
-            "with many threads that are not used",
+            "several threads that are not used",
             {
                 "talker.py": _NODE_EXECUTORS.replace("SingleThreaded", "MultiThreaded").format(
                     _ADD + "    rclpy.spin(node)\n"
@@ -187,8 +187,8 @@ class SpunWrongly(RclpyRule):
             },
             Report(
                 "17:5",
-                "rclpy.spin() does not use the executor of line 15: callbacks run "
-                "one at a time; call spin() of the executor",
+                "rclpy.spin() does not use the executor in line 15: callbacks run one "
+                "at a time; call spin() of the executor",
                 severity=Severity.WARNING,
             ),
         ),
@@ -213,8 +213,8 @@ class SpunWrongly(RclpyRule):
                     continue
                 if file.module.text(node) == name and _share_scope(file, thread, call.call):
                     message = (
-                        f"the thread of line {thread.lineno} spins {name!r} already: ValueError: "
-                        "generator already executing; wait for the future in another way"
+                        f"the thread in line {thread.lineno} already spins {name!r}: ValueError: "
+                        f"generator already executing; use add_done_callback()"
                     )
                     yield self.report(call, message)
 
@@ -250,8 +250,8 @@ class SpunWrongly(RclpyRule):
             elif "add_node" in used and not is_spun and _has_many_threads(call):
                 for other in _other_spins(file, used["add_node"]):
                     message = (
-                        f"rclpy.spin() does not use the executor of line {call.lineno}: "
-                        "callbacks run one at a time; call spin() of the executor"
+                        f"rclpy.spin() does not use the executor in line {call.lineno}: callbacks "
+                        f"run one at a time; call spin() of the executor"
                     )
                     yield self.report(other, message, severity=Severity.WARNING)
 
@@ -273,8 +273,8 @@ def _problem(file: RclpyFile, call: RclpyCall, shutdowns: Shutdowns) -> str:
     line = _spun_before(file, call)
     if line:
         return (
-            f"the spin of line {line} returns only at the shutdown: this node is never spun; "
-            "add both to an executor"
+            f"the spin in line {line} returns only at shutdown: this node is never spun; add both "
+            f"to an executor"
         )
     return ""
 

@@ -1,4 +1,4 @@
-"""ND011: submodules of rclpy are imported before use, and names from where they are."""
+"""ND011: submodules of rclpy are imported before use, and names from the right module."""
 
 from __future__ import annotations
 
@@ -29,11 +29,11 @@ _NODE = "import rclpy\n{}\n\nclass Talker(rclpy.node.Node):\n    pass\n"
 
 
 class SubmoduleNotImported(PythonRule):
-    """A submodule of rclpy is used without being imported, or a name of it imported from rclpy.
+    """A submodule of rclpy is used without an import, or one of its names imported from rclpy.
 
     **Why.** ``import rclpy`` does not load ``rclpy.node``: ``AttributeError: module 'rclpy' has no
     attribute 'node'``, ``ImportError: cannot import name 'Node' from 'rclpy'``. The first works
-    only where other code has loaded it; certain failures are reported.
+    only if other code has loaded the submodule; only certain failures are reported.
 
     **Fix.** Write ``from rclpy.node import Node``, or ``import rclpy.node``.
 

@@ -49,13 +49,13 @@ _FILES_CALLS = {
 
 
 class WaitsUnspun(Rule):
-    """``rate.sleep()`` or ``client.call()`` waits for work that only its own thread could do.
+    """``rate.sleep()`` or ``client.call()`` waits, but no other thread spins the node.
 
-    **Why.** A rate is woken by a timer of the node, and timers run and responses are received only
-    while the node is spun: without a second thread, the program hangs there forever. ND058 reports
-    calls in callbacks and constructors.
+    **Why.** A rate is woken by a timer of the node, and timers and responses are only processed
+    while the node is spun: without a second thread, the program hangs forever. ND058 reports calls
+    in callbacks and constructors.
 
-    **Fix.** Do the work of the loop in a timer, use ``call_async`` and
+    **Fix.** Move the body of the loop into a timer callback, use ``call_async`` and
     ``rclpy.spin_until_future_complete``, or spin the node in a separate thread.
 
     **Source.** ``rclpy/timer.py``, ``Rate.sleep``; rclpy issue 443; ROS 2 documentation,

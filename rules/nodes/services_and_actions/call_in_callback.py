@@ -1,4 +1,4 @@
-"""ND058: callbacks do not block on services."""
+"""ND058: callbacks do not block on service calls."""
 
 from __future__ import annotations
 
@@ -72,10 +72,10 @@ _BLOCKING = {
 class CallInCallback(RclpyRule):
     """A callback or constructor calls a service and blocks until the response.
 
-    **Why.** The executor receives the response, but waits for the callback: the node hangs
+    **Why.** The executor waits for the callback, so it cannot receive the response: the node hangs
     forever, without an error.
 
-    **Fix.** ``call_async`` with ``add_done_callback``, or an ``async`` callback that awaits.
+    **Fix.** Use ``call_async`` with ``add_done_callback``, or an ``async`` callback that awaits.
 
     **Source.** ROS 2 documentation, "Synchronous vs. asynchronous service clients".
     """
@@ -95,49 +95,50 @@ class CallInCallback(RclpyRule):
         Example(
             "a call",
             {"caller.py": _NODE.format("        self.client.call(Trigger.Request())\n")},
-            "12:9: waits for a service response in callback 'ask': deadlock, no response is "
-            "processed meanwhile",
+            "12:9: waits for a service response in callback 'ask': deadlock, because the response "
+            "cannot be received; use call_async()",
         ),
         Example(
             "a call in a thread that nothing spins",
             {"caller.py": "import threading\n\n" + _CALL + _THREADS},
-            "17:9: waits for a service response in callback 'ask': deadlock, no response is "
-            "processed meanwhile",
+            "17:9: waits for a service response in callback 'ask': deadlock, because the response "
+            "cannot be received; use call_async()",
         ),
         Example(
             "several threads and one callback group",
             {"caller.py": _CALL + _MAIN},
             "15:9: waits for a service response in callback 'ask', which shares its callback "
-            "group with the client: deadlock, no response is processed meanwhile",
+            "group with the client: deadlock, because the response cannot be received; use "
+            "call_async()",
         ),
         Example("several threads and a callback group for the client", {"caller.py": _OWN_GROUP}),
         Example(
             "a callback group for the client, and one thread",
             {"caller.py": _OWN_GROUP.replace("MultiThreaded", "SingleThreaded")},
-            "15:9: waits for a service response in callback 'ask': deadlock, no response is "
-            "processed meanwhile",
+            "15:9: waits for a service response in callback 'ask': deadlock, because the response "
+            "cannot be received; use call_async()",
         ),
         Example(
-            "while a goal is worked on, in one thread",
+            "in an execute callback, with one thread",
             {"caller.py": _GOAL.replace("MultiThreaded", "SingleThreaded")},
-            "16:9: waits for a service response in callback 'ask': deadlock, no response is "
-            "processed meanwhile",
+            "16:9: waits for a service response in callback 'ask': deadlock, because the response "
+            "cannot be received; use call_async()",
         ),
         Example(
-            "many threads that are not used",
+            "several threads that are not used",
             {"caller.py": _OWN_GROUP.replace("executor.spin()", "rclpy.spin(node)")},
-            "15:9: waits for a service response in callback 'ask': deadlock, no response is "
-            "processed meanwhile",
+            "15:9: waits for a service response in callback 'ask': deadlock, because the response "
+            "cannot be received; use call_async()",
         ),
-        Example("while a goal is worked on, in many threads", {"caller.py": _GOAL}),
+        Example("in an execute callback, with several threads", {"caller.py": _GOAL}),
         Example(
             "when a future is done",
             {"caller.py": _DONE},
-            "17:9: waits for a service response in callback 'again': deadlock, no response is "
-            "processed meanwhile",
+            "17:9: waits for a service response in callback 'again': deadlock, because the "
+            "response cannot be received; use call_async()",
         ),
         Example(
-            "when a future is done, in many threads",
+            "when a future is done, with several threads",
             {
                 "caller.py": _IMPORTS
                 + _DONE.removeprefix("import rclpy\n").partition("\n\n\ndef main")[0]
@@ -156,11 +157,11 @@ class CallInCallback(RclpyRule):
                     "        ActionClient(self, Count, 'count').send_goal(Count.Goal())\n"
                 )
             },
-            "13:9: waits for an action result in callback 'ask': deadlock, no response is "
-            "processed meanwhile",
+            "13:9: waits for an action result in callback 'ask': deadlock, because the response "
+            "cannot be received; use call_async()",
         ),
         Example(
-            "a loop that ends with its first pass",
+            "a loop that ends after its first iteration",
             {
                 "caller.py": _NODE.format(
                     "        future = self.client.call_async(Trigger.Request())\n"
@@ -172,7 +173,7 @@ class CallInCallback(RclpyRule):
             },
         ),
         Example(
-            "a loop as long as rclpy runs",
+            "a loop while rclpy.ok()",
             {
                 "caller.py": "import rclpy\n"
                 + _NODE.format(
@@ -180,8 +181,8 @@ class CallInCallback(RclpyRule):
                     "        while rclpy.ok() and not future.done():\n            pass\n"
                 )
             },
-            "14:9: busy-waits for a future in callback 'ask': deadlock, no response is processed "
-            "meanwhile",
+            "14:9: busy-waits for a future in callback 'ask': deadlock, because the response "
+            "cannot be received; use call_async()",
         ),
         Example(
             "a loop",
@@ -191,8 +192,8 @@ class CallInCallback(RclpyRule):
                     "        while not future.done():\n            pass\n"
                 )
             },
-            "13:9: busy-waits for a future in callback 'ask': deadlock, no response is processed "
-            "meanwhile",
+            "13:9: busy-waits for a future in callback 'ask': deadlock, because the response "
+            "cannot be received; use call_async()",
         ),
         Example(
             "in a function of another module",
@@ -210,8 +211,8 @@ class CallInCallback(RclpyRule):
                     "import Trigger\n", "import Trigger\n\nfrom rover.calls import call\n", 1
                 ),
             },
-            "rover/caller.py:14:9: waits for a response in call() in callback 'ask': deadlock, no "
-            "response is processed meanwhile",
+            "rover/caller.py:14:9: waits for a response in call() in callback 'ask': deadlock, "
+            "because the response cannot be received; use call_async()",
         ),
     )
 
@@ -235,7 +236,7 @@ class CallInCallback(RclpyRule):
 
 def _deadlock(file: RclpyFile, executed: Executed, client: Entity | None) -> str:
     """Return why a wait never ends; empty if it may."""
-    plain = ": deadlock, no response is processed meanwhile"
+    plain = ": deadlock, because the response cannot be received; use call_async()"
     is_same_node = executed.entity and client and executed.entity.owner is client.owner
     is_one_thread = spins_in_one_thread(file)
     if executed.is_task:

@@ -1,4 +1,4 @@
-"""ND021: the result of a call is read when the future is done."""
+"""ND021: the result of a call is read after the future is done."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ class FutureReadTooEarly(RclpyRule):
     code = "ND021"
     name = "future-read-too-early"
     other_severities = {
-        Severity.WARNING: "a wait with a timeout comes first, or nothing reads the result"
+        Severity.WARNING: "a wait with a timeout comes first, or the result is not used"
     }
     examples = (
         Example(
@@ -66,7 +66,7 @@ class FutureReadTooEarly(RclpyRule):
             "7:16: 'future' is not done here: result() returns None; use add_done_callback()",
         ),
         Example(
-            "a result that nothing reads",
+            "a result that is not used",
             {"caller.py": _NODE.format("future.result()")},
             Report(
                 "7:9",
@@ -75,7 +75,7 @@ class FutureReadTooEarly(RclpyRule):
             ),
         ),
         Example(
-            "after a wait with a timeout, asked and not asked",
+            "after a wait with a timeout, with and without a check",
             {
                 f"{name}.py": "import rclpy\n"
                 + _NODE.format(

@@ -1,4 +1,4 @@
-"""ND114: goals can be canceled while they are worked on."""
+"""ND114: goals can be canceled while they are executed."""
 
 from __future__ import annotations
 
@@ -40,12 +40,12 @@ _THREADS = ", executor=MultiThreadedExecutor()"
 class GoalNeverCanceled(RclpyRule):
     """An action server checks for cancel requests that it can never receive.
 
-    **Why.** Without a ``cancel_callback`` every request to cancel is rejected. With one thread, the
-    request is read only after the goal is done: the callback that works on the goal occupies the
+    **Why.** Without a ``cancel_callback``, every cancel request is rejected. With one thread, the
+    request is only processed after the goal is done, because the execute callback occupies the
     thread.
 
-    **Fix.** ``cancel_callback=self.cancel``, which returns ``CancelResponse.ACCEPT``; spin with a
-    ``MultiThreadedExecutor``, or work on the goal in an ``async`` callback that awaits.
+    **Fix.** Pass ``cancel_callback=self.cancel``, which returns ``CancelResponse.ACCEPT``, and spin
+    with a ``MultiThreadedExecutor``, or use an ``async`` execute callback that awaits.
 
     **Source.** ``rclpy/action/server.py``, ``default_cancel_callback``; ros2/examples,
     ``minimal_action_server``.
@@ -63,7 +63,7 @@ class GoalNeverCanceled(RclpyRule):
             "requests afterward; use a MultiThreadedExecutor",
         ),
         Example(
-            "a goal that nobody asked to cancel",
+            "a goal without a cancel request",
             {
                 "server.py": _NODE.format(_CANCEL, _THREADS).replace(
                     "if goal_handle.is_cancel_requested:", "if self.failed:"
@@ -73,7 +73,7 @@ class GoalNeverCanceled(RclpyRule):
             "is_cancel_requested, or call abort()",
         ),
         Example(
-            "a goal that nobody asked to cancel, in a coroutine that awaits nothing",
+            "a goal without a cancel request, in a coroutine that awaits nothing",
             {
                 "server.py": _NODE.format(_CANCEL, _THREADS)
                 .replace("if goal_handle.is_cancel_requested:", "if self.failed:")
@@ -83,7 +83,7 @@ class GoalNeverCanceled(RclpyRule):
             "is_cancel_requested, or call abort()",
         ),
         Example(
-            "a goal of which the cancel callback keeps that it is to be canceled",
+            "a cancel callback that stores the request",
             {
                 "server.py": _NODE.format(_CANCEL, _THREADS)
                 .replace("if goal_handle.is_cancel_requested:", "if self.is_stopped():")
@@ -98,7 +98,7 @@ class GoalNeverCanceled(RclpyRule):
             },
         ),
         Example(
-            "canceled before it may be",
+            "canceled too early",
             {
                 "server.py": _NODE.format(_CANCEL, _THREADS).replace(
                     "        return CancelResponse",
@@ -111,8 +111,8 @@ class GoalNeverCanceled(RclpyRule):
         Example(
             "all requests are rejected",
             {"server.py": _NODE.format("", _THREADS)},
-            "17:16: no cancel_callback: rclpy rejects all requests to cancel, so this is never "
-            "true; pass cancel_callback",
+            "17:16: never true: without a cancel_callback, rclpy rejects all cancel requests; "
+            "pass cancel_callback",
         ),
     )
 
@@ -127,8 +127,8 @@ class GoalNeverCanceled(RclpyRule):
                 continue
             if not _has_cancel_callback(file, server):
                 message = (
-                    "no cancel_callback: rclpy rejects all requests to cancel, so this is never "
-                    "true; pass cancel_callback"
+                    "never true: without a cancel_callback, rclpy rejects all cancel requests; "
+                    "pass cancel_callback"
                 )
                 yield self.report(file.module.location(asked), message)
             elif spins_in_one_thread(file) and _waits(file, server):

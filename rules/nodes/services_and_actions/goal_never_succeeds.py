@@ -1,4 +1,4 @@
-"""ND068: accepted goals are executed, and get a state."""
+"""ND068: accepted goals are executed, and their state is set."""
 
 from __future__ import annotations
 
@@ -44,14 +44,15 @@ _NODE_ACCEPTED = (
 
 
 class GoalNeverSucceeds(RclpyRule):
-    """An execute callback returns without setting the goal state, or nothing calls it.
+    """An execute callback returns without setting the goal state, or is never called.
 
     **Why.** rclpy treats the goal as failed: "Goal state not set, assuming aborted"; the client
-    gets ``STATUS_ABORTED``, with the result. A ``handle_accepted_callback`` replaces what rclpy
-    does on its own, which is ``goal_handle.execute()``: the goal is accepted, and nothing happens.
+    gets ``STATUS_ABORTED``, with the result. A ``handle_accepted_callback`` replaces the default,
+    which calls ``goal_handle.execute()``: the goal is accepted, but never executed.
 
-    **Fix.** Call ``goal_handle.succeed()`` before returning the result, ``canceled()`` where a
-    cancellation ends the goal; in the other callback ``goal_handle.execute()``, at once or later.
+    **Fix.** Call ``goal_handle.succeed()`` before returning the result, or ``canceled()`` after a
+    cancel request. In the ``handle_accepted_callback``, call ``goal_handle.execute()``, immediately
+    or later.
 
     **Source.** ``rclpy/action/server.py``, ``_execute_goal``, ``default_handle_accepted_callback``.
     """
@@ -62,47 +63,48 @@ class GoalNeverSucceeds(RclpyRule):
         Example("succeeds", {"server.py": _NODE.format("        goal_handle.succeed()\n")}),
         Example("aborts", {"server.py": _NODE.format("        goal_handle.abort()\n")}),
         Example(
-            "passes the handle on", {"server.py": _NODE.format("        self.end(goal_handle)\n")}
+            "passes the goal handle to a function",
+            {"server.py": _NODE.format("        self.end(goal_handle)\n")},
         ),
         Example(
-            "passes the handle on to a function that aborts",
+            "passes the goal handle to a function that aborts",
             {
                 "server.py": _NODE.format("        self.end(goal_handle)\n")
                 + "\n    def end(self, goal_handle):\n        goal_handle.abort()\n"
             },
         ),
         Example(
-            "passes the handle on to a function that sets no state",
+            "passes the goal handle to a function that sets no state",
             {
                 "server.py": _NODE.format("        self.end(goal_handle)\n")
                 + "\n    def end(self, goal_handle):\n"
                 "        self.order = goal_handle.request.order\n"
             },
-            "16:9: result returned without succeed(): goals of the action server of line 9 end as "
-            "aborted",
+            "16:9: returns the result without succeed(): goals of the action server in line 9 end "
+            "as aborted; call goal_handle.succeed() first",
         ),
         Example(
-            "canceled, and not so",
+            "with and without canceled()",
             {
                 "server.py": _NODE.format("        goal_handle.succeed()\n"),
                 "other.py": _NODE.format("        goal_handle.succeed()\n").replace(
                     "goal_handle.canceled()", "self.get_logger().info('canceled')"
                 ),
             },
-            "other.py:14:13: a canceled goal is returned without canceled(): it ends as aborted; "
-            "call goal_handle.canceled() before",
+            "other.py:14:13: returns after a cancel request without canceled(): the goal ends as "
+            "aborted; call goal_handle.canceled() first",
         ),
         Example(
             "sets no state",
             {"server.py": _NODE.format("")},
-            "15:9: result returned without succeed(): goals of the action server of line 9 end as "
-            "aborted",
+            "15:9: returns the result without succeed(): goals of the action server in line 9 end "
+            "as aborted; call goal_handle.succeed() first",
         ),
         Example("executed at once", {"server.py": _NODE_ACCEPTED.format("goal_handle.execute()")}),
         Example(
             "accepted, and never executed",
             {"server.py": _NODE_ACCEPTED.format("self.goal = goal_handle")},
-            "10:75: 'start' never calls execute(): goals are accepted, and nothing happens; call "
+            "10:75: 'start' never calls execute(): goals are accepted, but never executed; call "
             "goal_handle.execute()",
         ),
         Example(
@@ -119,8 +121,8 @@ class GoalNeverSucceeds(RclpyRule):
                     "self.work)\n\n", "lambda goal: self.work(goal))\n\n"
                 )
             },
-            "15:9: result returned without succeed(): goals of the action server of line 9 end as "
-            "aborted",
+            "15:9: returns the result without succeed(): goals of the action server in line 9 end "
+            "as aborted; call goal_handle.succeed() first",
         ),
     )
 
@@ -133,8 +135,8 @@ class GoalNeverSucceeds(RclpyRule):
             return
         for returned in _returned_uncanceled(file):
             message = (
-                "a canceled goal is returned without canceled(): it ends as aborted; call "
-                "goal_handle.canceled() before"
+                "returns after a cancel request without canceled(): the goal ends as aborted; "
+                "call goal_handle.canceled() first"
             )
             yield self.report(file.module.location(returned), message)
         seen: set[FunctionNode] = set()
@@ -147,8 +149,8 @@ class GoalNeverSucceeds(RclpyRule):
                 if _leaves_open(function):
                     line = server.location.line
                     message = (
-                        "result returned without succeed(): goals of the action server of "
-                        f"line {line} end as aborted"
+                        "returns the result without succeed(): goals of the action server in line "
+                        f"{line} end as aborted; call goal_handle.succeed() first"
                     )
                     yield self.report(file.module.location(function.body[-1]), message)
 
@@ -163,7 +165,7 @@ class GoalNeverSucceeds(RclpyRule):
             if not _executes(package):
                 message = (
                     f"{callback.name or 'this callback'!r} never calls execute(): goals are "
-                    "accepted, and nothing happens; call goal_handle.execute()"
+                    f"accepted, but never executed; call goal_handle.execute()"
                 )
                 yield self.report(given, message)
 

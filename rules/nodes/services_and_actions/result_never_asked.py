@@ -1,4 +1,4 @@
-"""ND122: a callback for the result of a goal is called."""
+"""ND122: results of goals are requested."""
 
 from __future__ import annotations
 
@@ -26,12 +26,12 @@ _NODE = (
 
 
 class ResultNeverAsked(RclpyRule):
-    """A node has a callback for the result of its goals, but never asks for the result.
+    """A node has a callback for the results of its goals, but never requests a result.
 
     **Why.** The future of ``send_goal_async`` is done when the goal is accepted; the result must be
     requested separately: the callback is never called.
 
-    **Fix.** ``goal_handle.get_result_async().add_done_callback(self.on_result)``.
+    **Fix.** Call ``goal_handle.get_result_async().add_done_callback(self.on_result)``.
 
     **Source.** ROS 2 documentation, "Writing an action server and client (Python)".
     """
@@ -42,7 +42,7 @@ class ResultNeverAsked(RclpyRule):
     effect = Effect.WRONG_BEHAVIOR
     examples = (
         Example(
-            "asks",
+            "requests the result",
             {
                 "caller.py": _NODE.format(
                     "future.result().get_result_async().add_done_callback(self.on_result)"
@@ -50,9 +50,9 @@ class ResultNeverAsked(RclpyRule):
             },
         ),
         Example(
-            "does not ask",
+            "does not request the result",
             {"caller.py": _NODE.format("self.handle = future.result()")},
-            "19:9: nothing calls 'on_result': the result is never requested; call "
+            "19:9: 'on_result' is never called, because the result is never requested; call "
             "goal_handle.get_result_async().add_done_callback(self.on_result)",
         ),
     )
@@ -71,7 +71,7 @@ class ResultNeverAsked(RclpyRule):
                 if not package.is_mentioned_once(name, file.module.path):
                     continue
                 message = (
-                    f"nothing calls {name!r}: the result is never requested; call "
+                    f"{name!r} is never called, because the result is never requested; call "
                     f"goal_handle.get_result_async().add_done_callback(self.{name})"
                 )
                 yield self.report(file.module.name_location(method), message)

@@ -1,4 +1,4 @@
-"""ND116: servers are known before something is sent to them."""
+"""ND116: clients and publishers wait for discovery before they send."""
 
 from __future__ import annotations
 
@@ -36,12 +36,12 @@ _PROGRAM = (
 
 
 class SentBeforeKnown(RclpyRule):
-    """The constructor of a node sends something with a client or publisher that it has just made.
+    """A request, goal or message is sent immediately after creating the client or publisher.
 
-    **Why.** The client has not discovered the server yet, so the message is lost: the future is
-    never done, without any error.
+    **Why.** The server is not discovered yet, so the message is lost: the future is never done,
+    without an error.
 
-    **Fix.** ``self.client.wait_for_server(timeout_sec=5.0)``, or send it from a timer when
+    **Fix.** Call ``self.client.wait_for_server(timeout_sec=5.0)``, or send it from a timer if
     ``server_is_ready()``.
 
     **Source.** ROS 2 documentation, "Writing an action server and client (Python)".
@@ -49,14 +49,14 @@ class SentBeforeKnown(RclpyRule):
 
     code = "ND116"
     name = "sent-before-known"
-    other_severities = {Severity.WARNING: "it is a message, which may come again"}
+    other_severities = {Severity.WARNING: "it is a message, which may be sent again"}
     effect = Effect.WRONG_BEHAVIOR
     examples = (
         Example(
             "waits", {"caller.py": _NODE.format("        self.client.wait_for_service(5.0)\n")}
         ),
         Example(
-            "again and again",
+            "sent repeatedly",
             {
                 "caller.py": _NODE.format("").replace(
                     "        self.future =",
@@ -66,7 +66,7 @@ class SentBeforeKnown(RclpyRule):
             },
         ),
         Example(
-            "a message at once, kept for those who come later, and lost",
+            "a message sent immediately: transient local, and lost",
             {
                 f"{name}.py": "from rclpy.node import Node\n"
                 "from rclpy.qos import DurabilityPolicy, QoSProfile\n"
@@ -93,7 +93,7 @@ class SentBeforeKnown(RclpyRule):
             ),
         ),
         Example(
-            "a program that publishes once, at once and after spin",
+            "a program that publishes once: immediately, and after spin",
             {
                 "stop.py": _PROGRAM.format("    publisher.publish(Twist())\n"),
                 "spun.py": _PROGRAM.format(
@@ -109,7 +109,7 @@ class SentBeforeKnown(RclpyRule):
             ),
         ),
         Example(
-            "a message at the end of a loop for a keyboard",
+            "a message at the end of a keyboard loop",
             {
                 "keys.py": "from geometry_msgs.msg import Twist\nfrom rclpy.node import Node\n\n\n"
                 "class Keys(Node):\n"
@@ -121,13 +121,13 @@ class SentBeforeKnown(RclpyRule):
             },
         ),
         Example(
-            "at once",
+            "sent immediately",
             {"caller.py": _NODE.format("")},
-            "9:23: the request is sent before the server is known: it is lost, and the future is "
-            "never done; call wait_for_service() first",
+            "9:23: the request is sent before the server is discovered: it is lost, and the "
+            "future is never done; call wait_for_service() first",
         ),
         Example(
-            "a goal of a class that gets the node",
+            "a goal in a class that gets the node",
             {
                 "goals.py": "from example_interfaces.action import Fibonacci\n"
                 "from rclpy.action import ActionClient\n\n\n"
@@ -136,8 +136,8 @@ class SentBeforeKnown(RclpyRule):
                 "        self.client = ActionClient(node, Fibonacci, 'count')\n"
                 "        self.future = self.client.send_goal_async(Fibonacci.Goal(order=5))\n"
             },
-            "8:23: the goal is sent before the server is known: it is lost, and the future is "
-            "never done; call wait_for_server() first",
+            "8:23: the goal is sent before the server is discovered: it is lost, and the future "
+            "is never done; call wait_for_server() first",
         ),
     )
 
@@ -153,7 +153,7 @@ class SentBeforeKnown(RclpyRule):
                 class_, what, wait = _SENDING[func.attr]
                 if class_of(file, func.value) == class_ and not _is_repeated(file, call):
                     message = (
-                        f"the {what} is sent before the server is known: it is lost, and the "
+                        f"the {what} is sent before the server is discovered: it is lost, and the "
                         f"future is never done; call {wait} first"
                     )
                     yield self.report(file.module.location(call), message)

@@ -1,4 +1,4 @@
-"""ND105: times that are compared are of the same clock."""
+"""ND105: times that are compared come from the same clock."""
 
 from __future__ import annotations
 
@@ -30,13 +30,13 @@ _NODE = (
 
 
 class ClocksMixed(RclpyRule):
-    """Times of different clocks are subtracted or compared, or stamps are of the system clock.
+    """Times of different clocks are subtracted or compared, or stamps use the system clock.
 
-    **Why.** ``TypeError: Can't subtract times with different clock types``. ``Time()`` is of the
-    system clock, the clock of a node is a ROS clock, also while it shows the system's time. A
-    number of seconds is not an rclpy ``Time``.
+    **Why.** ``TypeError: Can't subtract times with different clock types``. ``Time()`` uses the
+    system clock, but the clock of a node is a ROS clock, even without simulated time. A number of
+    seconds is not an rclpy ``Time``.
 
-    **Fix.** Begin with ``self.get_clock().now()``, or with
+    **Fix.** Initialize with ``self.get_clock().now()``, or with
     ``Time(clock_type=ClockType.ROS_TIME)``.
 
     **Source.** ``rclpy/time.py``, ``Time.__sub__``.
@@ -44,7 +44,7 @@ class ClocksMixed(RclpyRule):
 
     code = "ND105"
     name = "clocks-mixed"
-    other_severities = {Severity.WARNING: "it is a stamp: only in a simulation it is wrong"}
+    other_severities = {Severity.WARNING: "it is a stamp, which is only wrong in simulation"}
     examples = (
         Example("the same clock", {"driver.py": _NODE.format("self.get_clock().now()", "")}),
         Example(
@@ -52,7 +52,7 @@ class ClocksMixed(RclpyRule):
             {"driver.py": _NODE.format("Time(clock_type=ClockType.ROS_TIME)", "")},
         ),
         Example(
-            "a stamp of the clock of the node, and of one of its own",
+            "a stamp from the clock of the node, and from another one",
             {
                 f"{name}.py": "from rclpy.clock import Clock, ClockType\n"
                 "from rclpy.node import Node\n\n\n"
@@ -70,19 +70,19 @@ class ClocksMixed(RclpyRule):
             },
             Report(
                 "system.py:11:28",
-                "a stamp of the system clock, which does not follow the time of a "
-                "simulation: use self.get_clock()",
+                "the stamp is from the system clock, which does not follow simulated "
+                "time; use self.get_clock()",
                 severity=Severity.WARNING,
             ),
         ),
         Example(
-            "begins with another clock",
+            "initialized with another clock",
             {"driver.py": _NODE.format("Time()", "")},
             "13:20: times of the ROS clock and of the system clock cannot be subtracted: "
             "TypeError; use Time(clock_type=ClockType.ROS_TIME) or the clock of the node",
         ),
         Example(
-            "asks first",
+            "checks first",
             {
                 "driver.py": _NODE.format(
                     "Time()", "if not self.last.nanoseconds:\n            return\n        "
@@ -90,16 +90,16 @@ class ClocksMixed(RclpyRule):
             },
         ),
         Example(
-            "begins with a number",
+            "initialized with a number",
             {
                 "driver.py": "import time\n\n" + _NODE.format("time.time()", ""),
                 "other.py": _NODE.format("0.0", "if not self.last:\n            return\n        "),
             },
-            "driver.py:15:20: an rclpy Time and a number cannot be subtracted: TypeError; begin "
-            "with the clock of the node: self.get_clock().now()",
+            "driver.py:15:20: an rclpy Time and a number cannot be subtracted: TypeError; "
+            "initialize it with self.get_clock().now()",
         ),
         Example(
-            "a stamp and the system clock",
+            "a stamp from the system clock",
             {
                 "age.py": "from rclpy.clock import Clock\nfrom rclpy.time import Time\n\n\n"
                 "def is_old(msg, limit):\n"
@@ -116,7 +116,7 @@ class ClocksMixed(RclpyRule):
             return
         for stamp in _system_stamps(file):
             message = (
-                "a stamp of the system clock, which does not follow the time of a simulation: use "
+                "the stamp is from the system clock, which does not follow simulated time; use "
                 "self.get_clock()"
             )
             yield self.report(file.module.location(stamp), message, severity=Severity.WARNING)
@@ -135,7 +135,7 @@ class ClocksMixed(RclpyRule):
                     yield self.report(file.module.location(node), _of_two_clocks(pair, verb))
                 elif not isinstance(operator, ast.Eq | ast.NotEq):
                     message = f"an rclpy Time and a number cannot be {verb}: TypeError; "
-                    message += "begin with the clock of the node: self.get_clock().now()"
+                    message += "initialize it with self.get_clock().now()"
                     yield self.report(file.module.location(node), message)
 
 

@@ -39,10 +39,10 @@ _NODE = (
 
 
 class RateAsPeriod(RclpyRule):
-    """A rate or a number of milliseconds is given where a period in seconds is expected.
+    """A rate or a number of milliseconds is passed as a period in seconds.
 
-    **Why.** A timer with a "period" of 20 Hz fires once in 20 seconds; one of 100 milliseconds
-    every 100 seconds.
+    **Why.** A timer with a rate of 20 Hz as its period fires every 20 seconds, one with 100
+    milliseconds every 100 seconds.
 
     **Fix.** ``self.create_timer(1.0 / rate, ...)``; ``self.create_timer(0.1, ...)``.
 
@@ -51,7 +51,7 @@ class RateAsPeriod(RclpyRule):
 
     code = "ND108"
     name = "rate-as-period"
-    other_severities = {Severity.WARNING: "the name may be that of a period after all"}
+    other_severities = {Severity.WARNING: "the name may refer to a period"}
     effect = Effect.WRONG_BEHAVIOR
     examples = (
         Example("a period", {"talker.py": _NODE.format("1.0 / rate")}),
@@ -59,14 +59,14 @@ class RateAsPeriod(RclpyRule):
         Example(
             "milliseconds of a rate",
             {"talker.py": _NODE.format("1000.0 / rate")},
-            "9:40: 1000 / rate are milliseconds; a period is in seconds: write 1.0 / rate",
+            "9:40: 1000 / rate is in milliseconds, but the period is in seconds; write 1.0 / rate",
         ),
         Example(
             "a rate",
             {"talker.py": _NODE.format("rate")},
             Report(
                 "9:40",
-                "a rate of 20 Hz where the period belongs: one call in 20 s; write 1.0 / rate",
+                "a rate of 20 Hz is passed as the period: one call every 20 s; write 1.0 / rate",
                 severity=Severity.WARNING,
             ),
         ),
@@ -75,18 +75,18 @@ class RateAsPeriod(RclpyRule):
             {"talker.py": _NODE.format("rate").replace(".value\n", ".value  # per second\n")},
             Report(
                 "9:40",
-                "a rate of 20 Hz where the period belongs: one call in 20 s; write 1.0 / rate",
+                "a rate of 20 Hz is passed as the period: one call every 20 s; write 1.0 / rate",
                 severity=Severity.WARNING,
             ),
         ),
         Example(
-            "what is called a rate, in seconds",
+            "a period in seconds that is named rate",
             {"talker.py": _NODE.format("rate").replace(".value\n", ".value  # rate in seconds\n")},
         ),
         Example(
             "milliseconds",
             {"talker.py": _NODE.format("self.timer_ms")},
-            "9:40: milliseconds where seconds are expected; divide by 1000",
+            "9:40: the value is in milliseconds, but the period is in seconds; divide by 1000",
         ),
         Example("in seconds", {"talker.py": _NODE.format("self.timer_ms / 1000")}),
         Example(
@@ -98,7 +98,7 @@ class RateAsPeriod(RclpyRule):
                 severity=Severity.WARNING,
             ),
         ),
-        Example("one call in 500 seconds", {"talker.py": _NODE.format("1.0 / 0.002")}),
+        Example("one call every 500 seconds", {"talker.py": _NODE.format("1.0 / 0.002")}),
         Example(
             "a period for a Rate",
             {
@@ -109,10 +109,10 @@ class RateAsPeriod(RclpyRule):
                 "        period = 0.1\n"
                 "        self.rate = self.create_rate(period)\n"
             },
-            "8:38: a period where the rate belongs; write 1.0 / period",
+            "8:38: a period is passed as the rate; write 1.0 / period",
         ),
         Example(
-            "a period that is called a rate",
+            "a period that is named rate",
             {"talker.py": _NODE.format("rate").replace("'rate', 20.0", "'rate', 0.05")},
         ),
     )
@@ -127,7 +127,9 @@ class RateAsPeriod(RclpyRule):
             if given is None:
                 continue
             if name == "create_timer" and _is_of_thousand(file, given):
-                message = "1000 / rate are milliseconds; a period is in seconds: write 1.0 / rate"
+                message = (
+                    "1000 / rate is in milliseconds, but the period is in seconds; write 1.0 / rate"
+                )
                 yield self.report(file.module.location(given), message)
                 continue
             at = file.module.location(given)
@@ -137,7 +139,9 @@ class RateAsPeriod(RclpyRule):
                 value if type(value) in {int, float} and isinstance(value, int | float) else None
             )
             if words & _MILLISECONDS:
-                message = "milliseconds where seconds are expected; divide by 1000"
+                message = (
+                    "the value is in milliseconds, but the period is in seconds; divide by 1000"
+                )
                 if number is None or number >= 1:
                     yield self.report(at, message)
             elif words & _RATES and name == "create_timer" and not words & _PERIODS:
@@ -160,15 +164,17 @@ class RateAsPeriod(RclpyRule):
         if number is not None and (number <= 1 or (not is_clear and number < _MIN_RATE)):
             return
         rate = "a rate" if number is None else f"a rate of {number:g} Hz"
-        happens = "one call in as many seconds" if number is None else f"one call in {number:g} s"
-        message = f"{rate} where the period belongs: {happens}; write 1.0 / rate"
+        happens = (
+            "one call every that many seconds" if number is None else f"one call every {number:g} s"
+        )
+        message = f"{rate} is passed as the period: {happens}; write 1.0 / rate"
         severity = None if is_clear and number is not None else Severity.WARNING
         yield self.report(file.module.location(given), message, severity=severity)
 
     def _check_rate(self, file: RclpyFile, call: ast.Call) -> Iterator[Diagnostic]:
         given = _argument(call, 0, "frequency")
         if given is not None and _words(file, given) & _PERIODS:
-            message = "a period where the rate belongs; write 1.0 / period"
+            message = "a period is passed as the rate; write 1.0 / period"
             yield self.report(file.module.location(given), message)
 
 

@@ -1,4 +1,4 @@
-"""ND107: whether time is simulated is decided by who starts a node."""
+"""ND107: simulated time is enabled from outside of the node."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ _NODE = (
 
 
 class SimTimeForced(RclpyRule):
-    """A node sets its own ``use_sim_time`` to true.
+    """A node sets its own ``use_sim_time`` parameter to true.
 
     **Why.** Without a publisher on ``/clock``, as on the robot, its clock stays at 0: no timer
     ever fires, and all stamps are zero.
@@ -48,12 +48,12 @@ class SimTimeForced(RclpyRule):
     effect = Effect.WRONG_BEHAVIOR
     examples = (
         Example("off", {"driver.py": _NODE.format("", "False")}),
-        Example("for who asks for it", {"driver.py": _NODE.format(", simulated", "simulated")}),
+        Example("on request", {"driver.py": _NODE.format(", simulated", "simulated")}),
         Example(
             "always on",
             {"driver.py": _NODE.format("", "True")},
-            "8:13: use_sim_time is always on: without /clock, no timer ever fires; set it where "
-            "the simulation is started",
+            "8:13: use_sim_time is always true: without /clock, no timer ever fires; set it in "
+            "the launch file of the simulation",
         ),
         Example(
             "as an argument",
@@ -61,8 +61,8 @@ class SimTimeForced(RclpyRule):
                 "driver.py": "import rclpy\n\n\ndef main():\n"
                 "    rclpy.init(args=['--ros-args', '-p', 'use_sim_time:=true'])\n"
             },
-            "5:42: use_sim_time is always on: without /clock, no timer ever fires; set it where "
-            "the simulation is started",
+            "5:42: use_sim_time is always true: without /clock, no timer ever fires; set it in "
+            "the launch file of the simulation",
         ),
         Example("in a node of a simulation", {"sim_driver.py": _NODE.format("", "True")}),
     )
@@ -74,8 +74,8 @@ class SimTimeForced(RclpyRule):
             given = _forced(file, call)
             if given is not None and not file.is_conditional(call):
                 message = (
-                    "use_sim_time is always on: without /clock, no timer ever fires; "
-                    "set it where the simulation is started"
+                    "use_sim_time is always true: without /clock, no timer ever fires; set it in "
+                    "the launch file of the simulation"
                 )
                 yield self.report(file.module.location(given), message)
 

@@ -1,4 +1,4 @@
-"""ND069: message stamps are converted to rclpy times for arithmetic."""
+"""ND069: message stamps are converted to rclpy times before arithmetic."""
 
 from __future__ import annotations
 
@@ -25,10 +25,10 @@ _NODE = (
 class StampComputedWith(RclpyRule):
     """The stamp of a message is used in arithmetic or compared with a time.
 
-    **Why.** ``TypeError: unsupported operand type(s) for -: 'Time' and 'Time'``: a message holds
-    a ``builtin_interfaces/Time``, which has fields, but no arithmetic.
+    **Why.** ``TypeError: unsupported operand type(s) for -: 'Time' and 'Time'``: a message contains
+    a ``builtin_interfaces/Time``, which has fields, but no operators.
 
-    **Fix.** ``Time.from_msg(msg.header.stamp)``, with ``from rclpy.time import Time``.
+    **Fix.** Use ``Time.from_msg(msg.header.stamp)``, with ``from rclpy.time import Time``.
 
     **Source.** ``rclpy/time.py``, ``Time.from_msg``; ``builtin_interfaces/msg/Time.msg``.
     """
@@ -57,7 +57,7 @@ class StampComputedWith(RclpyRule):
             "17:46: message stamp is not an rclpy Time: TypeError; use Time.from_msg(...)",
         ),
         Example(
-            "kept in attributes",
+            "stored in attributes",
             {
                 "viewer.py": _NODE.format("self.last") + "        self.last = msg.header.stamp\n\n"
                 "    def tick(self):\n"
@@ -70,7 +70,7 @@ class StampComputedWith(RclpyRule):
             "18:24: message stamp is not an rclpy Time: TypeError; use Time.from_msg(...)",
         ),
         Example(
-            "converted when it is kept",
+            "converted when it is stored",
             {
                 "viewer.py": _NODE.format("self.last")
                 + "        self.last = Time.from_msg(msg.header.stamp)\n"
@@ -92,7 +92,7 @@ class StampComputedWith(RclpyRule):
                 "    kept.sort(key=lambda item: item.header.stamp)\n"
                 "    return min(kept, key=lambda item: Time.from_msg(item.header.stamp))\n"
             },
-            "5:32: message stamps have no order: TypeError; use Time.from_msg(...)",
+            "5:32: message stamps cannot be compared: TypeError; use Time.from_msg(...)",
         ),
     )
 
@@ -114,7 +114,9 @@ class StampComputedWith(RclpyRule):
                             ) as stamp
                         ),
                     ):
-                        message = "message stamps have no order: TypeError; use Time.from_msg(...)"
+                        message = (
+                            "message stamps cannot be compared: TypeError; use Time.from_msg(...)"
+                        )
                         yield self.report(file.module.location(stamp), message)
 
 

@@ -1,4 +1,4 @@
-"""ND106: time steps have a fraction of a second."""
+"""ND106: time steps include the fraction of a second."""
 
 from __future__ import annotations
 
@@ -31,14 +31,14 @@ _BOTH = "now.sec - self.last.sec + (now.nanosec - self.last.nanosec) / 1e9"
 class StepWithoutFraction(RclpyRule):
     """A time is computed from only one of its fields, or used in another unit.
 
-    **Why.** A step of ``sec`` is 0 within a second, and 1 from one second to the next: what is
-    integrated stays still and jumps, what is divided ends in ``ZeroDivisionError``. ``nanosec``
-    begins at 0 with every second: its difference is negative then. ``sec + nanosec`` grows by a
-    thousand million within a second. ``nanoseconds > 0.5`` is true after any time at all, and a
-    step in milliseconds moves the odometry a thousand times too far.
+    **Why.** A difference of ``sec`` is 0 within a second and 1 across seconds: integrated values
+    jump, and a division raises ``ZeroDivisionError``. ``nanosec`` restarts at 0 with every second:
+    its difference is negative then. ``sec + nanosec`` grows by a billion within a second.
+    ``nanoseconds > 0.5`` is always true, and a step in milliseconds makes odometry a thousand times
+    too large.
 
-    **Fix.** ``(Time.from_msg(a) - Time.from_msg(b)).nanoseconds / 1e9``;
-    ``elapsed > Duration(seconds=0.5)``; ``Time.from_msg(stamp)``.
+    **Fix.** Write ``(Time.from_msg(a) - Time.from_msg(b)).nanoseconds / 1e9``; ``elapsed >
+    Duration(seconds=0.5)``; ``Time.from_msg(stamp)``.
 
     **Source.** ``builtin_interfaces/msg/Time``; ``rclpy/time.py``, ``rclpy/duration.py``.
     """
@@ -49,7 +49,7 @@ class StepWithoutFraction(RclpyRule):
     examples = (
         Example("both parts", {"odometry.py": _NODE.format(_BOTH)}),
         Example(
-            "the time of what is written to a bag",
+            "the time of messages in a bag",
             {
                 "copy_bag.py": "import time\n\nfrom rclpy.clock import Clock\n"
                 "from rosbag2_py import SequentialWriter\n\n\n"
@@ -69,11 +69,11 @@ class StepWithoutFraction(RclpyRule):
         Example(
             "whole seconds",
             {"odometry.py": _NODE.format("float(now.sec - self.last.sec)")},
-            "14:24: time step from 'sec' alone: it has no fraction, and is 0 within a second; use "
+            "14:24: time step from 'sec' alone: it has no fraction and is 0 within a second; use "
             "(Time.from_msg(a) - Time.from_msg(b)).nanoseconds / 1e9",
         ),
         Example(
-            "whole seconds, each of which is counted once",
+            "whole seconds that are counted",
             {
                 "odometry.py": _NODE.format("now.sec - self.last.sec")
                 .replace("        self.last = now\n", "")
@@ -91,7 +91,7 @@ class StepWithoutFraction(RclpyRule):
         Example(
             "nanoseconds",
             {"odometry.py": _NODE.format("(now.nanosec - self.last.nanosec) * 1e-9")},
-            "14:19: time step from 'nanosec' alone: it is negative whenever a second ends; use "
+            "14:19: time step from 'nanosec' alone: it is negative at the end of each second; use "
             "(Time.from_msg(a) - Time.from_msg(b)).nanoseconds / 1e9",
         ),
         Example(
@@ -104,7 +104,7 @@ class StepWithoutFraction(RclpyRule):
             "15:19: nanoseconds are added to seconds: divide 'nanosec' by 1e9",
         ),
         Example(
-            "another factor, or no zeros in front of the nanoseconds",
+            "a wrong factor, or no padding of the nanoseconds",
             {
                 "odometry.py": _NODE.format(
                     "now.sec + now.nanosec / 1e9\n"
@@ -129,7 +129,7 @@ class StepWithoutFraction(RclpyRule):
             },
         ),
         Example(
-            "milliseconds where a speed takes seconds",
+            "milliseconds in a speed per second",
             {
                 "odometry.py": _NODE.format(
                     "(Time.from_msg(now) - self.last).nanoseconds / 1e6"
@@ -138,7 +138,7 @@ class StepWithoutFraction(RclpyRule):
             "16:50: dt is in milliseconds, a speed is per second: multiply nanoseconds by 1e-9",
         ),
         Example(
-            "nanoseconds compared with seconds, and with all of a time",
+            "nanoseconds compared with seconds, and with a whole time",
             {
                 "odometry.py": _NODE.format(
                     "1.0\n"
@@ -177,9 +177,9 @@ class StepWithoutFraction(RclpyRule):
                 if not _needs_other_part(file, node, part):
                     continue
                 happens = (
-                    "it has no fraction, and is 0 within a second"
+                    "it has no fraction and is 0 within a second"
                     if part == "sec"
-                    else "it is negative whenever a second ends"
+                    else "it is negative at the end of each second"
                 )
                 message = (
                     f"time step from {part!r} alone: {happens}; use "

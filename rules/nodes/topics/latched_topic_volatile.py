@@ -1,4 +1,4 @@
-"""ND121: what is published once reaches who comes late."""
+"""ND121: messages that are published once are transient local."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from scaffold.api.rclpy import (
 )
 
 _PUBLISHED_ONCE = frozenset({"robot_description", "tf_static"})
-"""Topics that are published once, unlike a map, which some publish periodically."""
+"""Topics that are published once, unlike a map, which some nodes publish periodically."""
 _NODE = (
     "from nav_msgs.msg import OccupancyGrid\nfrom rclpy.node import Node\n"
     "from rclpy.qos import DurabilityPolicy, QoSProfile\n"
@@ -60,14 +60,15 @@ _MAX_CALLS = 5
 
 
 class LatchedTopicVolatile(RclpyRule):
-    """A message published once is volatile, or a transient local topic is used as volatile.
+    """A message that is published once is volatile, or a transient local topic is used as volatile.
 
-    **Why.** The map, the description of the robot and static transforms are published once, when
-    their node starts; so is what a constructor or a program that ends publishes, before subscribers
-    are discovered. A volatile subscription that starts later gets nothing, without any warning;
-    subscriptions that request transient local do not connect to a volatile publisher.
+    **Why.** The map, the robot description and static transforms are published once, when their
+    node starts; the same is true of messages from a constructor, or from a program that exits
+    before subscribers are discovered. A volatile subscription that starts later gets nothing,
+    without a warning, and subscriptions that request transient local do not connect to a volatile
+    publisher.
 
-    **Fix.** ``QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)`` on both sides.
+    **Fix.** Use ``QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)`` on both sides.
 
     **Source.** REP 2003; ROS 2 documentation, "Quality of Service settings"; ``nav2_map_server``,
     ``robot_state_publisher``, ``tf2_ros``.
@@ -90,7 +91,7 @@ class LatchedTopicVolatile(RclpyRule):
             "it; use QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)",
         ),
         Example(
-            "the description of a robot",
+            "the robot description",
             {"viewer.py": _NODE.format("subscription(String, 'robot_description', print, 10)")},
             Report(
                 "10:70",
@@ -163,14 +164,13 @@ class LatchedTopicVolatile(RclpyRule):
             },
         ),
         Example(
-            "published by a program that ends, or that waits",
+            "published by a program that exits, or that waits",
             {
                 "tell.py": _PROGRAM.format("pass"),
                 "later.py": _PROGRAM.format("time.sleep(2.0)"),
             },
-            "tell.py:12:9: the only message on 'joined' is published as soon as the publisher is "
-            "there, and the program ends: no subscriber is found by then; wait for "
-            "get_subscription_count()",
+            "tell.py:12:9: the only message on 'joined' is published immediately, and the program "
+            "exits: no subscriber is discovered by then; wait for get_subscription_count()",
         ),
     )
 
@@ -238,9 +238,8 @@ class LatchedTopicVolatile(RclpyRule):
                 yield self.report(file.module.location(call), message)
             elif file.init_calls and not _waits(file, call):
                 message = (
-                    f"the only message{topic} is published as soon as the publisher is there, and "
-                    "the program ends: no subscriber is found by then; wait for "
-                    "get_subscription_count()"
+                    f"the only message{topic} is published immediately, and the program exits: no "
+                    f"subscriber is discovered by then; wait for get_subscription_count()"
                 )
                 yield self.report(file.module.location(call), message)
 

@@ -55,16 +55,16 @@ _WINDOW = (
 
 
 class MadeAndUnused(RclpyRule):
-    """A node has a publisher, a callback, a callback group or a window that nothing uses.
+    """A node has a publisher, a callback, a callback group or a window that is not used.
 
     **Why.** ``ros2 topic list`` shows the topic, but nothing is ever published on it. A callback
-    that is not passed to anything never runs: often two subscriptions got the same one, or it has
-    not the name that the base class subscribes with. Without its group, all callbacks stay in the
-    default one, which runs one at a time: callbacks that should run in parallel wait, or deadlock.
+    that is never registered never runs: often, two subscriptions have the same callback, or the
+    base class subscribes with another name. Without a callback group, callbacks stay in the default
+    group, which runs them one at a time: callbacks that should run in parallel wait, or deadlock.
     OpenCV draws its windows in ``cv2.waitKey``.
 
-    **Fix.** Publish, pass the callback to ``create_subscription``, the group as
-    ``callback_group=``, or remove what is not used.
+    **Fix.** Publish, pass the callback to ``create_subscription`` and the group as
+    ``callback_group=``, or remove the unused object.
 
     **Source.** ``rclpy/publisher.py``, ``publish``; ``rclpy/node.py``, ``create_subscription``; ROS
     2 documentation, "Using callback groups".
@@ -73,7 +73,7 @@ class MadeAndUnused(RclpyRule):
     code = "ND071"
     name = "made-and-unused"
     severity = Severity.WARNING
-    other_severities = {Severity.ERROR: "it is a window that nothing draws"}
+    other_severities = {Severity.ERROR: "it is a window that is never drawn"}
     effect = Effect.WRONG_BEHAVIOR
     examples = (
         Example(
@@ -93,7 +93,7 @@ class MadeAndUnused(RclpyRule):
             "20:9: callback 'right_callback' is never registered: it never runs",
         ),
         Example(
-            "a publisher for each topic, and what is never called",
+            "a publisher for each topic, and a function that is never called",
             {
                 "talker.py": _NODE.format("self.chatter_pub.publish(String())\n\n{}").format(
                     "    def add_joystick(self):\n"
@@ -105,9 +105,9 @@ class MadeAndUnused(RclpyRule):
                 ),
                 "other.py": "def start(node):\n    node.add_lanes()\n",
             },
-            "talker.py:15:9: nothing calls add_joystick(): the subscription in it does not exist",
+            "talker.py:15:9: add_joystick() is never called, so its subscription does not exist",
             "talker.py:20:29: each iteration of the loop replaces 'lane_pub': messages only go to "
-            "the last topic; keep the publishers in a list or a dict",
+            "the last topic; store the publishers in a list or dict",
         ),
         Example(
             "a publisher that is used",
@@ -144,7 +144,7 @@ class MadeAndUnused(RclpyRule):
             {"draw.py": _WINDOW.format("")},
             Report(
                 "12:9",
-                "OpenCV draws no window without cv2.waitKey(1) after it: it stays empty",
+                "OpenCV does not draw the window without cv2.waitKey(1); call it after imshow()",
                 severity=Severity.ERROR,
             ),
         ),
@@ -152,7 +152,9 @@ class MadeAndUnused(RclpyRule):
 
     def check_in(self, package: Package, file: RclpyFile) -> Iterator[Diagnostic]:
         for window in _windows_without_events(package, file):
-            message = "OpenCV draws no window without cv2.waitKey(1) after it: it stays empty"
+            message = (
+                "OpenCV does not draw the window without cv2.waitKey(1); call it after imshow()"
+            )
             yield self.report(file.module.location(window), message, severity=Severity.ERROR)
         yield from self._check_entities(package, file)
         yield from self._check_groups(package, file)
@@ -171,8 +173,8 @@ class MadeAndUnused(RclpyRule):
                 yield self.report(publisher, message)
             elif _is_replaced(file, publisher.call, name):
                 message = (
-                    f"each iteration of the loop replaces {name!r}: messages only go to the "
-                    "last topic; keep the publishers in a list or a dict"
+                    f"each iteration of the loop replaces {name!r}: messages only go to the last "
+                    f"topic; store the publishers in a list or dict"
                 )
                 yield self.report(publisher, message)
         for class_ in file.classes:
@@ -262,7 +264,7 @@ def _uncalled_setups(file: RclpyFile, class_: NodeClass) -> Iterator[tuple[str, 
         ]
         created = [kind for kind in made if kind]
         if created:
-            yield name, f"nothing calls {name}(): the {created[0]} in it does not exist"
+            yield name, f"{name}() is never called, so its {created[0]} does not exist"
 
 
 def _is_replaced(file: RclpyFile, call: ast.Call, name: str) -> bool:

@@ -39,7 +39,7 @@ class QosIncompatible(Rule):
 
     code = "ND051"
     name = "qos-incompatible"
-    other_severities = {Severity.WARNING: "nothing runs the script that the other side is in"}
+    other_severities = {Severity.WARNING: "the other side is in a script that is not installed"}
     effect = Effect.WRONG_BEHAVIOR
     examples = (
         Example(
@@ -52,7 +52,7 @@ class QosIncompatible(Rule):
             },
         ),
         Example(
-            "best effort for reliable",
+            "best effort offered, reliable requested",
             {
                 "a.py": _NODE.format("publisher(String, 'chatter', qos_profile_sensor_data)"),
                 "b.py": _NODE.format("subscription(String, 'chatter', print, 10)"),
@@ -63,7 +63,7 @@ class QosIncompatible(Rule):
             "BEST_EFFORT: nothing arrives",
         ),
         Example(
-            "a topic that is the default of a parameter, and set to the same",
+            "a topic from a parameter that is set to its default",
             {
                 "a.py": _DEFAULT.format("publisher(String, topic, qos_profile_sensor_data)"),
                 "b.py": _NODE.format("subscription(String, 'chatter', print, 10)"),
@@ -75,7 +75,7 @@ class QosIncompatible(Rule):
             "BEST_EFFORT: nothing arrives",
         ),
         Example(
-            "a parameter that is set to another topic",
+            "a topic from a parameter that is set to another topic",
             {
                 "a.py": _DEFAULT.format("publisher(String, topic, qos_profile_sensor_data)"),
                 "b.py": _NODE.format("subscription(String, 'chatter', print, 10)"),
@@ -83,7 +83,7 @@ class QosIncompatible(Rule):
             },
         ),
         Example(
-            "a program in C++ publishes the topic, too",
+            "a C++ program also publishes the topic",
             {
                 "a.py": _NODE.format("publisher(String, 'chatter', qos_profile_sensor_data)"),
                 "b.py": _NODE.format("subscription(String, 'chatter', print, 10)"),
@@ -91,7 +91,7 @@ class QosIncompatible(Rule):
             },
         ),
         Example(
-            "the publisher of a script that nothing installs",
+            "the publisher of a script that is not installed",
             {
                 "setup.py": "from setuptools import setup\n\nsetup(packages=['talker'])\n",
                 "talker/__init__.py": "",
@@ -114,7 +114,7 @@ class QosIncompatible(Rule):
             ),
         ),
         Example(
-            "volatile for transient local",
+            "volatile offered, transient local requested",
             {
                 "a.py": _NODE.format("publisher(String, 'chatter', 10)"),
                 "b.py": _NODE.format(f"subscription(String, 'chatter', print, {_LATCHED})"),

@@ -1,4 +1,4 @@
-"""ND091: publishers and subscriptions have a QoS: a depth, or a profile with valid policies."""
+"""ND091: publishers and subscriptions have a depth or a valid QoS profile."""
 
 from __future__ import annotations
 
@@ -36,10 +36,9 @@ _QOS = "from rclpy.qos import QoSProfile\n"
 class QosUnusable(RclpyRule):
     """A QoS argument is missing, or not a depth or a profile, or a profile has an invalid value.
 
-    **Why.** ROS 2 needs to know how many messages to keep: ``TypeError`` without the argument or
-    for a str, ``InvalidQoSProfileException`` without the depth, ``AssertionError`` for a value of a
-    profile. A policy of another kind is used by its number: the profile differs from the intended
-    one.
+    **Why.** ``TypeError`` without the argument or for a str, ``InvalidQoSProfileException`` without
+    a depth, ``AssertionError`` for an invalid value in a profile. A policy of another kind is
+    converted by its number: the profile differs from the intended one.
 
     **Fix.** Pass a depth such as ``10``, a profile such as ``qos_profile_sensor_data``, or
     ``QoSProfile(depth=10, durability=DurabilityPolicy.TRANSIENT_LOCAL)``.
@@ -71,7 +70,7 @@ class QosUnusable(RclpyRule):
         Example(
             "only a policy",
             {"talker.py": _NODE.format("DurabilityPolicy.TRANSIENT_LOCAL")},
-            "9:50: DurabilityPolicy.TRANSIENT_LOCAL is a policy, but taken as the depth; write "
+            "9:50: DurabilityPolicy.TRANSIENT_LOCAL is a policy, but is used as the depth; write "
             "QoSProfile(depth=10, ...)",
         ),
         Example(
@@ -167,7 +166,7 @@ def _problem(file: RclpyFile, node: ast.expr, value: object) -> str:
     if name == "rclpy.qos.QoSProfile":
         return "QoSProfile is a class, not a profile: TypeError; write QoSProfile(depth=10)"
     if name.startswith("rclpy.qos.") and "Policy." in name:
-        return f"{name[10:]} is a policy, but taken as the depth; write QoSProfile(depth=10, ...)"
+        return f"{name[10:]} is a policy, but is used as the depth; write QoSProfile(depth=10, ...)"
     if isinstance(node, ast.Attribute | ast.Name) and file.callback(node).function is not None:
         return "expected a depth or a QoSProfile, not a function: TypeError"
     return ""

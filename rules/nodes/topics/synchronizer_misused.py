@@ -1,4 +1,4 @@
-"""ND104: message filters get messages with stamps, and pass them on."""
+"""ND104: message filters get messages with stamps, and have a callback."""
 
 from __future__ import annotations
 
@@ -30,14 +30,14 @@ _LONG = 5
 
 
 class SynchronizerMisused(MessageRule):
-    """A message filter has no callback, or can never match the messages that it gets.
+    """A message filter has no callback, or can never match its messages.
 
-    **Why.** Nothing happens, without any error: a synchronizer without ``registerCallback`` drops
-    what it matches; one with a ``slop`` or ``queue_size`` of 0 matches nothing. Messages
+    **Why.** Nothing happens, without an error: a synchronizer without ``registerCallback`` drops
+    matched messages, and one with a ``slop`` or ``queue_size`` of 0 matches nothing. Messages
     without a header have no stamp to match: they are dropped with a warning.
 
-    **Fix.** ``registerCallback(self.on_messages)``; ``allow_headerless=True``, or a type with a
-    header.
+    **Fix.** Call ``registerCallback(self.on_messages)``; pass ``allow_headerless=True``, or a type
+    with a header.
 
     **Source.** ``message_filters/__init__.py``.
     """
@@ -45,7 +45,7 @@ class SynchronizerMisused(MessageRule):
     code = "ND104"
     name = "synchronizer-misused"
     other_severities = {
-        Severity.WARNING: "the slop is too large, or the file uses other filters than this one"
+        Severity.WARNING: "the slop is too large, or the file uses other filters as well"
     }
     effect = Effect.WRONG_BEHAVIOR
     examples = (
@@ -57,7 +57,7 @@ class SynchronizerMisused(MessageRule):
             "registerCallback()",
         ),
         Example(
-            "a filter that nobody reads",
+            "a filter without a callback",
             {
                 "viewer.py": "from message_filters import Subscriber\n"
                 "from rclpy.node import Node\nfrom sensor_msgs.msg import Image\n\n\n"
@@ -70,7 +70,7 @@ class SynchronizerMisused(MessageRule):
             "are dropped; call registerCallback()",
         ),
         Example(
-            "a filter that nobody reads, next to others",
+            "a filter without a callback, next to others",
             {
                 "viewer.py": _NODE.format("Image", "10, 0.1", _REGISTER).replace(
                     "        self.sync =",

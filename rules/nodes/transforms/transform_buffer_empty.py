@@ -1,4 +1,4 @@
-"""ND112: buffers of tf2 are filled before something is looked up in them."""
+"""ND112: tf2 buffers have a listener before transforms are looked up."""
 
 from __future__ import annotations
 
@@ -33,13 +33,13 @@ _LISTEN = "        self.listener = TransformListener(self.buffer, self)\n"
 
 
 class TransformBufferEmpty(RclpyRule):
-    """Transforms are looked up in a buffer that nothing fills, or before anything can.
+    """Transforms are looked up in a buffer without a listener, or before any can arrive.
 
     **Why.** ``LookupException: "map" passed to lookupTransform argument target_frame does not
     exist``, every time: a ``Buffer`` only gets transforms from a ``TransformListener``, which only
-    receives them while the node is spun, after the constructor.
+    receives them while the node is spun.
 
-    **Fix.** ``self.listener = TransformListener(self.buffer, self)``; look transforms up in
+    **Fix.** Create ``self.listener = TransformListener(self.buffer, self)``; look transforms up in
     callbacks.
 
     **Source.** ``tf2_ros/transform_listener.py``.
@@ -56,13 +56,13 @@ class TransformBufferEmpty(RclpyRule):
             "TransformListener(buffer, node)",
         ),
         Example(
-            "asked in the constructor",
+            "looked up in the constructor",
             {"follower.py": _NODE.format(_LISTEN + "        self.tick()\n")},
             "14:9: lookup_transform() in the constructor of Follower: no transform is received "
-            "before the node is spun; look it up in a callback",
+            "before the node is spun; look up transforms in a callback",
         ),
         Example(
-            "made in a callback",
+            "created in a callback",
             {
                 "follower.py": "from rclpy.node import Node\nfrom rclpy.time import Time\n"
                 "from tf2_ros import Buffer, TransformListener\n\n\n"
@@ -75,11 +75,12 @@ class TransformBufferEmpty(RclpyRule):
                 "        TransformListener(buffer, self)\n"
                 "        self.at = buffer.lookup_transform('map', 'base_link', Time())\n"
             },
-            "12:18: this buffer is new in every call, so it is empty: every lookup fails; create "
-            "buffer and listener in the constructor",
+            "12:18: this buffer is created on every call, so it is empty: every lookup fails; "
+            "create buffer and listener in the constructor",
         ),
         Example(
-            "given to another", {"follower.py": _NODE.format("        self.fill(self.buffer)\n")}
+            "passed to another object",
+            {"follower.py": _NODE.format("        self.fill(self.buffer)\n")},
         ),
     )
 
@@ -95,7 +96,7 @@ class TransformBufferEmpty(RclpyRule):
                 yield self.report(file.module.location(made), message)
             elif _is_made_to_ask(file, made):
                 message = (
-                    "this buffer is new in every call, so it is empty: every lookup fails; "
+                    "this buffer is created on every call, so it is empty: every lookup fails; "
                     "create buffer and listener in the constructor"
                 )
                 yield self.report(file.module.location(made), message)
@@ -112,7 +113,7 @@ class TransformBufferEmpty(RclpyRule):
                 continue
             message = (
                 f"{lookup.method}() in {functions[function]}: no transform is received before the "
-                "node is spun; look it up in a callback"
+                f"node is spun; look up transforms in a callback"
             )
             yield self.report(file.module.location(lookup.call), message)
 

@@ -31,13 +31,13 @@ _NODE = (
 
 
 class TransformErrorUncaught(RclpyRule):
-    """A transform lookup may raise an exception that is not caught.
+    """A transform lookup may raise exceptions that are not caught.
 
-    **Why.** Right after the start, frames are unknown (``LookupException``), then not connected
+    **Why.** At start, frames are unknown (``LookupException``), then not connected
     (``ConnectivityException``), then not available at the requested time
     (``ExtrapolationException``): an exception in a callback ends the node.
 
-    **Fix.** ``except TransformException``, which is all of them.
+    **Fix.** Catch ``TransformException``, the base class of all three.
 
     **Source.** ``tf2_py``; ROS 2 documentation, "Writing a listener (Python)".
     """
@@ -46,7 +46,7 @@ class TransformErrorUncaught(RclpyRule):
     name = "transform-error-uncaught"
     severity = Severity.WARNING
     examples = (
-        Example("all", {"follower.py": _NODE.format("TransformException")}),
+        Example("all exceptions", {"follower.py": _NODE.format("TransformException")}),
         Example(
             "one of them",
             {"follower.py": _NODE.format("LookupException")},

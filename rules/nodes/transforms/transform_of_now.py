@@ -1,4 +1,4 @@
-"""ND109: transforms are looked up for times for which they have arrived."""
+"""ND109: transforms are looked up at times for which they have arrived."""
 
 from __future__ import annotations
 
@@ -25,11 +25,11 @@ _NODE = (
 
 
 class TransformOfNow(RclpyRule):
-    """A transform is looked up for the current time, before it can arrive.
+    """A transform is looked up at the current time, before it can arrive.
 
-    **Why.** Transforms arrive after the time that they are for: a lookup for ``now()`` raises
+    **Why.** Transforms arrive after their time stamp: a lookup at ``now()`` raises
     ``ExtrapolationException: Lookup would require extrapolation into the future``, unless all
-    transforms between the frames are static. A timeout does not help in the only thread: while a
+    transforms between the frames are static. A timeout does not help with one thread: while a
     callback waits, no transform is received.
 
     **Fix.** Request the latest transform: ``Time()``. Or wait, with ``timeout=Duration(...)`` and
@@ -45,7 +45,7 @@ class TransformOfNow(RclpyRule):
     examples = (
         Example("the latest", {"follower.py": _NODE.format("", "Time()")}),
         Example(
-            "for now",
+            "at the current time",
             {"follower.py": _NODE.format("", "now")},
             "16:58: lookup_transform() at the current time: the transform arrives later; use "
             "Time() for the latest, or a timeout",

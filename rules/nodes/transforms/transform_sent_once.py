@@ -1,4 +1,4 @@
-"""ND113: static transforms are sent by a static broadcaster."""
+"""ND113: static transforms are sent with a static broadcaster."""
 
 from __future__ import annotations
 
@@ -43,11 +43,10 @@ _TWO_FRAMES = (
 class TransformSentOnce(RclpyRule):
     """A ``TransformBroadcaster`` sends the transform of a frame only in the constructor.
 
-    **Why.** Whoever subscribes to ``/tf`` later never gets them, and buffers forget them after ten
-    seconds.
+    **Why.** Later subscribers of ``/tf`` never get it, and buffers drop it after ten seconds.
 
-    **Fix.** ``StaticTransformBroadcaster`` for what never moves; for the rest, send the
-    transform in a callback, again and again.
+    **Fix.** Use ``StaticTransformBroadcaster`` for fixed frames; send other transforms repeatedly,
+    in a callback.
 
     **Source.** ROS 2 documentation, "Writing a static broadcaster (Python)".
     """
@@ -78,7 +77,7 @@ class TransformSentOnce(RclpyRule):
             "never get it; use StaticTransformBroadcaster",
         ),
         Example(
-            "one that a method makes, another by a timer",
+            "one that a method creates, another by a timer",
             {
                 "base.py": _TWO_FRAMES.format("'base_link'")
                 .replace(
@@ -94,7 +93,7 @@ class TransformSentOnce(RclpyRule):
             "never get it; use StaticTransformBroadcaster",
         ),
         Example("the same frame once more", {"base.py": _TWO_FRAMES.format("'laser'")}),
-        Example("a frame that is not known", {"base.py": _TWO_FRAMES.format("self.get_name()")}),
+        Example("an unknown frame", {"base.py": _TWO_FRAMES.format("self.get_name()")}),
     )
 
     def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:

@@ -1,4 +1,4 @@
-"""ND111: what a buffer transforms has its conversion loaded."""
+"""ND111: the conversions for transformed types are imported."""
 
 from __future__ import annotations
 
@@ -24,12 +24,12 @@ _NODE = (
 
 
 class TransformTypeNotLoaded(MessageRule):
-    """``buffer.transform()`` is called, but the module that converts its type is not imported.
+    """``buffer.transform()`` is called, but the module with the conversion is not imported.
 
     **Why.** ``TypeException: Type <class 'geometry_msgs.msg._point_stamped.PointStamped'> is not
     loaded or supported``: conversions register themselves when their module is imported.
 
-    **Fix.** ``import tf2_geometry_msgs``, with ``# noqa: F401`` where nothing else uses it, and
+    **Fix.** Add ``import tf2_geometry_msgs``, with ``# noqa: F401`` if nothing else uses it, and
     ``<depend>tf2_geometry_msgs</depend>``.
 
     **Source.** ``tf2_ros/buffer_interface.py``, ``TransformRegistration``.
