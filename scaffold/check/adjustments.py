@@ -24,11 +24,7 @@ from scaffold.model.python.facts import imports_of, paths_importing
 from scaffold.model.python.guards import all_conditions, is_unevaluated
 from scaffold.model.python.module import PythonModule
 from scaffold.model.rclpy.stopping import only_while_stopping
-from scaffold.model.rclpy.uncalled import (
-    is_in_uncalled_function,
-    is_unused_module,
-    may_be_in_uncalled_function,
-)
+from scaffold.model.rclpy.uncalled import is_in_uncalled_function, is_unused_module
 from scaffold.record import NamedTuple
 from scaffold.source import Location, ViewError
 
@@ -163,7 +159,7 @@ def _is_of_ros1(package: Package, diagnostic: Diagnostic) -> bool:
     if code == _OF_ROS1 or not code.startswith((*_OF_LINTERS, *_OF_PROGRAMS)):
         return False
     try:
-        imports = package.module(path).imports if b"rospy" in package.data(path) else ()
+        imports = imports_of(package, path) if b"rospy" in package.data(path) else ()
     except ViewError:
         return False
     needed = {item.root for item in imports if item.top_level and not item.guarded}
@@ -213,9 +209,7 @@ def _is_uncalled(package: Package, at: Location) -> bool:
     if _is_unused_module(package, at.path):
         return True
     try:
-        if not may_be_in_uncalled_function(package, at.path, at.line):
-            return False
-        return is_in_uncalled_function(package, package.module(at.path), at.line)
+        return is_in_uncalled_function(package, at.path, at.line)
     except ViewError:
         return False
 

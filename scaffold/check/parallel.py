@@ -64,7 +64,11 @@ class Checker(Protocol):
         """Run the rules over a package."""
 
     def result(
-        self, target: Target, rules: Ruled, style: Mapping[str, Sequence[Diagnostic]]
+        self,
+        target: Target,
+        rules: Ruled,
+        style: Mapping[str, Sequence[Diagnostic]],
+        earlier: Earlier | None = None,
     ) -> Result:
         """Combine the findings in a package."""
 
@@ -132,8 +136,10 @@ def run(
                 style.setdefault(at, {}).update(styles)
             is_complete = number == len(tasks) or tasks[number].has_rules
             for at in sorted(rules) if is_complete else ():
-                result = session.result(targets[at], rules.pop(at), style.pop(at, {}))
-                targets[at].package.forget()
+                package = targets[at].package
+                previous = earlier.get(package.directory)
+                result = session.result(targets[at], rules.pop(at), style.pop(at, {}), previous)
+                package.forget()
                 yield result
 
 

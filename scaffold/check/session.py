@@ -10,6 +10,7 @@ from scaffold import distributions
 from scaffold.ament.settings import files_of_settings
 from scaffold.check import conflicts, runner, suppression
 from scaffold.check.adjustments import Adjustments
+from scaffold.check.cache.facts import recalled, to_store
 from scaffold.check.result import Earlier, Result, Ruled
 from scaffold.check.rules.ament_rules import AMENT_RULES
 from scaffold.check.rules.engine_rules import (
@@ -30,6 +31,7 @@ from scaffold.files.tree import CMAKE_LISTS
 from scaffold.model.cmake.ament import uses_ament
 from scaffold.model.discovery.targets import Target
 from scaffold.model.package import Package
+from scaffold.model.reads import Reads, recorded
 from scaffold.source import ViewError
 
 if TYPE_CHECKING:
@@ -140,13 +142,18 @@ class Session:
             package = target.package
             previous = earlier.get(package.directory)
             rules = self.check_rules(package, previous)
-            results.append(self.result(target, rules, style.by_file(package) if style else {}))
+            styles = style.by_file(package) if style else {}
+            results.append(self.result(target, rules, styles, previous))
             # The next packages may read the edited files, and have cached data of all others.
             package.forget_views(previous.edited if previous else ())
         return results
 
     def result(
-        self, target: Target, rules: Ruled, style: Mapping[str, Sequence[Diagnostic]]
+        self,
+        target: Target,
+        rules: Ruled,
+        style: Mapping[str, Sequence[Diagnostic]],
+        earlier: Earlier | None = None,
     ) -> Result:
         """Combine the findings of rules, types and style in a package."""
         everything = {**rules.style, **style}
@@ -160,7 +167,12 @@ class Session:
             if verdict is not None:
                 facts = {**verdict.facts, **typed.facts}
                 verdict = verdict._replace(types=typed.parts, facts=facts)
-        diagnostics = self._report(target, diagnostics)
+        reads = Reads()
+        with recalled(target.package, earlier), recorded(reads):
+            diagnostics = self._report(target, diagnostics)
+        if verdict is not None:
+            facts = to_store(reads.all()[1], (), earlier.settled if earlier else {})
+            verdict = verdict._replace(facts={**verdict.facts, **facts})
         if target.only is not None:
             return Result(target.package, len(target.only), diagnostics, verdict)
         return Result(target.package, rules.files, diagnostics, verdict, rules.foreign)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
+from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 from scaffold import time_limit
@@ -11,6 +12,7 @@ from scaffold.model.reads import Fact, FactId, Key, StoredFact
 from scaffold.source import ViewError
 
 if TYPE_CHECKING:
+    from scaffold.check.result import Earlier
     from scaffold.model.package import Package
 
     Settled = dict[FactId, StoredFact | Fact | None]
@@ -99,6 +101,19 @@ class EarlierFacts:
         result = package.known_fact(key)
         is_same = result is not None and result.encoded == self._stored[wanted].encoded
         return result if is_same else None
+
+
+@contextmanager
+def recalled(package: Package, earlier: Earlier | None) -> Iterator[None]:
+    """Provide a package with the facts of an earlier check, if there was one."""
+    if earlier is None:
+        yield
+        return
+    facts = EarlierFacts(package, earlier.verdict.facts, earlier.edited, earlier.settled)
+    try:
+        yield
+    finally:
+        facts.end()
 
 
 class _Recall:

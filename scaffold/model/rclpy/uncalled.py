@@ -9,11 +9,13 @@ from typing import TYPE_CHECKING
 
 from scaffold.formats.hash_comments import without_comments
 from scaffold.model.cmake.ament import programs
+from scaffold.model.facts import fact
 from scaffold.model.install.unused import TEXTS, is_in_python_package, is_named, names_file
 from scaffold.model.python.module import is_in_tests
 from scaffold.model.rclpy.api import NODE, has
 from scaffold.model.setup_py.console_scripts import has_program_files
 from scaffold.model.setup_py.package_data import installed_data
+from scaffold.record import NamedTuple
 from scaffold.source import ViewError
 
 if TYPE_CHECKING:
@@ -40,12 +42,56 @@ _LOOKUPS = ("globals(", "locals(", "vars(", "__dict__", "eval(", "exec(")
 """Functions that look up names computed at run time."""
 
 
-def may_be_in_uncalled_function(package: Package, path: str, line: int) -> bool:
-    """Tell whether a line may be in such a function, without parsing the file.
+class _Unmentioned(NamedTuple):
+    """A function, class or main guard that its own file does not use."""
+
+    names: tuple[str, ...]
+    """The words with which another file would use it; empty if none can."""
+    endings: tuple[str, ...] = _NAMING
+    """The endings of files that may use it."""
+    is_for_all: bool = True
+    """Whether other packages may use it."""
+    is_guard: bool = False
+    """Whether it is a main guard, which any of the names starts."""
+
+
+def is_in_uncalled_function(package: Package, path: str, line: int) -> bool:
+    """Tell whether a line is in an uncalled function, unused class, or unused main guard.
+
+    Those of programs, launch files and tests count. A library is used from elsewhere, but for what
+    helps the programs of its package, or launch files; a class may be called by an unknown base.
 
     Raises:
         ViewError: the file cannot be read.
     """
+    return any(
+        not _is_used_elsewhere(package, path, item) for item in _unmentioned_at(package, path, line)
+    )
+
+
+def _is_used_elsewhere(package: Package, path: str, item: _Unmentioned) -> bool:
+    if item.is_guard:
+        return any(is_named(package, path, name, TEXTS) for name in item.names)
+    users = package.workspace if item.is_for_all else [package]
+    return any(_is_named_in(user, path, item.names, item.endings) for user in users)
+
+
+@fact
+def _unmentioned_at(package: Package, path: str, line: int) -> tuple[_Unmentioned, ...]:
+    """Return what a line is part of, if only other files may use it."""
+    if not any(start <= line for start in _lines_of_unmentioned(package, path)):
+        return ()
+    module = package.module(path)
+    guard = _guard_at(package, module, line)
+    is_helper = not (module.in_tests or _is_startable(module))
+    found = [guard]
+    if not is_helper or _helps_programs(package, module):
+        found += (_class_at(module, line), _function_at(module, line, is_helper=is_helper))
+    return tuple(item for item in found if item is not None)
+
+
+def _lines_of_unmentioned(package: Package, path: str) -> tuple[int, ...]:
+    """Return the lines where such code may start, without parsing the file."""
 
     def find() -> tuple[int, ...]:
         try:
@@ -64,38 +110,26 @@ def may_be_in_uncalled_function(package: Package, path: str, line: int) -> bool:
         )
         return (*at_guard, *named_once)
 
-    starts = package.remember(("functions named once", path), find)
-    return any(start <= line for start in starts)
+    return package.remember(("named once", path), find)
 
 
-def is_in_uncalled_function(package: Package, module: PythonModule, line: int) -> bool:
-    """Tell whether a line is in an uncalled function, unused class, or unused main guard.
-
-    Those of programs, launch files and tests count. A library is used from elsewhere, but for what
-    helps the programs of its package, or launch files; a class may be called by an unknown base.
-    """
-    if _is_in_unused_guard(package, module, line):
-        return True
-    is_helper = not (module.in_tests or _is_startable(module))
-    if is_helper and not _helps_programs(package, module):
-        return False
-    if not module.in_tests and _is_in_unused_class(package, module, line):
-        return True
+def _function_at(module: PythonModule, line: int, *, is_helper: bool) -> _Unmentioned | None:
+    """Return the function or method at a line, if its file does not mention it again."""
     function = _outermost_function(module, line)
     if function is None or _is_decorated(function) or not _is_called_by_name(module, function):
-        return False
+        return None
     if module.mentions(*_LOOKUPS) or _COMPUTED.search(module.source.text):
-        return False
-    named = _named_in(without_comments(module.source.text), function.name)
+        return None
+    if not _is_named_once(module, function.name):
+        return None
     stem = module.path.rpartition("/")[2].removesuffix(".py")
     names = (function.name,) if is_helper else (stem, function.name)
-    users = package.workspace if is_helper else [package]
-    return named == 1 and not any(_is_named_in(user, module.path, names) for user in users)
+    return _Unmentioned(names, is_for_all=is_helper)
 
 
-def _is_in_unused_class(package: Package, module: PythonModule, line: int) -> bool:
-    """Tell whether a line is in a method of a class that no file of the workspace mentions."""
-    for class_ in module.tree.body:
+def _class_at(module: PythonModule, line: int) -> _Unmentioned | None:
+    """Return the class with a method at a line, if its file does not mention it again."""
+    for class_ in () if module.in_tests else module.tree.body:
         if not isinstance(class_, ast.ClassDef) or not _covers(class_, line):
             continue
         functions = (item for item in class_.body if isinstance(item, ast.FunctionDef))
@@ -103,15 +137,17 @@ def _is_in_unused_class(package: Package, module: PythonModule, line: int) -> bo
             item.body[0].lineno <= line and _covers(item, line) for item in functions
         )
         if not is_run_later or class_.decorator_list or class_.keywords:
-            return False
+            return None
         if not _has_known_bases(module, class_) or module.mentions(*_LOOKUPS):
-            return False
-        named = _named_in(without_comments(module.source.text), class_.name)
-        return named == 1 and not any(
-            _is_named_in(user, module.path, (class_.name,), (*_NAMING, ".xml"))
-            for user in package.workspace
-        )
-    return False
+            return None
+        if _is_named_once(module, class_.name):
+            return _Unmentioned((class_.name,), (*_NAMING, ".xml"))
+        return None
+    return None
+
+
+def _is_named_once(module: PythonModule, name: str) -> bool:
+    return _named_in(without_comments(module.source.text), name) == 1
 
 
 def _covers(node: ast.stmt, line: int) -> bool:
@@ -172,6 +208,7 @@ def _helps_programs(package: Package, module: PythonModule) -> bool:
     return not _LAUNCH.isdisjoint(module.imports_by_root) or _has_programs(package)
 
 
+@fact
 def _has_programs(package: Package) -> bool:
     try:
         is_cmake = package.build_type == "ament_cmake"
@@ -182,22 +219,21 @@ def _has_programs(package: Package) -> bool:
         return False
 
 
-def _is_in_unused_guard(package: Package, module: PythonModule, line: int) -> bool:
-    """Tell whether a line only runs if a file is run by Python, which nobody does.
+def _guard_at(package: Package, module: PythonModule, line: int) -> _Unmentioned | None:
+    """Return the main guard at a line, if it only runs if Python runs the file, which nobody does.
 
     A launch file launches nothing then; a module of a Python package is started by entry points.
     """
     guard = module.main_guard_node
     if guard is None or not guard.lineno <= line <= (guard.end_lineno or guard.lineno):
-        return False
+        return None
     path = module.path
     if path.endswith("launch.py"):
-        return not module.mentions("LaunchService")
+        return None if module.mentions("LaunchService") else _Unmentioned((), is_guard=True)
     if module.in_tests or not _is_only_importable(package, path):
-        return False
-    name = path.rpartition("/")[2]
+        return None
     dotted = path.removesuffix(".py").replace("/", ".")
-    return not any(is_named(package, path, item, TEXTS) for item in (name, f"-m {dotted}"))
+    return _Unmentioned((path.rpartition("/")[2], f"-m {dotted}"), is_guard=True)
 
 
 def _outermost_function(module: PythonModule, line: int) -> FunctionNode | None:
@@ -252,20 +288,23 @@ def _is_file_named_in(package: Package, module_path: str, stem: str) -> bool:
 
 
 def _is_named_in(
-    package: Package, module_path: str, names: tuple[str, ...], endings: tuple[str, ...] = _NAMING
+    package: Package, module_path: str, names: tuple[str, ...], endings: tuple[str, ...]
 ) -> bool:
     """Tell whether another module of a package mentions all of some names."""
+    words = [name.encode("utf-8", "surrogateescape") for name in names]
     for path in package.files:
         if not path.endswith(endings) or path == module_path:
             continue
         try:
-            text = package.data(path).decode(errors="replace")
+            data = package.data(path)
         except ViewError:
             if path.endswith((".cpp", ".hpp")):
                 continue  # too large for code that calls a function of Python
             return True
-        if all(name in text for name in names) and _has_names(without_comments(text), names):
-            return True
+        if all(word in data for word in words):
+            text = without_comments(data.decode(errors="replace"))
+            if _has_names(text, names):
+                return True
     return False
 
 
