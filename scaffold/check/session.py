@@ -171,8 +171,8 @@ class Session:
         with recalled(target.package, earlier), recorded(reads):
             diagnostics = self._report(target, diagnostics)
         if verdict is not None:
-            facts = to_store(reads.all()[1], (), earlier.settled if earlier else {})
-            verdict = verdict._replace(facts={**verdict.facts, **facts})
+            used = to_store(reads.all()[1], (), earlier.settled if earlier else {})
+            verdict = verdict._replace(facts={**verdict.facts, **used})
         if target.only is not None:
             return Result(target.package, len(target.only), diagnostics, verdict)
         return Result(target.package, rules.files, diagnostics, verdict, rules.foreign)

@@ -65,6 +65,8 @@ def _run(given: list[str]) -> int:
         # Before argparse: defining the flags takes longer than checking a small package.
         for warning in last.warnings:
             terminal.warn(warning)
+        for note in last.notes:
+            terminal.say(note)
         terminal.write_report(last.output)
         return last.code
     from importlib import import_module

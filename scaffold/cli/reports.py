@@ -78,17 +78,21 @@ def write(
         from scaffold.reporters import github
 
         add_job_summary(github.job_summary(results, shown))
-    is_noted = options.format == "text" and path is None
-    for note in () if is_noted or shown.quiet else shown.notes:
+    for note in separate_notes(options, shown):
         terminal.say(note)
     if path is None:
         terminal.write_report(text)
-        is_all = options.format != "github" and (is_noted or not shown.notes)
-        return text if is_all else None
+        return text if options.format != "github" else None
     write_file(path, text.encode("utf-8", "backslashreplace"), "--output-file")
     if not shown.quiet:
         terminal.say(f"{summary.summary(results, shown)}; the report is in {path}")
     return None
+
+
+def separate_notes(options: argparse.Namespace, shown: ReportOptions) -> Sequence[str]:
+    """Return the notes for standard error: those that are not part of the report."""
+    is_noted = options.format == "text" and options.output_file is None
+    return () if is_noted or shown.quiet else shown.notes
 
 
 def text(results: Sequence[Result], shown: ReportOptions) -> str:

@@ -40,17 +40,18 @@ def identity(distribution: Distribution) -> str:
     parts = [distribution.name]
     own = os.path.dirname(os.path.abspath(__file__))
     for top in (own, os.path.join(os.path.dirname(own), "data")):
-        parts += sorted(_stamps(top))
+        parts += sorted(stamp.removeprefix(top) for stamp in _stamps(top))
     return digest("\n".join(parts).encode("utf-8", "surrogateescape"))
 
 
 def _stamps(top: str) -> Iterator[str]:
-    for directory, folders, names in os.walk(top):
-        folders[:] = [name for name in folders if name != "__pycache__"]
-        for name in names:
-            status = os.stat(os.path.join(directory, name))
-            place = os.path.relpath(os.path.join(directory, name), top)
-            yield f"{place} {status.st_size} {status.st_mtime_ns}"
+    with os.scandir(top) as entries:
+        for entry in entries:
+            if not entry.is_dir():
+                status = entry.stat()
+                yield f"{entry.path} {status.st_size} {status.st_mtime_ns}"
+            elif entry.name != "__pycache__":
+                yield from _stamps(entry.path)
 
 
 def directory(distribution: Distribution, scratch: Callable[[str], str]) -> str:

@@ -41,7 +41,7 @@ ENVIRONMENT = (
 SCREEN = ("COLORTERM", "COLUMNS", "FORCE_COLOR", "LINES", "NO_COLOR", "TERM")
 """The variables that only affect how they are shown."""
 
-_MAGIC = b"scaffold-run-8\n"
+_MAGIC = b"scaffold-run-9\n"
 
 
 class CachedRun:
@@ -97,6 +97,7 @@ class CachedReport:
         code: The exit code.
         output: The standard output.
         warnings: The standard error about ignored configuration.
+        notes: The standard error about what was left out, if the output does not have it.
     """
 
     def __init__(
@@ -105,11 +106,13 @@ class CachedReport:
         code: int,
         output: str,
         warnings: Sequence[str],
+        notes: Sequence[str],
     ) -> None:
         self.shown = shown
         self.code = code
         self.output = output
         self.warnings = warnings
+        self.notes = notes
 
 
 class RunEntry:
@@ -179,11 +182,16 @@ class ReportEntry:
         return self._run(_name(["findings", *words]))
 
     def save(
-        self, shown: Sequence[RunEntry], code: int, output: str, warnings: Sequence[str]
+        self,
+        shown: Sequence[RunEntry],
+        code: int,
+        output: str,
+        warnings: Sequence[str],
+        notes: Sequence[str],
     ) -> None:
-        """Store a report on saved runs."""
+        """Store a report on saved runs; see `CachedReport`."""
         numbers = [(entry.name, entry.last.number) for entry in shown if entry.last is not None]
-        _write(self._path, self._head, (numbers, code, output, (*warnings,)))
+        _write(self._path, self._head, (numbers, code, output, (*warnings,), (*notes,)))
 
     def _run(self, name: str) -> RunEntry:
         if name not in self._runs:

@@ -61,8 +61,11 @@ def save_report(
     settings: Config,
 ) -> None:
     """Cache a report, unless it was written to a file or depends on the commit."""
+    from scaffold.cli import reports
+
     if output is not None and not options.whole_packages:
-        options.entry.save(runs, code, output, settings.warnings)
+        notes = reports.separate_notes(options, report_options(options))
+        options.entry.save(runs, code, output, settings.warnings, notes)
 
 
 def note_unchecked(session: Session) -> None:
