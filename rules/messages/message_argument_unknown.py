@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from scaffold.api import Diagnostic, Effect, Example, MessageRule
 from scaffold.api.distributions import target
@@ -70,6 +70,16 @@ class MessageArgumentUnknown(MessageRule):
             distro="humble",
         ),
         Example(
+            "misspelled, in a dictionary",
+            {
+                "talker.py": "from std_msgs.msg import String\n\n"
+                "VALUES = {'data': 'hello', 'dta': 'you'}\n"
+                "message = String(**VALUES)\n"
+            },
+            "4:18: std_msgs/msg/String has no field 'dta': the value is silently dropped; did you "
+            "mean 'data'? (definition: std_msgs 5.3.6 of ROS 2 Jazzy)",
+        ),
+        Example(
             "positional",
             {"talker.py": _PREFIX.format("'hello'")},
             "3:18: std_msgs/msg/String takes only keyword arguments: TypeError; write data=...",
@@ -83,25 +93,38 @@ class MessageArgumentUnknown(MessageRule):
             owner = types.class_of(call.func)
             if owner is None or is_error_expected(types.module, call):
                 continue
-            for node, message in _flaws(owner, call):
+            for node, message in _flaws(types, owner, call):
                 yield self.report(types.module.location(node), message)
 
 
-def _flaws(owner: MessageClass, call: ast.Call) -> Iterator[tuple[ast.AST, str]]:
+def _flaws(
+    types: MessageTypes, owner: MessageClass, call: ast.Call
+) -> Iterator[tuple[ast.AST, str]]:
     has = [field.name for field in owner.section.fields]
     more = ["check_fields"] if target().fact("messages.has_check_fields") else []
     if call.args and not _may_be_empty(call.args[0]):
         example = f"; write {has[0]}=..." if has else ""
         yield call.args[0], f"{owner.name} takes only keyword arguments: TypeError{example}"
     for word in call.keywords:
-        if word.arg is not None and word.arg not in {*has, *more}:
-            hint = closest_word(word.arg, has) or f"; it has {', '.join(has[:5]) or 'no fields'}"
+        for name in _names_given(types, word):
+            if name in {*has, *more}:
+                continue
+            hint = closest_word(name, has) or f"; it has {', '.join(has[:5]) or 'no fields'}"
             effect = target().fact("messages.unknown_keyword")
-            message = (
-                f"{owner.name} has no field {word.arg!r}: {effect}{hint} "
-                f"(definition: {owner.origin})"
-            )
-            yield word, message
+            message = f"{owner.name} has no field {name!r}: {effect}{hint}"
+            yield word, f"{message} (definition: {owner.origin})"
+
+
+def _names_given(types: MessageTypes, word: ast.keyword) -> Sequence[str]:
+    """Return the name of a keyword, or those in the dictionary literal of ``**values``."""
+    if word.arg is not None:
+        return [word.arg]
+    values = types.file.evaluator.single_value(word.value)
+    removes = (f"del {types.module.text(word.value)}[", f"{types.module.text(word.value)}.pop(")
+    if not isinstance(values, ast.Dict) or types.module.mentions(*removes):
+        return []
+    keys = [key.value for key in values.keys if isinstance(key, ast.Constant)]
+    return [key for key in keys if isinstance(key, str)]
 
 
 def _may_be_empty(given: ast.expr) -> bool:

@@ -6,6 +6,7 @@ import ast
 import re
 import sys
 
+from scaffold.api.rclpy import rclpy_file
 from scaffold.api.types import (
     MARKED,
     TypeFinding,
@@ -28,7 +29,9 @@ from ._arguments import (
     is_one_of_publishers,
     is_uncallable,
     is_unpacked,
+    of_plain_class,
     parameter_name,
+    takes_instead,
     when_sent,
     wrong_callback,
 )
@@ -40,8 +43,20 @@ _ANY_VALUE = {
     *((name, "emulate_tty") for name in ("ExecuteLocal()", "ExecuteProcess()", "Node()")),
 }
 """Arguments that `ros2 launch --show-args` only prints, or that are only tested for truth."""
+_COUNTED_ELSEWHERE = frozenset(
+    {"create_subscription", "create_service", "create_timer", "registerCallback"}
+    | {"add_done_callback", "__init__", "__new__"}
+    | {f"add_{when}_set_parameters_callback" for when in ("pre", "on", "post")}
+)
+"""Functions whose callbacks other rules judge if the same file defines them."""
 _CONVERTING = frozenset({"rclpy.duration.Duration", "rclpy.time.Time"})
 """Constructors that call ``int()`` on their nanoseconds, which are annotated as an int."""
+_VALUES_OF = {
+    "rclpy.duration.Duration": ".nanoseconds / 1e9",
+    "rclpy.time.Time": ".nanoseconds / 1e9",
+    "rclpy.parameter.Parameter": ".value",
+}
+"""The numbers in objects that Python functions cannot use."""
 _WHOLE = r"int\b|Literal\[-?[0-9]"
 """An integer, which Python accepts as a bool; QoS profiles check their arguments."""
 _COMPUTED = r"^(int|float)\*? \| (?:Any|Unknown)$"
@@ -58,9 +73,7 @@ def argument_problem(finding: TypeFinding) -> str:
     )
     if matched is None:
         return (
-            _appended_element(finding)
-            or _message_for_its_value(finding)
-            or _text_for_bytes(finding)
+            _appended_element(finding) or _object_for_its_value(finding) or _text_for_bytes(finding)
         )
     called, expected, given = matched["callee"], matched["expected"], matched["given"]
     if given.startswith("(("):
@@ -74,16 +87,18 @@ def _argument(finding: TypeFinding, callee: str, expected: str, given: str) -> s
     """Judge an argument of a function or class of ROS."""
     if callee.endswith(".publish_feedback"):
         given = re.sub(_COMPUTED, r"\1", given)
+    if expected.startswith("(") and is_function(given):
+        return _function(finding, callee, expected, given)
+    given = of_plain_class(finding, given) or given
     is_misfit = is_certain_misfit(expected, given) or is_uncallable(finding, expected, given)
     if not is_misfit or callee.endswith(_UNCHECKED) or is_unpacked(finding):
         return ""
-    if given == "None" and isinstance(finding.expression(), ast.Attribute):
-        return ""  # of a module or an object: other code sets it
-    is_for_others = has_too_many(finding, callee)  # which TY004 reports
+    is_set_elsewhere = given == "None" and isinstance(finding.expression(), ast.Attribute)
+    is_for_others = is_set_elsewhere or has_too_many(finding, callee)  # which TY004 reports
     is_for_others = is_for_others or is_one_of_publishers(finding)
     is_for_others = is_for_others or (given == "float" and is_int_as_well(finding))
-    if is_for_others or (expected.startswith("(") and is_function(given)):
-        return ""  # functions differ in their annotations; ND003 counts the arguments
+    if is_for_others:
+        return ""
     owner, _, method = callee.rpartition(".")
     called = owner if method in {"__init__", "__new__"} else method
     shown_call = f"{short_name(called)}()"
@@ -104,7 +119,21 @@ def _argument(finding: TypeFinding, callee: str, expected: str, given: str) -> s
     elif expected.startswith("type["):
         expected = "class"
     subject = f"{parameter!r} of {shown_call}" if parameter else f"an argument of {shown_call}"
-    return f"{subject} must be {unlike(expected, given)}: {shown_call} fails{hint}"
+    is_long = "... omitted" in expected
+    needed = f"cannot be {in_words(given)}" if is_long else f"must be {unlike(expected, given)}"
+    return f"{subject} {needed}: {shown_call} fails{hint}"
+
+
+def _function(finding: TypeFinding, callee: str, expected: str, given: str) -> str:
+    """Judge the number of arguments of a function that is passed; annotations may differ."""
+    called = callee.rpartition(".")[2]
+    if called in _COUNTED_ELSEWHERE:
+        node = finding.expression()
+        file = rclpy_file(finding.package, finding.path)
+        if node is None or file.callback(node).function is not None:
+            return ""
+    takes = takes_instead(expected, given)
+    return f"{called}() calls {in_words(given)} with {takes}: TypeError" if takes else ""
 
 
 def _listed_elements(finding: TypeFinding) -> str:
@@ -142,8 +171,8 @@ def _appended_element(finding: TypeFinding) -> str:
     return ""
 
 
-def _message_for_its_value(finding: TypeFinding) -> str:
-    """Judge a message passed to a Python function instead of the text or number in it."""
+def _object_for_its_value(finding: TypeFinding) -> str:
+    """Judge an object passed to a Python function instead of the text or number in it."""
     matched = finding.match(
         r"Argument to (?:[a-z]+ )*`[\w.]+` is incorrect: Expected `.+`, "
         rf"found `(?P<given>{MARKED})`"
@@ -153,7 +182,11 @@ def _message_for_its_value(finding: TypeFinding) -> str:
         return ""
     given = full_name(matched["given"])
     called = finding.module.qualified_name(call.func) or ""
-    if ".msg." not in given or called.partition(".")[0] not in sys.stdlib_module_names:
+    if called.partition(".")[0] not in sys.stdlib_module_names:
+        return ""
+    if given in _VALUES_OF:
+        return f"{called}() cannot use {with_article(given)}: TypeError; use {_VALUES_OF[given]}"
+    if ".msg." not in given:
         return ""
     names = members(finding.package, matched["given"])
     fields = [name for name in names if name.islower() and not name.startswith("get_")]

@@ -6,8 +6,9 @@ import ast
 import re
 
 from scaffold.api import Package
-from scaffold.api.rclpy import rclpy_file
+from scaffold.api.rclpy import names_of_bases, rclpy_file
 from scaffold.api.types import (
+    MARK,
     TypeFinding,
     class_in,
     class_itself,
@@ -70,6 +71,18 @@ def is_int_as_well(finding: TypeFinding) -> bool:
     return "int" in names
 
 
+def of_plain_class(finding: TypeFinding, given: str) -> str:
+    """Return the marked class of ``self``, if it has no bases and no subclasses; or empty."""
+    module = finding.module
+    class_ = module.enclosing_class(finding.innermost) if finding.innermost else None
+    if not given.startswith("Self@") or class_ is None or class_.bases or class_.keywords:
+        return ""
+    made = [*finding.package.modules(mentioning=[f"{class_.name}("])]
+    if not made or class_.name in names_of_bases(finding.package):
+        return ""  # it may be a part of other classes
+    return MARK.join([class_.name, finding.path.removesuffix(".py").rpartition("/")[2]])
+
+
 def is_uncallable(finding: TypeFinding, expected: str, given: str) -> bool:
     """Tell whether a ROS object that is not callable is passed instead of a function."""
     class_ = class_in(given)
@@ -92,6 +105,19 @@ def wrong_callback(finding: TypeFinding, expected: str, given: str) -> str:
     counts = [_count(item) for item in taken if not re.search(r"[*=]", item)]
     wrong = [item for item in counts if item != count]
     return f"{count}; one of these functions takes {wrong[0]}" if wrong else ""
+
+
+def takes_instead(expected: str, given: str) -> str:
+    """Return the needed and actual argument counts of an unsuitable function; or empty."""
+    needed = re.findall(r"\(([^()]*)\) -> ", expected)
+    taken = re.match(r"(?:bound method|def) [^(]*\(([^()]*)\) -> ", given)
+    if taken is None or re.search(r"[*=]|\.\.\.", " ".join([taken[1], *needed])):
+        return ""
+    counts, has = sorted({*map(_count, needed)}), _count(taken[1])
+    if has in counts or not counts:
+        return ""
+    noun = "argument" if counts == [1] else "arguments"
+    return f"{' or '.join(str(count or 'no') for count in counts)} {noun}, but it takes {has}"
 
 
 def _count(listed: str) -> int:

@@ -112,9 +112,15 @@ def _of_ros(
     if shown == _EXECUTOR and _is_set(package, "executor"):
         return None  # ND013 reports that something else is assigned
     is_settable = not isinstance(node.ctx, ast.Load) or _is_set(package, name)
-    if is_settable and not is_closed(shown):
+    if is_settable and not is_closed(shown) and name not in _of_contents(package, owner):
         return None  # an object of rclpy takes any attribute
     return shown, members(package, class_)
+
+
+def _of_contents(package: Package, owner: str) -> frozenset[str]:
+    """Return the fields of the messages that a future or a goal handle holds."""
+    held = re.findall(MARKED, owner.partition("[")[2])
+    return frozenset[str]().union(*(members(package, class_) for class_ in held))
 
 
 def _class_of_object(owner: str) -> str | None:

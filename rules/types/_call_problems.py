@@ -51,7 +51,9 @@ def _missing(finding: TypeFinding) -> str:
         for call in _calls(finding)
     ):
         return ""  # they may be among the surplus arguments, which are reported
-    if any(word.arg == _OF_ROS1 for call in _calls(finding) for word in call.keywords):
+    if _OF_ROS1 not in parameters(finding.package, matched["callee"]) and any(
+        word.arg == _OF_ROS1 for call in _calls(finding) for word in call.keywords
+    ):
         return ""  # the misnamed depth is passed, which is reported
     names = [repr(name) for name in re.findall(r"`(\w+)`", matched["names"])]
     return f"{_call_text(matched['callee'])} lacks {' and '.join(names)}"

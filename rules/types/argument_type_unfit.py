@@ -601,6 +601,86 @@ class ArgumentTypeUnfit(TypeRule):
             },
         ),
         Example(
+            "an object that has a node, for the node",
+            {
+                "frames.py": "from rclpy.node import Node\n"
+                "from tf2_ros import Buffer, TransformListener\n\n\n"
+                "class Frames:\n"
+                "    def __init__(self, node):\n"
+                "        self.buffer = Buffer()\n"
+                "        self.listener = TransformListener(self.buffer, self)\n\n\n"
+                "class Finding:\n"
+                "    def listen(self):\n"
+                "        self.listener = TransformListener(Buffer(), self)\n\n\n"
+                "class Robot(Finding, Node):\n"
+                "    def find(self):\n"
+                "        self.frames = Frames(self)\n"
+            },
+            "8:56: 'node' of TransformListener() must be an rclpy.node.Node, not a frames.Frames: "
+            "TransformListener() fails",
+        ),
+        Example(
+            "a duration for the default of a parameter",
+            {
+                "pacer.py": "from rclpy.duration import Duration\nfrom rclpy.node import Node\n\n\n"
+                "class Pacer(Node):\n"
+                "    def declare(self):\n"
+                "        self.declare_parameter('period', Duration(seconds=1.0))\n"
+                "        self.declare_parameter('names', ['a', 'b'])\n"
+            },
+            "7:42: 'value' of declare_parameter() cannot be an rclpy.duration.Duration: "
+            "declare_parameter() fails",
+        ),
+        Example(
+            "a callback of another module that takes nothing",
+            {
+                "package.xml": "<package><name>rover</name></package>\n",
+                "rover/__init__.py": "",
+                "rover/hearing.py": "def hear():\n    pass\n\n\ndef listen(msg):\n    return msg\n",
+                "rover/node.py": "from rclpy.node import Node\n"
+                "from rover.hearing import hear, listen\n"
+                "from std_msgs.msg import Bool\n\n\n"
+                "class Robot(Node):\n"
+                "    def start(self):\n"
+                "        self.create_subscription(Bool, 'a', hear, 10)\n"
+                "        self.create_subscription(Bool, 'b', listen, 10)\n",
+            },
+            "rover/node.py:8:45: create_subscription() calls the function 'hear' with 1 or 2 "
+            "arguments, but it takes 0: TypeError",
+        ),
+        Example(
+            "a duration for the number in it",
+            {
+                "pacer.py": "import time\n\nfrom rclpy.duration import Duration\n\n\n"
+                "class Pacer:\n"
+                "    def __init__(self):\n"
+                "        self.period = Duration(seconds=0.1)\n\n"
+                "    def wait(self):\n"
+                "        time.sleep(self.period)\n"
+                "        time.sleep(self.period.nanoseconds / 1e9)\n"
+            },
+            "11:20: time.sleep() cannot use an rclpy.duration.Duration: TypeError; use "
+            ".nanoseconds / 1e9",
+        ),
+        Example(
+            "functions with a parameter too few, for a diagnostic updater",
+            {
+                "wheels.py": "from diagnostic_updater import Updater\n"
+                "from rclpy.node import Node\n\n\n"
+                "class Wheels(Node):\n"
+                "    def __init__(self):\n"
+                "        super().__init__('wheels')\n"
+                "        self.updater = Updater(self)\n"
+                "        self.updater.add('left', self.check)\n"
+                "        self.updater.add('right', self.look)\n"
+                "        self.updater.add('all', self.see)\n\n"
+                "    def check(self, stat):\n        return stat\n\n"
+                "    def look(self):\n        return self.updater\n\n"
+                "    def see(self, *stats):\n        return stats[0]\n"
+            },
+            "10:35: add() calls the function 'look' with 1 argument, but it takes 0: TypeError",
+        ),
+        Example(
             "a text for a method of bytes",
             {
                 "port.py": "import serial\nfrom rclpy.node import Node\n\n\n"

@@ -240,6 +240,30 @@ class ArgumentsUnfit(TypeRule):
             fixed={"server.py": _SERVER.format("args=", ", timeout_sec=0.1")},
         ),
         Example(
+            "a mixin for nodes, and a class that has a node",
+            {
+                "mixins.py": "from std_msgs.msg import Bool\n\n\n"
+                "class Stopping:\n"
+                "    def listen(self):\n"
+                "        self.create_subscription(Bool, 'stop', self.stop)\n\n"
+                "    def stop(self, msg):\n        self.pub.publish(msg)\n\n\n"
+                "class Starting:\n"
+                "    def __init__(self, port):\n        self.port = port\n\n"
+                "    def listen(self):\n"
+                "        self.port.create_subscription(Bool, 'start')\n"
+            },
+            "6:9: create_subscription() lacks 'qos_profile': TypeError",
+        ),
+        Example(
+            "a synchronizer without its slop",
+            {
+                "pairs.py": "import message_filters\n\n\n"
+                "def pairs(left: message_filters.Subscriber):\n"
+                "    return message_filters.ApproximateTimeSynchronizer([left], queue_size=10)\n"
+            },
+            "5:12: ApproximateTimeSynchronizer() lacks 'slop': TypeError",
+        ),
+        Example(
             "the depth as ROS 1 names it",
             {"talker.py": _TALKER.format("queue_size")},
             Report(

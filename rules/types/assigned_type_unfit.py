@@ -132,6 +132,30 @@ class AssignedTypeUnfit(TypeRule):
             "9:15: 'x' of geometry_msgs.msg.Vector3 is a float, not a str: another number is sent "
             "('place' comes from line 13)",
         ),
+        Example(
+            "an attribute and a method for a list and a stamp",
+            {
+                "joints.py": "from rclpy.node import Node\nfrom sensor_msgs.msg import JointState\n"
+                "import math\n\n\n"
+                "class Joints(Node):\n"
+                "    def __init__(self):\n"
+                "        super().__init__('joints')\n"
+                "        self.angle = 0.0\n\n"
+                "    def tick(self):\n"
+                "        self.angle = math.fmod(self.angle + 0.1, 6.28)\n"
+                "        joints = JointState()\n"
+                "        joints.velocity = [self.angle]\n"
+                "        joints.position = self.angle\n"
+                "        joints.header.stamp = self.stamp()\n"
+                "        return joints\n\n"
+                "    def stamp(self):\n"
+                "        return self.get_clock().now()\n"
+            },
+            "15:27: 'position' of sensor_msgs.msg.JointState is a list, not a float: it cannot be "
+            "published",
+            "16:31: 'stamp' of std_msgs.msg.Header is a builtin_interfaces.msg.Time, not an "
+            "rclpy.time.Time: it cannot be published",
+        ),
         Example("a list of what the field holds", {"trail.py": _TRAIL.format("pose")}),
         Example(
             "a list of something else",

@@ -425,6 +425,55 @@ class AttributeMissing(TypeRule):
             "is in result()",
         ),
         Example(
+            "a message passed to the method of a helper, and of a mixin",
+            {
+                "limits.py": "from geometry_msgs.msg import TwistStamped\n"
+                "from rclpy.node import Node\n\n\n"
+                "class Limits:\n"
+                "    def apply(self, msg):\n        return msg.linear.x\n\n\n"
+                "class Limiting:\n"
+                "    def limit(self, msg):\n        return msg.angular.z\n\n\n"
+                "class Robot(Limiting, Node):\n"
+                "    def drive(self):\n"
+                "        self.limits = Limits()\n"
+                "        self.limits.apply(TwistStamped())\n"
+                "        self.limit(TwistStamped())\n"
+            },
+            "7:16: geometry_msgs.msg.TwistStamped has no 'linear': AttributeError; it has header, "
+            "twist ('msg' comes from line 18)",
+            "12:16: geometry_msgs.msg.TwistStamped has no 'angular': AttributeError; it has "
+            "header, twist ('msg' comes from line 19)",
+        ),
+        Example(
+            "a goal handle taken for the goal, whose fields are set elsewhere",
+            {
+                "server.py": "from example_interfaces.action import Fibonacci\n"
+                "from rclpy.action import ActionServer\nfrom rclpy.node import Node\n\n\n"
+                "class Server(Node):\n"
+                "    def start(self):\n"
+                "        ActionServer(self, Fibonacci, 'a', self.execute)\n\n"
+                "    def execute(self, goal_handle):\n"
+                "        goal = Fibonacci.Goal()\n"
+                "        goal.order = goal_handle.order\n"
+                "        return goal\n"
+            },
+            "12:22: rclpy.action.server.ServerGoalHandle has no 'order': AttributeError",
+        ),
+        Example(
+            "a future taken for the response, whose fields are set elsewhere",
+            {
+                "asker.py": "from rclpy.node import Node\nfrom std_srvs.srv import Trigger\n\n\n"
+                "class Asker(Node):\n"
+                "    def on_ask(self, request, response):\n"
+                "        client = self.create_client(Trigger, 'ask')\n"
+                "        answer = client.call_async(Trigger.Request())\n"
+                "        response.success = answer.success\n"
+                "        return response\n"
+            },
+            "9:28: rclpy.task.Future has no 'success': AttributeError; what the future brings is "
+            "in result()",
+        ),
+        Example(
             "a method taken for what it returns",
             {
                 "asker.py": _NODE.format("destroy") + "\n    def ask(self):\n"

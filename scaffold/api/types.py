@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from scaffold.types.finding import TypeFinding
 from scaffold.types.python_modules import later_modules
-from scaffold.types.stubs.marks import MARKED, full_name, short_name
+from scaffold.types.stubs.marks import MARK, MARKED, full_name, short_name
 from scaffold.types.stubs.members import (
     has_call,
     is_kind_of,
@@ -30,6 +30,7 @@ from scaffold.types.wording import (
 )
 
 __all__ = [
+    "MARK",
     "MARKED",
     "TypeFinding",
     "class_in",

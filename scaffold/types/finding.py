@@ -116,7 +116,7 @@ class TypeFinding:
     def passed_in(self) -> tuple[str, str] | None:
         """Return the parameter that the report is about, and the location of the call."""
         node = self._root
-        if node is None:
+        if node is None or (node.id == "self" and node is self.expression()):
             return None
         lines = [value.lineno for value in origins.arguments_for(self.module, node)]
         if lines:
@@ -280,9 +280,11 @@ class TypeFinding:
         assigned = self.module.enclosing(node, ast.Assign)
         if assigned is not None and "to unpack" in self.message:
             value = assigned.value
-            if isinstance(value, ast.Subscript) and origins.is_of_several(self.module, value):
-                return True
-            return origins.is_attribute(self.module, value)
+            is_entry = isinstance(value, ast.Subscript)
+            is_either = is_entry and origins.is_of_several(self.module, value)
+            return is_either or origins.is_attribute(self.module, value)
+        if assigned is not None and self.kind == "invalid-assignment":
+            return any(origins.is_of_several(self.module, item) for item in assigned.targets)
         call = self.module.enclosing(node, ast.Call)
         called: list[ast.AST] = [item.func for item in (node, call) if isinstance(item, ast.Call)]
         if any(isinstance(func, ast.Subscript) for func in called):

@@ -47,7 +47,10 @@ def has_default(module: PythonModule, node: ast.AST) -> bool:
     stored = {
         name
         for name in names
-        if any(isinstance(use.ctx, ast.Store) for use in module.index.attributes(name))
+        if any(
+            isinstance(use.ctx, ast.Store) and isinstance(use.value, ast.Name)
+            for use in module.index.attributes(name)
+        )
     }
     return any(
         not stored.isdisjoint(module.index.bindings(class_))

@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from scaffold.types import passed_types, ty
 from scaffold.types.rewriting.added_lines import Extended
 from scaffold.types.rewriting.arguments import with_arguments
+from scaffold.types.rewriting.mixins import with_nodes_as_self
 from scaffold.types.rewriting.unannotated import without_annotations
 from scaffold.types.sources import Source
 from scaffold.types.ty import TyDiagnostic
@@ -91,7 +92,9 @@ class Project:
         text = self._texts[place] = self._content(source)
         is_stub = not source.path
         self._written[place] = (
-            Extended(text, ()) if is_stub else with_arguments(text, source.dotted)
+            Extended(text, ())
+            if is_stub
+            else with_nodes_as_self(with_arguments(text, source.dotted))
         )
 
     def _place(self, file: Checked) -> str:
@@ -107,8 +110,10 @@ class Project:
             if call.function.startswith(f"{source.dotted}.")
         ]
         text = self._texts[source.place]
-        extended = with_arguments(text, source.dotted, received) if received else None
-        if extended is None or extended.data == self._written[source.place].data:
+        if not received:
+            return source.place
+        extended = with_nodes_as_self(with_arguments(text, source.dotted, received))
+        if extended.data == self._written[source.place].data:
             return source.place
         place = self._put_next_to(source.place, _COPY, extended)
         self._texts[place] = text

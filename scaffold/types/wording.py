@@ -28,6 +28,8 @@ _INNERMOST = re.compile(r"\([^()\[\]]*\)|\[[^()\[\]]*\]")
 """Matches innermost arguments of a function or a type."""
 _SEQUENCE = re.compile(r"(?:Sequence|list|tuple)\[.*\]")
 _NO_SEQUENCE = re.compile(r"(?:dict|set)\[.*\]|(?:int|float|bool)\*?|Literal\[-?\d+\]")
+_SCALAR = re.compile(r"(?:int|float|bool)\*?|Literal\[-?\d+\]")
+_OMITTED = re.compile(r"\| \.\.\. omitted \d+ union elements")
 _NUMBERS = re.compile(r"Supports(?:Float|Int|Index)(?: \| Supports(?:Float|Int|Index))*")
 _PLAIN = re.compile(r"Literal\[.*\]|(?:str|bytes|int|float|bool|list|tuple|dict)\b.*", re.DOTALL)
 """Matches types of values that are not classes."""
@@ -54,18 +56,26 @@ def is_certain_misfit(expected: str, given: str) -> bool:
     if expected.startswith("type["):
         parts = _alternatives(_TEXT.sub("str", given))
         return all(_PLAIN.fullmatch(part.strip()) for part in parts)
-    is_sequence = _SEQUENCE.fullmatch(expected) and "|" not in _without_arguments(expected)
-    if is_sequence and _NO_SEQUENCE.fullmatch(given):
-        return True  # whatever their elements
+    if _OMITTED.search(expected):
+        return bool(class_in(given)) and is_certain(given)
+    if _lacks_elements(expected, given):
+        return True
     if not is_certain(_ITERABLE.sub("list[", expected).replace("|", ",")):
         return False
-    if _CONTAINER.fullmatch(given) and _CLASSES.fullmatch(expected):
-        return True  # whatever its elements
-    if is_certain(given) or is_function(given):
-        return True
+    is_container = _CONTAINER.fullmatch(given) and _CLASSES.fullmatch(expected)
+    if is_container or is_certain(given) or is_function(given):
+        return True  # whatever the elements of a container
     parts = [part.strip() for part in _alternatives(_TEXT.sub("str", given))]
     is_of_classes = _CLASSES.fullmatch(expected) is not None and "bytes" not in parts
     return is_of_classes and all(map(_PLAIN_OR_CLASS.fullmatch, parts))
+
+
+def _lacks_elements(expected: str, given: str) -> bool:
+    """Tell whether a list is expected, of whatever elements, and something else is given."""
+    if _ITERABLE.match(expected) and _SCALAR.fullmatch(given):
+        return True
+    is_sequence = _SEQUENCE.fullmatch(expected) and "|" not in _without_arguments(expected)
+    return bool(is_sequence and _NO_SEQUENCE.fullmatch(given))
 
 
 def elements_misfit(expected: str, given: str) -> str:

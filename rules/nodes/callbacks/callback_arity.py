@@ -102,6 +102,35 @@ class CallbackArity(RclpyRule):
     code = "ND003"
     name = "callback-arity"
     examples = (
+        Example(
+            "replaced in a class of another module, by methods with and without a parameter",
+            {
+                "package.xml": "<package><name>rover</name></package>\n",
+                "rover/__init__.py": "",
+                "rover/base.py": _NODE.format(", msg").replace("Listener", "Base"),
+                **{
+                    f"rover/{name}.py": "import rclpy\nfrom rover.base import Base\n\n\n"
+                    f"class Robot(Base):\n    def hear(self{parameters}):\n        pass\n"
+                    for name, parameters in {"deaf": "", "robot": ", msg"}.items()
+                },
+            },
+            "rover/deaf.py:6:5: callback 'hear' takes 0 arguments, but a subscription passes the "
+            "message: RuntimeError",
+        ),
+        Example(
+            "a timer that partial passes something to",
+            {
+                "ticker.py": "from functools import partial\n\nfrom rclpy.node import Node\n\n\n"
+                "class Ticker(Node):\n"
+                "    def __init__(self):\n"
+                "        super().__init__('ticker')\n"
+                "        self.create_timer(1.0, partial(self.tick, 'a'))\n"
+                "        self.create_timer(1.0, partial(self.tock, 'a'))\n\n"
+                "    def tick(self):\n        pass\n\n"
+                "    def tock(self, name='b'):\n        pass\n"
+            },
+            "9:32: callback 'tick' gets 1 too many by partial(): TypeError",
+        ),
         Example("the future", {"listener.py": _ASKING.format("", ", future", "")}),
         Example(
             "no parameter, two parameters",
@@ -228,6 +257,10 @@ class CallbackArity(RclpyRule):
                 yield self.report(callback, f"{message}, but {given[1]}")
                 continue
             least, most = takes.start, takes.stop - 1
+            if least < 0 and callback.is_partial:
+                message = f"{_shown(callback)} gets {-least} too many by partial(): TypeError"
+                yield self.report(callback, message)
+                continue
             if least < 0:
                 yield self.report(callback, f"{_shown(callback)} lacks 'self': TypeError")
                 continue
@@ -248,6 +281,10 @@ def _given_callbacks(file: RclpyFile) -> Iterator[tuple[tuple[tuple[int, ...], s
         given = _argument_counts(entity)
         if given is not None:
             yield from ((given, item) for item in alternatives(file, callback))
+    for entity, callback in file.inherited_callbacks:
+        given = _argument_counts(entity)
+        if given is not None:
+            yield given, callback
     for attribute in file.module.index.attributes("add_done_callback"):
         match file.module.parent(attribute):
             case ast.Call(func=func, args=[passed], keywords=[]) if func is attribute:

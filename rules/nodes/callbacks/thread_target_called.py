@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 from scaffold.api import Diagnostic, Example, Package, RclpyRule, Report, Severity
 from scaffold.api.python import is_guarded_by
-from scaffold.api.rclpy import RclpyFile, Timer, is_used_elsewhere
+from scaffold.api.rclpy import RclpyFile, Timer, is_used_elsewhere, numbers_taken
 
 _SPINS = frozenset({"rclpy.spin", "rclpy.spin_once", "rclpy.spin_until_future_complete"})
 _NODE = (
@@ -42,6 +42,23 @@ class ThreadTargetCalled(RclpyRule):
     name = "thread-target-called"
     other_severities = {Severity.WARNING: "a thread that never ends"}
     examples = (
+        Example(
+            "as many arguments as the target takes, and others",
+            {
+                "reader.py": "from threading import Thread\n\nfrom rclpy.node import Node\n\n\n"
+                "class Reader(Node):\n"
+                "    def start(self):\n"
+                "        Thread(target=self.read, args=('a',)).start()\n"
+                "        Thread(target=self.read, args=('a', 2)).start()\n"
+                "        Thread(target=self.read, args=('a', 2, 3)).start()\n"
+                "        Thread(target=self.read).start()\n\n"
+                "    def read(self, port, rate=1):\n        return port, rate\n"
+            },
+            "10:23: read() takes 1 to 2 arguments, but the thread passes 3: TypeError in the "
+            "thread",
+            "11:23: read() takes 1 to 2 arguments, but the thread passes 0: TypeError in the "
+            "thread",
+        ),
         Example("passed, awaited", {"talker.py": _NODE.format("", "0.1", "await ")}),
         Example(
             "a parameter that may be set",
@@ -267,6 +284,24 @@ def _problems(file: RclpyFile, thread: ast.Call) -> Iterator[tuple[ast.AST, str]
             text = file.module.text(word.value)
             message = f"({text}) is not a tuple: TypeError in the thread; write ({text},)"
             yield word.value, message
+    yield from _miscounted(file, {word.arg: word.value for word in thread.keywords})
+
+
+def _miscounted(
+    file: RclpyFile, words: Mapping[str | None, ast.expr]
+) -> Iterator[tuple[ast.AST, str]]:
+    """Yield a target that does not take as many arguments as the thread passes."""
+    target, given = words.get("target"), words.get("args", ast.Tuple(elts=[], ctx=ast.Load()))
+    if target is None or not words.keys() <= {"target", "args", "daemon", "name"}:
+        return
+    if not isinstance(given, ast.Tuple | ast.List) or isinstance(target, ast.Call):
+        return
+    callback, count = file.callback(target), len(given.elts)
+    takes = numbers_taken(callback)
+    if takes and count not in takes and not any(isinstance(x, ast.Starred) for x in given.elts):
+        most = "" if len(takes) == 1 else f" to {takes[-1]}"
+        message = f"{callback.name}() takes {takes[0]}{most} arguments, but the thread passes "
+        yield target, f"{message}{count}: TypeError in the thread"
 
 
 def _unawaited(package: Package, file: RclpyFile) -> Iterator[tuple[ast.AST, str]]:

@@ -82,6 +82,23 @@ class ParameterReadUndeclared(RclpyRule):
             "mean 'rates'?",
         ),
         Example(
+            "all in a table of the class, and another one",
+            {
+                f"{name}.py": _NODE.format(
+                    "        for name, default in self.DEFAULTS.items():\n"
+                    f"            self.declare_parameter(name, default)\n{more}",
+                    "",
+                ).replace("    def", f"    DEFAULTS = {{'{name}': 1.0, 'gain': 0.5}}\n\n    def", 1)
+                for name, more in {
+                    "rate": "",
+                    "rates": "",
+                    "turn_rate": "        self.DEFAULTS['other'] = 2.0\n",
+                }.items()
+            },
+            "rates.py:11:21: parameter 'rate' is not declared: ParameterNotDeclaredException; did "
+            "you mean 'rates'?",
+        ),
+        Example(
             "another parameter declared",
             {"talker.py": _NODE.format(_DECLARED.replace("rate", "rates"), "")},
             "8:21: parameter 'rate' is not declared: ParameterNotDeclaredException; did you mean "

@@ -9,7 +9,7 @@ from scaffold.api import Diagnostic, Example, RclpyRule, Report, Severity
 from scaffold.api.python import (
     FunctionNode,
     PythonModule,
-    is_guarded_by,
+    conditions_on,
     is_handled,
     is_none_literal,
 )
@@ -61,6 +61,26 @@ class FutureReadTooEarly(RclpyRule):
             },
         ),
         Example(
+            "an attribute that is read after the call in another way",
+            {
+                "caller.py": _NODE.format(
+                    "self.sent = self.client.call_async(self.request)\n"
+                    "        if self.sent.done():\n            return self.answer(self.sent)"
+                )
+            },
+        ),
+        Example(
+            "an attribute that is read right after the call",
+            {
+                "caller.py": _NODE.format(
+                    "if self.sent.done():\n"
+                    "            self.sent = self.client.call_async(self.request)\n"
+                    "            self.answer(self.sent)"
+                )
+            },
+            "9:13: 'self.sent' is not done here: result() returns None; use add_done_callback()",
+        ),
+        Example(
             "right after the call",
             {"caller.py": _NODE.format("return future.result()")},
             "7:16: 'future' is not done here: result() returns None; use add_done_callback()",
@@ -107,12 +127,13 @@ class FutureReadTooEarly(RclpyRule):
                 message = f"{text} may be None here: the wait has a timeout; check done() first"
                 yield self.report(file.module.location(read), message, severity=Severity.WARNING)
             for name, line in _futures(file.module, function).items():
-                if _waits(file.module, function):
+                if _waits(file.module, function, line):
                     continue
                 for call in file.calls_in(function):
                     if call.lineno < line:
                         continue  # another future, passed to a done callback
-                    if self._reads_result(file, call, name) and not _is_asked(file, call, name):
+                    is_read = self._reads_result(file, call, name)
+                    if is_read and not _is_asked(file, call, name, line):
                         at = file.module.location(call)
                         message = f"{name!r} is not done here: result() returns None; "
                         message += "use add_done_callback()"
@@ -122,9 +143,9 @@ class FutureReadTooEarly(RclpyRule):
 
     def _reads_result(self, file: RclpyFile, call: ast.Call, name: str) -> bool:
         match call.func:
-            case ast.Attribute(value=ast.Name(id=owner), attr="result"):
-                return owner == name
-        if not any(isinstance(arg, ast.Name) and arg.id == name for arg in call.args):
+            case ast.Attribute(value=ast.Name() | ast.Attribute() as owner, attr="result"):
+                return ast.unparse(owner) == name
+        if not any(ast.unparse(arg) == name for arg in call.args):
             return False
         callback = file.callback(call.func)
         function = callback.function
@@ -192,27 +213,30 @@ def _is_result(node: ast.expr, future: str) -> bool:
     return False
 
 
-def _is_asked(file: RclpyFile, call: ast.Call, name: str) -> bool:
-    """Return whether a condition makes sure that the future is done."""
-    return is_guarded_by(file.module, call, ast.Name(id=name))
+def _is_asked(file: RclpyFile, call: ast.Call, name: str, line: int) -> bool:
+    """Return whether a condition from a line on makes sure that the future is done."""
+    conditions = [test for test in conditions_on(file.module, call) if test.lineno >= line]
+    return any(name in ast.unparse(test) for test in conditions)
 
 
 def _futures(module: PythonModule, function: FunctionNode) -> dict[str, int]:
-    """Return the variables with the future of an asynchronous call, and their lines."""
+    """Return the variables and attributes with the future of a call, and their lines."""
     names: dict[str, int] = {}
     for statement in module.below(function, ast.Assign):
         match statement:
             case ast.Assign(
-                targets=[ast.Name(id=name)], value=ast.Call(func=ast.Attribute(attr=method))
+                targets=[ast.Name() | ast.Attribute(value=ast.Name()) as target],
+                value=ast.Call(func=ast.Attribute(attr=method)),
             ) if method in CALLS:
-                names.setdefault(name, statement.lineno)
+                names.setdefault(ast.unparse(target), statement.lineno)
     return names
 
 
-def _waits(module: PythonModule, function: FunctionNode) -> bool:
-    """Return whether anything in a function may wait for the future."""
+def _waits(module: PythonModule, function: FunctionNode, line: int = 0) -> bool:
+    """Return whether anything in a function may wait for the future, from a line on."""
     if any(True for _ in module.below(function, ast.Await, ast.While, ast.Yield)):
         return True
-    attributes = [node.attr for node in module.below(function, ast.Attribute)]
+    used = [node for node in module.below(function, ast.Attribute) if node.lineno >= line]
+    attributes = [node.attr for node in used]
     names = [*attributes, *(node.id for node in module.below(function, ast.Name))]
     return not WAITS.isdisjoint(attributes) or any("spin" in x or "wait" in x for x in names)

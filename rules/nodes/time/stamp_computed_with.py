@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, RclpyRule
-from scaffold.api.rclpy import RclpyFile, class_of
+from scaffold.api.rclpy import NUMBER, RclpyFile, class_of, clocks_of
 
 _SPANS = frozenset({"rclpy.duration.Duration", "rclpy.time.Time"})
 _NODE = (
@@ -23,12 +23,14 @@ _NODE = (
 
 
 class StampComputedWith(RclpyRule):
-    """The stamp of a message is used in arithmetic or compared with a time.
+    """The stamp of a message is used in arithmetic, or the difference of two times as a number.
 
     **Why.** ``TypeError: unsupported operand type(s) for -: 'Time' and 'Time'``: a message contains
-    a ``builtin_interfaces/Time``, which has fields, but no operators.
+    a ``builtin_interfaces/Time``, which has fields, but no operators. The difference of two times
+    of rclpy is a ``Duration``, which cannot be multiplied by a speed.
 
-    **Fix.** Use ``Time.from_msg(msg.header.stamp)``, with ``from rclpy.time import Time``.
+    **Fix.** Use ``Time.from_msg(msg.header.stamp)``, with ``from rclpy.time import Time``; for
+    seconds, ``(now - last).nanoseconds / 1e9``.
 
     **Source.** ``rclpy/time.py``, ``Time.from_msg``; ``builtin_interfaces/msg/Time.msg``.
     """
@@ -85,6 +87,24 @@ class StampComputedWith(RclpyRule):
             },
         ),
         Example(
+            "a duration in seconds",
+            {
+                "viewer.py": _NODE.format("self.last")
+                + "        self.last = self.get_clock().now()\n"
+                "        dt = age.nanoseconds / 1e9\n"
+                "        self.x += self.speed * dt\n"
+            },
+        ),
+        Example(
+            "a duration as a number",
+            {
+                "viewer.py": _NODE.format("self.last")
+                + "        self.last = self.get_clock().now()\n"
+                "        self.x += self.speed * age\n"
+            },
+            "15:32: rclpy Duration is not a number of seconds: TypeError; use .nanoseconds / 1e9",
+        ),
+        Example(
             "the key to sort messages by",
             {
                 "kept.py": "from rclpy.time import Time\n\n\n"
@@ -97,6 +117,9 @@ class StampComputedWith(RclpyRule):
     )
 
     def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        for span in _scaled_spans(file):
+            message = "rclpy Duration is not a number of seconds: TypeError; use .nanoseconds / 1e9"
+            yield self.report(file.module.location(span), message, cause="duration as a number")
         if not any(file.module.index.attributes("stamp")):
             return
         for node in [*file.module.walk(ast.BinOp), *file.module.walk(ast.Compare)]:
@@ -118,6 +141,24 @@ class StampComputedWith(RclpyRule):
                             "message stamps cannot be compared: TypeError; use Time.from_msg(...)"
                         )
                         yield self.report(file.module.location(stamp), message)
+
+
+def _scaled_spans(file: RclpyFile) -> Iterator[ast.expr]:
+    """Yield differences of times that something of unknown type is multiplied by or divided by."""
+    for node in file.module.walk(ast.BinOp):
+        match node:
+            case ast.BinOp(left=left, op=ast.Mult() | ast.Div(), right=ast.Name() as right):
+                is_number = isinstance(left, ast.Constant)  # which TY006 reports
+                if not is_number and _is_difference_of_times(file, right):
+                    yield right
+
+
+def _is_difference_of_times(file: RclpyFile, node: ast.expr) -> bool:
+    match file.evaluator.single_value(node):
+        case ast.BinOp(left=left, op=ast.Sub(), right=right):
+            clocks = [*clocks_of(file, left).values(), *clocks_of(file, right).values()]
+            return None not in clocks and NUMBER not in clocks
+    return False
 
 
 def _is_flawed(file: RclpyFile, node: ast.AST) -> bool:

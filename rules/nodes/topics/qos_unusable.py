@@ -115,7 +115,7 @@ class QosUnusable(RclpyRule):
         Example(
             "a profile without a depth",
             {"talker.py": _NODE_MISSING.format(_QOS, ", QoSProfile()")},
-            "9:9: QoS profile without a depth: InvalidQoSProfileException",
+            "9:50: QoS profile without a depth: InvalidQoSProfileException",
         ),
     )
 
@@ -134,6 +134,9 @@ class QosUnusable(RclpyRule):
                 problem = _problem_of_word(file, word)
                 if problem:
                     yield self.report(file.module.location(word.value), problem)
+            if _lacks_depth(file, call):
+                message = "QoS profile without a depth: InvalidQoSProfileException"
+                yield self.report(file.module.location(call), message)
 
     def _check_missing(self, file: RclpyFile) -> Iterator[Diagnostic]:
         entities: list[Publisher | Subscription] = [*file.publishers, *file.subscriptions]
@@ -150,10 +153,16 @@ class QosUnusable(RclpyRule):
         if entity.argument("qos_profile") is None and entity.qos is None:
             method = "create_publisher" if isinstance(entity, Publisher) else "create_subscription"
             return f"{method}() is missing a depth or a QoS profile: TypeError"
-        qos = entity.qos
-        if qos is not None and qos.depth is None:
-            return "QoS profile without a depth: InvalidQoSProfileException"
         return None
+
+
+def _lacks_depth(file: RclpyFile, call: ast.Call) -> bool:
+    """Tell whether a profile has neither a depth nor a history without one."""
+    words = {word.arg: word.value for word in call.keywords}
+    if {"depth", None} & words.keys() or call.args:
+        return False
+    history = words.get("history")
+    return history is None or file.module.text(history).endswith("KEEP_LAST")
 
 
 def _problem(file: RclpyFile, node: ast.expr, value: object) -> str:

@@ -235,12 +235,13 @@ class MessageTypes:
 
     def _passed(self) -> Iterator[tuple[Endpoint, Callback | None, int, str]]:
         """Yield endpoints with callbacks, the index of the parameter and the received section."""
-        for endpoint in self.file.endpoints:
+        called = [(endpoint, endpoint.callback) for endpoint in self.file.endpoints]
+        for endpoint, callback in (*called, *self.file.inherited_callbacks):
             if isinstance(endpoint, Subscription) and not endpoint.argument("raw"):
-                yield endpoint, endpoint.callback, 0, ""
+                yield endpoint, callback, 0, ""
             elif isinstance(endpoint, Service):
-                yield endpoint, endpoint.callback, 0, "Request"
-                yield endpoint, endpoint.callback, 1, "Response"
+                yield endpoint, callback, 0, "Request"
+                yield endpoint, callback, 1, "Response"
         for synchronizer in self.file.synchronizers:
             for index, given in enumerate(synchronizer.inputs or ()):
                 if given is not None:

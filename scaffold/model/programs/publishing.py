@@ -237,7 +237,7 @@ def _timer_with(file: RclpyFile, reference: ast.expr) -> Timer | None:
     return None
 
 
-def _innermost(callback: Callback) -> ast.expr:
+def _innermost(callback: Callback) -> ast.AST:
     """Return the function inside ``partial(partial(function, ...), ...)``."""
     node = callback.node
     while isinstance(node, ast.Call) and node.args:

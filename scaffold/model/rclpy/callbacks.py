@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Container, Sequence
+from collections.abc import Container, Iterator, Sequence
 from itertools import takewhile
 from typing import TYPE_CHECKING
 
-from scaffold.model.rclpy.entities import Callback
+from scaffold.model.rclpy.entities import Callback, Entity
 from scaffold.model.rclpy.nodes import NodeClass
 
 if TYPE_CHECKING:
@@ -41,6 +41,16 @@ def resolve(file: RclpyFile, node: ast.expr) -> Callback:
             function = None
         return Callback(node, node.id, function, module, is_called=False, is_bound=False)
     return Callback(node, None, None, module, is_called=False, is_bound=False)
+
+
+def replaced(node: NodeClass, base: NodeClass) -> Iterator[tuple[Entity, Callback]]:
+    """Yield the methods of a class that its base class, in another file, registers."""
+    for entity, callback in base.file.callbacks:
+        name = callback.name or ""
+        method = node.methods.get(name)
+        is_own = callback.is_bound and callback.function is base.method(name)
+        if method is not None and is_own and not callback.is_called:
+            yield entity, callback._replace(node=method, function=method, module=node.file.module)
 
 
 def worker(file: RclpyFile, callback: Callback) -> Callback:
@@ -128,7 +138,7 @@ def alternatives(file: RclpyFile, callback: Callback) -> Sequence[Callback]:
     return [item for item in chosen if item.function is not None]
 
 
-def _chosen_from(file: RclpyFile, node: ast.expr, depth: int = 0) -> Sequence[ast.expr]:
+def _chosen_from(file: RclpyFile, node: ast.AST, depth: int = 0) -> Sequence[ast.expr]:
     """Return the alternatives of an expression; empty if unknown."""
     if isinstance(node, ast.IfExp):
         return [node.body, node.orelse]
@@ -162,7 +172,10 @@ def _column(file: RclpyFile, target: ast.AST) -> Sequence[ast.expr]:
 
 
 def numbers_taken(callback: Callback) -> range | None:
-    """Return the accepted numbers of positional arguments of a callback; ``None`` if unknown."""
+    """Return the accepted numbers of positional arguments of a callback; ``None`` if unknown.
+
+    Negative if ``partial`` already passes too many.
+    """
     function = callback.function
     if function is None or callback.is_called:
         return None
@@ -179,16 +192,25 @@ def numbers_taken(callback: Callback) -> range | None:
     names = names[int(callback.is_bound) :]
     needed = names[: len(names) - len(arguments.defaults)]
     if callback.is_partial:
-        given = _given_before(callback.node)
-        if given is None or given[0] > len(needed):
-            return None
-        number, by_name = given
-        needed = [name for name in needed[number:] if name not in by_name]
-        names = [*takewhile(lambda name: name not in by_name, names[number:])]
+        return _left_by_partial(names, needed, _given_before(callback.node))
     return range(len(needed), len(names) + 1)
 
 
-def _given_before(node: ast.expr) -> tuple[int, set[str | None]] | None:
+def _left_by_partial(
+    names: Sequence[str], needed: Sequence[str], given: tuple[int, set[str | None]] | None
+) -> range | None:
+    """Return how many of a function's arguments ``partial`` leaves; negative if it gives more."""
+    if given is None:
+        return None
+    number, by_name = given
+    if number > len(names):
+        return range(len(names) - number, len(names) - number + 1)
+    needed = [name for name in needed[number:] if name not in by_name]
+    names = [*takewhile(lambda name: name not in by_name, names[number:])]
+    return range(len(needed), len(names) + 1)
+
+
+def _given_before(node: ast.AST) -> tuple[int, set[str | None]] | None:
     """Return how many arguments ``partial(function, 'left')`` gives, and which ones by name.
 
     ``None`` if that is not known.

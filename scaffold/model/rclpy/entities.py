@@ -32,7 +32,8 @@ class Argument(NamedTuple):
 class Callback(NamedTuple):
     """An expression passed as a callback."""
 
-    node: ast.expr
+    node: ast.expr | FunctionNode
+    """The expression; the definition if a base class in another file passes the method."""
     name: str | None
     """The name of the method or function; ``None`` for a lambda or if unknown."""
     function: FunctionNode | ast.Lambda | None

@@ -365,6 +365,16 @@ class RclpyFile:
             (entity, callback) for entity in self.entities for callback in _callbacks_of(entity)
         ]
 
+    @cached_property
+    def inherited_callbacks(self) -> Sequence[tuple[Entity, Callback]]:
+        """The methods that replace a callback which a base class in another file registers."""
+        return [
+            found
+            for node in self.classes
+            if node.base is not None and node.base.file is not self
+            for found in node_callbacks.replaced(node, node.base)
+        ]
+
     synchronizers = _entities(Synchronizer)
     """The message synchronizers."""
 

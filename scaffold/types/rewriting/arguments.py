@@ -10,13 +10,14 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Iterator, Mapping, Sequence
+from functools import lru_cache
 
 from scaffold.record import NamedTuple
 from scaffold.types.rewriting import containers, returns
 from scaffold.types.rewriting.added_lines import Extended, with_lines
 from scaffold.types.rewriting.callbacks import arguments_of, function_body
 from scaffold.types.rewriting.lambdas import place_of
-from scaffold.types.rewriting.passed import GIVEN, Passed, own_names, places
+from scaffold.types.rewriting.passed import GIVEN, Passed, calls_of_object, own_names, places
 from scaffold.types.rewriting.statements import class_starts, definitions
 from scaffold.types.stubs import makers
 
@@ -30,7 +31,13 @@ _FUNCTION = re.compile(
     r"(?:#[^\n]*)?\n(?=\n*(?P<inner> +)\S)",
     re.MULTILINE,
 )
+_MADE = re.compile(
+    r"^[ ]*(?P<name>self\.\w+|\w+)[ ]*(?::[^=\n]*)?=[ ]*(?P<class>[A-Z]\w*)\(", re.MULTILINE
+)
+"""Matches a variable or an attribute that is set to a new object."""
 _NAME = re.compile(r"\w+")
+_DERIVED = r"^class \w+\([^()\n]*\b{}\b"
+"""Matches a class that is derived from another one of the file."""
 _PARAMETER = re.compile(r"(\*{0,2}\w*|/)[ ]*(:[^=\"'\n#]*?)?[ ]*(?:=\s*(.*))?", re.DOTALL)
 """Matches a parameter; not one with a quoted annotation, as callbacks get."""
 _CONSTANT = re.compile(r"-?\d[\w.]*|'[^'\\\n]*'|\"[^\"\\\n]*\"|True|False|None")
@@ -192,6 +199,8 @@ def _functions(text: str) -> Iterator[_Function]:
         elif decorator or (is_method and match["indent"]):
             name = f"{class_[0]}.{called}" if class_ else ""
             called = f"self.{called}"
+            if class_ and re.search(_DERIVED.format(class_[0]), text, re.MULTILINE):
+                segment = (0, len(text))  # derived classes call it as well
         else:
             segment = (0, len(text))
         if called:
@@ -220,9 +229,27 @@ def _calls(text: str, function: _Function) -> Iterator[tuple[int, Mapping[str, s
     The third value tells whether more arguments follow later: ``partial(self.on_pose, name)``.
     """
     yield from _calls_as(text, function, function.called, is_partial=False)
+    class_, _, method = function.name.partition(".")
+    for local in _objects(text).get(class_, ()) if method else ():
+        for place in calls_of_object(text, local, class_):
+            if place.function == function.name:
+                called = f"{local}.{method}("
+                segment = place.start, place.arguments
+                yield from _calls_as(
+                    text, function._replace(segment=segment), called, is_partial=False
+                )
     if "partial(" in text:
         called = f"partial({function.called.removesuffix('(')},"
         yield from _calls_as(text, function, called, is_partial=True)
+
+
+@lru_cache(maxsize=1)
+def _objects(text: str) -> Mapping[str, Sequence[str]]:
+    """Return the variables and attributes that a text sets to new objects, by class."""
+    result: dict[str, list[str]] = {}
+    for match in _MADE.finditer(text):
+        result.setdefault(match["class"], []).append(match["name"])
+    return result
 
 
 def _calls_as(

@@ -99,7 +99,7 @@ def places(text: str, names: Mapping[str, str]) -> Iterator[Place]:
                 made.setdefault(kept[1], set()).add(function)
     for local, classes in made.items():
         if len(classes) == 1:
-            yield from _of_object(text, local, *classes)
+            yield from calls_of_object(text, local, *classes)
     yield from _inherited(text, names)
 
 
@@ -119,7 +119,7 @@ def _inherited(text: str, names: Mapping[str, str]) -> Iterator[Place]:
                 yield Place(f"{base}{method}", call.start(), call.end())
 
 
-def _of_object(text: str, name: str, class_: str) -> Iterator[Place]:
+def calls_of_object(text: str, name: str, class_: str) -> Iterator[Place]:
     """Yield the calls of methods of a variable or attribute, unless it may be another object."""
     places: list[Place] = []
     times_set = 0

@@ -23,6 +23,10 @@ SIGNATURES = {
 }
 
 
+_CHANGING = ("clear", "pop", "popitem", "setdefault", "update")
+"""The methods that change which keys a dictionary has."""
+
+
 class Declaration(NamedTuple):
     """The declaration of one parameter."""
 
@@ -51,7 +55,15 @@ class Declarations:
             return
         prefix = self._file.evaluator.text(given["namespace"]) if "namespace" in given else ""
         listed = given.get("parameters")
-        for item in self._file.evaluator.elements(listed).items if listed else ():
+        if isinstance(listed, ast.ListComp) and isinstance(listed.elt, ast.Tuple):
+            row_parts: list[ast.expr | None] = [*listed.elt.elts[:3], None, None]
+            for row in self._rows(row_parts[0]):
+                yield Declaration(prefix, *(_in_row(node, row) for node in row_parts[:3]))
+            return
+        items, is_complete = self._file.evaluator.elements(listed) if listed else ((), True)
+        if not is_complete:
+            yield Declaration(UNKNOWN, None, None, None)
+        for item in items:
             if isinstance(item.node, ast.Tuple | ast.List) and item.node.elts:
                 parts = item.node.elts
                 value, descriptor = (parts[at] if len(parts) > at else None for at in (1, 2))
@@ -90,13 +102,14 @@ class Declarations:
     def _loop_items(self, node: ast.expr) -> Sequence[ast.expr]:
         """Return the items of a list, or the pairs of a dictionary; empty if there may be more."""
         match node:
-            case ast.Call(func=ast.Attribute(attr="items", value=ast.Dict() as pairs), args=[]):
-                result = [
+            case ast.Call(func=ast.Attribute(attr="items", value=dictionary), args=[]):
+                pairs = self._pairs(dictionary)
+                return [
                     ast.copy_location(ast.Tuple(elts=[key, value], ctx=ast.Load()), key)
-                    for key, value in zip(pairs.keys, pairs.values, strict=True)
-                    if key is not None
+                    for key, value in pairs
                 ]
-                return result if len(result) == len(pairs.keys) else ()
+        if isinstance(node, ast.Name | ast.Attribute) and self._pairs(node):
+            return [key for key, _ in self._pairs(node)]
         items, is_complete = self._file.evaluator.elements(node)
         parent = self._file.module.index.parent
         is_written = all(isinstance(parent(item.node), ast.List | ast.Tuple) for item in items)
@@ -107,6 +120,42 @@ class Declarations:
         if len(names) != len(items):
             return ()
         return [ast.copy_location(ast.Constant(name), node) for name in names]
+
+    def _pairs(self, node: ast.expr) -> Sequence[tuple[ast.expr, ast.expr]]:
+        """Return the entries of a dictionary, also of a constant; empty if there may be more."""
+        pairs = self._file.evaluator.single_value(node)
+        if pairs is node:
+            return self._imported_pairs(node)
+        if not isinstance(pairs, ast.Dict) or None in pairs.keys:
+            return ()
+        return (
+            ()
+            if self._is_changed(node)
+            else [*zip(filter(None, pairs.keys), pairs.values, strict=True)]
+        )
+
+    def _imported_pairs(self, node: ast.expr) -> Sequence[tuple[ast.expr, ast.expr]]:
+        """Return the entries of a dictionary literal, or of a constant of another module."""
+        if isinstance(node, ast.Dict):
+            is_whole = None not in node.keys
+            return [*zip(filter(None, node.keys), node.values, strict=True)] if is_whole else ()
+        value = self._file.evaluator.evaluate(node)
+        if not isinstance(value, dict) or self._is_changed(node):
+            return ()
+        constants = [(ast.Constant(key), ast.Constant(item)) for key, item in value.items()]
+        for pair in constants:
+            for constant in pair:
+                ast.copy_location(constant, node)
+        return constants
+
+    def _is_changed(self, dictionary: ast.expr) -> bool:
+        """Tell whether entries are added to a dictionary, or removed."""
+        module = self._file.module
+        text = module.text(dictionary)
+        return module.mentions(*(f"{text}.{name}(" for name in _CHANGING)) or any(
+            not isinstance(entry.ctx, ast.Load) and module.text(entry.value) == text
+            for entry in module.walk(ast.Subscript)
+        )
 
     def full_name(self, prefix: str | Unknown, name: ast.expr | None) -> str | Unknown:
         """Return a parameter's name with its namespace."""
