@@ -90,6 +90,24 @@ class FieldValueUnfit(MessageRule):
             },
         ),
         Example(
+            "matrices that methods return, with 36 and with 9 elements",
+            {
+                "pose.py": "from geometry_msgs.msg import PoseWithCovariance\n\n\n"
+                "class Poses:\n"
+                "    def pose(self):\n"
+                "        pose = PoseWithCovariance()\n"
+                "        pose.covariance = self.large(0.1)\n"
+                "        pose.covariance = self.small(0.1)\n"
+                "        return pose\n\n"
+                "    def large(self, value):\n"
+                "        return [value, *[0.0] * 35]\n\n"
+                "    def small(self, value):\n"
+                "        return [value, 0.0, 0.0, 0.0, value, 0.0, 0.0, 0.0, value]\n"
+            },
+            "8:27: 'covariance' of geometry_msgs/msg/PoseWithCovariance is float64[36], but "
+            "[value, 0.0, 0.0, 0.0, valu... has 9 elements, not 36",
+        ),
+        Example(
             "a counter of button presses",
             {
                 "talker.py": _CODE.replace("create_timer(0.5, self.talk)", "on_press(self.talk)")

@@ -601,6 +601,23 @@ class ArgumentTypeUnfit(TypeRule):
             },
         ),
         Example(
+            "publishers in a table, swapped and not",
+            {
+                "state.py": "from rclpy.node import Node\n"
+                "from std_msgs.msg import Bool, String\n\n\n"
+                "class State(Node):\n"
+                "    def start(self):\n"
+                "        self.pubs = {\n"
+                "            'state': self.create_publisher(String, 'state', 10),\n"
+                "            'alarm': self.create_publisher(Bool, 'alarm', 10),\n"
+                "        }\n"
+                "        self.pubs['state'].publish(String())\n"
+                "        self.pubs['state'].publish(Bool())\n"
+            },
+            "12:36: 'msg' of publish() must be a std_msgs.msg.String or bytes, not a "
+            "std_msgs.msg.Bool: publish() fails",
+        ),
+        Example(
             "an object that has a node, for the node",
             {
                 "frames.py": "from rclpy.node import Node\n"

@@ -156,6 +156,16 @@ class AssignedTypeUnfit(TypeRule):
             "16:31: 'stamp' of std_msgs.msg.Header is a builtin_interfaces.msg.Time, not an "
             "rclpy.time.Time: it cannot be published",
         ),
+        Example(
+            "entries of a table, each of its own type",
+            {
+                "flag.py": "from std_msgs.msg import Bool\n\n"
+                "TARGETS = [{'speed': 0.2, 'is_on': True}, {'speed': 0.4, 'is_on': False}]\n"
+                "for target in TARGETS:\n"
+                "    flag = Bool()\n"
+                "    flag.data = target['is_on']\n"
+            },
+        ),
         Example("a list of what the field holds", {"trail.py": _TRAIL.format("pose")}),
         Example(
             "a list of something else",

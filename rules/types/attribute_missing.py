@@ -425,6 +425,33 @@ class AttributeMissing(TypeRule):
             "is in result()",
         ),
         Example(
+            "callbacks that objects have, of the same file and of another module",
+            {
+                "package.xml": "<package><name>rover</name></package>\n",
+                "rover/__init__.py": "",
+                "rover/hearing.py": "class Hearing:\n"
+                "    def hear(self, msg):\n        return msg.text\n\n\n"
+                "def answer(request, response):\n    response.ok = True\n    return response\n",
+                "rover/node.py": "from rclpy.node import Node\nfrom rover import hearing\n"
+                "from rover.hearing import Hearing\nfrom std_msgs.msg import String\n"
+                "from std_srvs.srv import Trigger\n\n\n"
+                "class Seeing:\n"
+                "    def see(self, msg):\n        return msg.image\n\n\n"
+                "class Robot(Node):\n"
+                "    def start(self):\n"
+                "        self.hearing = Hearing()\n"
+                "        self.seeing = Seeing()\n"
+                "        self.create_subscription(String, 'a', self.hearing.hear, 10)\n"
+                "        self.create_subscription(String, 'b', self.seeing.see, 10)\n"
+                "        self.create_service(Trigger, 'c', hearing.answer)\n",
+            },
+            "rover/hearing.py:3:16: std_msgs.msg.String has no 'text': AttributeError; it has "
+            "data ('msg' comes from line 17 of rover/node.py)",
+            "rover/hearing.py:7:5: std_srvs.srv.Trigger.Response has no 'ok': AttributeError; it "
+            "has message, success ('response' comes from line 19 of rover/node.py)",
+            "rover/node.py:10:16: std_msgs.msg.String has no 'image': AttributeError; it has data",
+        ),
+        Example(
             "a message passed to the method of a helper, and of a mixin",
             {
                 "limits.py": "from geometry_msgs.msg import TwistStamped\n"

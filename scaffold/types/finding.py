@@ -18,7 +18,7 @@ from scaffold.source import Location
 from scaffold.types import origins
 from scaffold.types.rewriting.passed import first_call
 from scaffold.types.ros1 import is_for_ros1
-from scaffold.types.stubs.marks import MARKED, full_name
+from scaffold.types.stubs.marks import MARKED, full_name, short_name
 from scaffold.types.ty import TyDiagnostic
 
 Node = TypeVar("Node", bound=ast.AST)
@@ -279,19 +279,18 @@ class TypeFinding:
             return False  # only reported if no object of them has it
         assigned = self.module.enclosing(node, ast.Assign)
         if assigned is not None and "to unpack" in self.message:
-            value = assigned.value
-            is_entry = isinstance(value, ast.Subscript)
-            is_either = is_entry and origins.is_of_several(self.module, value)
-            return is_either or origins.is_attribute(self.module, value)
+            return origins.is_unpacked_of_several(self.module, assigned.value)
         if assigned is not None and self.kind == "invalid-assignment":
-            return any(origins.is_of_several(self.module, item) for item in assigned.targets)
+            return origins.is_assigned_of_several(self.module, assigned, node)
         call = self.module.enclosing(node, ast.Call)
         called: list[ast.AST] = [item.func for item in (node, call) if isinstance(item, ast.Call)]
         if any(isinstance(func, ast.Subscript) for func in called):
             return True
         if self.kind in _OF_ELEMENTS:
             called = [node]
-        return any(origins.is_of_several(self.module, item) for item in called or [node])
+        expected = self.message.partition("Expected ")[2].partition(", found")[0]
+        names = {short_name(name) for name in re.findall(MARKED, expected)}
+        return any(origins.is_of_several(self.module, item, names) for item in called or [node])
 
     def _is_of_another(self, node: ast.AST) -> bool:
         """Tell whether code for another distribution sets a name and thereby its type."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterator, Sequence
+from collections.abc import Set as AbstractSet
 
 from scaffold.model.python.given_arguments import given_argument
 from scaffold.model.python.module import PythonModule
@@ -18,15 +19,24 @@ _PUTTING = frozenset({"append", "appendleft", "insert", "setdefault"})
 _FUNCTIONS = (ast.FunctionDef, ast.AsyncFunctionDef)
 
 
-def is_of_several(module: PythonModule, node: ast.AST) -> bool:
+def is_of_several(
+    module: PythonModule, node: ast.AST, reported: AbstractSet[str] = frozenset()
+) -> bool:
     """Tell whether a value may be one of several that the type checker reports one by one.
 
     This applies to entries of a dictionary, ``self.clients['reset']``, and to values from an
     attribute with values of several origins.
+
+    Args:
+        module: The file.
+        node: The value.
+        reported: The names of classes in the report, which tell the entries of a table apart.
     """
     for origin in _origins(module, node):
         match origin:
             case ast.Subscript(slice=ast.Constant(value=str())) as entry:
+                if not reported.isdisjoint(_classes_in(_entry(module, entry))):
+                    return False
                 if len(_contents_of(module, entry.value)) != 1:
                     return True
             case ast.Attribute(value=ast.Name(id="self"), attr=name):
@@ -64,6 +74,26 @@ def is_attribute(module: PythonModule, node: ast.AST) -> bool:
     return any(
         isinstance(value, ast.Attribute) and module.text(value.value) != "self" for value in values
     )
+
+
+def is_unpacked_of_several(module: PythonModule, value: ast.expr) -> bool:
+    """Tell whether an unpacked value may be another one than the reported one."""
+    if isinstance(value, ast.Subscript) and is_of_several(module, value):
+        return True
+    return is_attribute(module, value)
+
+
+def is_assigned_of_several(module: PythonModule, statement: ast.Assign, value: ast.AST) -> bool:
+    """Tell whether what is assigned, or what it is assigned to, may be another one.
+
+    Of an attribute of ``self`` or the result of its method, the type checker reports all types.
+    """
+    if any(is_of_several(module, target) for target in statement.targets):
+        return True
+    match value.func if isinstance(value, ast.Call) else value:
+        case ast.Attribute(value=ast.Name(id="self")):
+            return False
+    return is_of_several(module, value)
 
 
 def _origins(module: PythonModule, node: ast.AST, depth: int = 0) -> Iterator[ast.AST]:
@@ -131,6 +161,28 @@ def _put_into(module: PythonModule, container: ast.expr) -> set[str]:
         elif not is_none_literal(value):
             sources.add(_source(module, value))
     return sources
+
+
+def _entry(module: PythonModule, entry: ast.Subscript) -> ast.expr | None:
+    """Return the value of an entry of a dictionary literal that is set once and never changed."""
+    text = module.text(entry.value)
+    set_to = [
+        statement.value
+        for statement in module.walk(ast.Assign)
+        if any(module.text(target).partition("[")[0] == text for target in statement.targets)
+    ]
+    if len(set_to) != 1 or not isinstance(set_to[0], ast.Dict):
+        return None
+    wanted = ast.dump(entry.slice)
+    pairs = zip(set_to[0].keys, set_to[0].values, strict=True)
+    found = [value for key, value in pairs if key is not None and ast.dump(key) == wanted]
+    return found[0] if len(found) == 1 and not module.mentions(f"{text}.update(") else None
+
+
+def _classes_in(value: ast.expr | None) -> set[str]:
+    """Return the names of the classes among the arguments of a call."""
+    given = value.args if isinstance(value, ast.Call) else []
+    return {ast.unparse(item).rpartition(".")[2] for item in given if _is_class(item)}
 
 
 def _source(module: PythonModule, value: ast.expr) -> str:

@@ -46,6 +46,15 @@ class ClocksMixed(RclpyRule):
     name = "clocks-mixed"
     other_severities = {Severity.WARNING: "it is a stamp, which is only wrong in simulation"}
     examples = (
+        Example(
+            "a number that a method returns at first",
+            {
+                "driver.py": _NODE.format("self.seconds()", "") + "\n    def seconds(self):\n"
+                "        return self.get_clock().now().nanoseconds / 1e9\n"
+            },
+            "13:20: an rclpy Time and a number cannot be subtracted: TypeError; begin with the "
+            "clock of the node: self.get_clock().now()",
+        ),
         Example("the same clock", {"driver.py": _NODE.format("self.get_clock().now()", "")}),
         Example(
             "a time of that clock",

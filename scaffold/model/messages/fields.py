@@ -11,6 +11,7 @@ from scaffold.model.messages.inference import Assigned, MessageTypes
 from scaffold.model.messages.numpy_values import numpy_class
 from scaffold.model.messages.value_types import ValueTypes, rclpy_time
 from scaffold.model.python.literals import joined_names
+from scaffold.model.python.returns import returned
 from scaffold.model.rclpy.api import PARAMETER, class_of, is_method
 from scaffold.model.rclpy.evaluator import NOTE
 
@@ -52,7 +53,7 @@ class TypeMismatches:
         if kind == "str" and type_.name not in {"byte", "char", "uint8"}:
             return f"{self._shown(node)} is a str, not a list"
         if kind != "list":
-            return self._table(node)
+            return self._length(type_, self._returned(node)) or self._table(node)
         problem = self._length(type_, node) or self._elements(type_.element, node)
         return problem or self._joined(type_, node)
 
@@ -126,6 +127,9 @@ class TypeMismatches:
     def _length(self, type_: FieldType, node: ast.expr) -> str | None:
         value, notes = self._types.file.evaluator.trace(node)
         size = type_.array_size
+        if isinstance(node, ast.List | ast.Tuple):
+            is_open = any(isinstance(item, ast.Starred) for item in node.elts)
+            value = None if is_open else node.elts
         if size is None or not isinstance(value, list | tuple):
             return None
         if any(note.startswith(NOTE) for note in notes):
@@ -135,6 +139,15 @@ class TypeMismatches:
             most = "at most " if type_.is_upper_bound else ""
             return f"{self._shown(node)} has {count} elements, not {most}{size}"
         return None
+
+    def _returned(self, node: ast.expr) -> ast.expr:
+        """Return the only result of a function or method that an expression calls, or itself."""
+        called = self._types.file.callback(node.func) if isinstance(node, ast.Call) else None
+        function = called.function if called is not None else None
+        if not isinstance(function, ast.FunctionDef) or function.decorator_list:
+            return node
+        results = [statement.value for statement in returned(function)]
+        return results[0] if len(results) == 1 and results[0] is not None else node
 
     def _elements(self, type_: FieldType, node: ast.expr) -> str | None:
         parts: Sequence[ast.expr]

@@ -40,6 +40,8 @@ def _clock_of(file: RclpyFile, node: ast.expr, depth: int) -> str | None:
     match node:
         case ast.Constant(value=value):
             return NUMBER if type(value) in {int, float} else None
+        case ast.BinOp(left=ast.Attribute(attr="nanoseconds"), op=ast.Div() | ast.Mult()):
+            return NUMBER
         case ast.BinOp(left=left, op=ast.Add() | ast.Sub(), right=right):
             is_span = class_of(file, right) == "rclpy.duration.Duration"
             return _common_clock(clocks_of(file, left, depth + 1)) if is_span else None

@@ -17,7 +17,14 @@ from scaffold.types.rewriting import containers, returns
 from scaffold.types.rewriting.added_lines import Extended, with_lines
 from scaffold.types.rewriting.callbacks import arguments_of, function_body
 from scaffold.types.rewriting.lambdas import place_of
-from scaffold.types.rewriting.passed import GIVEN, Passed, calls_of_object, own_names, places
+from scaffold.types.rewriting.passed import (
+    GIVEN,
+    Passed,
+    calls_of_object,
+    own_names,
+    places,
+    registered_callbacks,
+)
 from scaffold.types.rewriting.statements import class_starts, definitions
 from scaffold.types.stubs import makers
 
@@ -112,7 +119,9 @@ def _add(lines: dict[int, list[str]], more: Mapping[int, Sequence[str]]) -> None
 def _passed(text: str, data: bytes, module: str, lines: dict[int, list[str]]) -> Iterator[Passed]:
     """Add the lines before calls of functions of other modules; yield the stored values."""
     for call in places(text, own_names(data, module)):
-        given, end = _arguments(text, call.arguments)
+        given, end = call.given, call.arguments
+        if not given:
+            given, end = _arguments(text, call.arguments)
         place, words = place_of(text, call.start, end, given) if given else (-1, given)
         if place < 0 or len(words) < len(given):
             continue
@@ -231,13 +240,19 @@ def _calls(text: str, function: _Function) -> Iterator[tuple[int, Mapping[str, s
     yield from _calls_as(text, function, function.called, is_partial=False)
     class_, _, method = function.name.partition(".")
     for local in _objects(text).get(class_, ()) if method else ():
-        for place in calls_of_object(text, local, class_):
-            if place.function == function.name:
+        for call in calls_of_object(text, local, class_):
+            if call.function == function.name:
                 called = f"{local}.{method}("
-                segment = place.start, place.arguments
+                segment = call.start, call.arguments
                 yield from _calls_as(
                     text, function._replace(segment=segment), called, is_partial=False
                 )
+        for registered in registered_callbacks(text, {local: class_}):
+            if registered.function == function.name:
+                at = registered.start, registered.arguments
+                place, words = place_of(text, *at, registered.given)
+                if place >= 0:
+                    yield place, words, False
     if "partial(" in text:
         called = f"partial({function.called.removesuffix('(')},"
         yield from _calls_as(text, function, called, is_partial=True)

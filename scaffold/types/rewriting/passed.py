@@ -13,7 +13,7 @@ from scaffold.model.facts import fact
 from scaffold.model.interfaces.syntax import SECTIONS
 from scaffold.model.package import Package
 from scaffold.record import NamedTuple
-from scaffold.types.rewriting.callbacks import function_body
+from scaffold.types.rewriting.callbacks import arguments_of, function_body
 from scaffold.types.rewriting.statements import mentions
 from scaffold.types.sources import imported_names
 
@@ -32,6 +32,8 @@ _CLASS = re.compile(r"^class \w+\((\w+(?:\.\w+)?)[ ]*(?:,[^()\n]*)?\):[^\n]*\n",
 """Matches the head of a class with its first base."""
 _OF_SELF = re.compile(r"(?<![\w.])(?:(self)|super\(\))\.(\w+)\((?!\))")
 """Matches the start of a method call of ``self`` with arguments."""
+_REGISTERING = re.compile(r"\.create_(subscription|service)\(")
+_TYPE = re.compile(r"(?:\w+\.)*[A-Z]\w*")
 _OF_NODES = frozenset(
     {"create_client", "create_publisher", "create_service", "create_subscription", "create_timer"}
     | {"declare_parameter", "declare_parameters", "get_parameter", "get_parameters"}
@@ -47,7 +49,9 @@ class Place(NamedTuple):
     """``talker.poses.to_pose``, ``talker.arm.Arm`` or ``talker.arm.Arm.move``."""
     start: int
     arguments: int
-    """The start of its arguments."""
+    """The start of its arguments; the end of the call if these are given."""
+    given: Mapping[str, str] = {}
+    """What rclpy passes to a callback, by position: objects of the classes of its messages."""
 
 
 class Passed(NamedTuple):
@@ -97,10 +101,31 @@ def places(text: str, names: Mapping[str, str]) -> Iterator[Place]:
             kept = _KEPT.fullmatch(text, text.rfind("\n", 0, start) + 1, start)
             if kept is not None and function.rpartition(".")[2][:1].isupper():
                 made.setdefault(kept[1], set()).add(function)
-    for local, classes in made.items():
-        if len(classes) == 1:
-            yield from calls_of_object(text, local, *classes)
+    objects = {local: next(iter(classes)) for local, classes in made.items() if len(classes) == 1}
+    for local, class_ in objects.items():
+        yield from calls_of_object(text, local, class_)
+    yield from registered_callbacks(text, {**names, **objects})
     yield from _inherited(text, names)
+
+
+def registered_callbacks(text: str, names: Mapping[str, str]) -> Iterator[Place]:
+    """Yield the callbacks that are functions of other modules, or methods of their objects.
+
+    Args:
+        text: A file.
+        names: The functions, classes and objects of other modules that it uses.
+    """
+    for call in _REGISTERING.finditer(text) if names else ():
+        words, end = arguments_of(text, call.end())
+        type_ = words.get("0", "")
+        owner, dot, method = words.get("callback", words.get("2", "")).rpartition(".")
+        function = f"{names.get(owner, '')}.{method}" if dot else names.get(method, "")
+        if function.strip(".") == method or not _TYPE.fullmatch(type_):
+            continue
+        parts = ("Request", "Response") if call[1] == "service" else ("",)
+        classes = [f"{type_}.{part}" if part else type_ for part in parts]
+        given = {str(number): f"{class_}()" for number, class_ in enumerate(classes)}
+        yield Place(function, call.start(), end, given)
 
 
 def _inherited(text: str, names: Mapping[str, str]) -> Iterator[Place]:
