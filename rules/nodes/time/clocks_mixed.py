@@ -52,8 +52,8 @@ class ClocksMixed(RclpyRule):
                 "driver.py": _NODE.format("self.seconds()", "") + "\n    def seconds(self):\n"
                 "        return self.get_clock().now().nanoseconds / 1e9\n"
             },
-            "13:20: an rclpy Time and a number cannot be subtracted: TypeError; begin with the "
-            "clock of the node: self.get_clock().now()",
+            "13:20: an rclpy Time and a number cannot be subtracted: TypeError; initialize it "
+            "with self.get_clock().now()",
         ),
         Example("the same clock", {"driver.py": _NODE.format("self.get_clock().now()", "")}),
         Example(
