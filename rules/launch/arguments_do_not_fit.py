@@ -90,6 +90,19 @@ class ArgumentsDoNotFit(LaunchRule):
             "'default_value'",
         ),
         Example(
+            "keywords in a dictionary, one of them misspelled; and in one that is changed",
+            {
+                "launch/a.launch.py": f"{_IMPORTS}"
+                "    common = {'package': 'talker', 'params': ['a.yaml']}\n"
+                "    more = {'package': 'talker', 'params': ['a.yaml']}\n"
+                "    more['parameters'] = more.pop('params')\n"
+                "    return LaunchDescription([\n"
+                "        Node(executable='a', **common), Node(executable='b', **common),\n"
+                "        Node(executable='c', **more),\n    ])\n"
+            },
+            "8:37: Node has no argument 'params'; closest: 'parameters'",
+        ),
+        Example(
             "keywords of Eloquent, for Eloquent",
             {
                 "launch/a.launch.py": _NODE.format("node_executable", "node_name").replace(
@@ -115,10 +128,16 @@ class ArgumentsDoNotFit(LaunchRule):
     )
 
     def check_file(self, launch: LaunchFile) -> Iterator[Diagnostic]:
+        reported: set[ast.expr] = set()  # a dictionary may be unpacked in several calls
         for call in launch.calls:
             for name, word in call.words.items():
                 message = _renamed(call, name) or _unknown(call, name)
-                if message and not _is_meant(launch, call.call, name):
+                if (
+                    message
+                    and word.value not in reported
+                    and not _is_meant(launch, call.call, name)
+                ):
+                    reported.add(word.value)
                     yield self._of_keyword(launch, call, word, message)
             message = _misfit(call)
             if message and not is_tried(launch.module, call.call, ""):

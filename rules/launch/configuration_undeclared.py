@@ -160,7 +160,7 @@ class ConfigurationUndeclared(LaunchRule):
             if _is_unused(launch, call):
                 continue
             seen.add(name)
-            if may_be_set_elsewhere(package, launch, name):
+            if may_be_set_elsewhere(package, launch.path, name):
                 continue
             have = listed_names(launch.declared, name, "nothing")
             message = (
@@ -180,7 +180,7 @@ class ConfigurationUndeclared(LaunchRule):
                 name = str(launch.text(call, "variable_name"))
                 if declared.get(name, -1) <= index or name in reported:
                     continue
-                if may_be_set_elsewhere(package, launch, name):
+                if may_be_set_elsewhere(package, launch.path, name):
                     continue
                 reported.add(name)
                 line = step.action.location.line

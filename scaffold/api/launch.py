@@ -22,7 +22,7 @@ from scaffold.model.launch.command_lines import (
     start_of_value,
     static_transforms,
 )
-from scaffold.model.launch.configurations import may_be_set_elsewhere, set_names
+from scaffold.model.launch.configurations import BY_LAUNCH, may_be_set_elsewhere, set_names
 from scaffold.model.launch.evaluator import SHARE
 from scaffold.model.launch.execution_order import later_declarations, steps
 from scaffold.model.launch.files import DATA_DIRECTORIES, data_files, is_named, launch_files
@@ -75,6 +75,7 @@ from scaffold.model.launch.substitutions import (
 
 __all__ = [
     "ACTIONS",
+    "BY_LAUNCH",
     "CALLBACKS",
     "CONDITION",
     "DATA_DIRECTORIES",

@@ -17,7 +17,8 @@ if TYPE_CHECKING:
     from scaffold.model.package import Package
 
 _SETTERS = ("DeclareLaunchArgument", "SetLaunchConfiguration", "SetLaunchConfigurationFrom")
-_BY_LAUNCH = frozenset({"ros_namespace", "global_params", "ros_remaps", "launch_file_directory"})
+BY_LAUNCH = frozenset({"ros_namespace", "global_params", "ros_remaps", "launch_file_directory"})
+"""Configurations that launch itself sets."""
 _ENDINGS = (".py", ".xml", ".yaml", ".yml")
 _COMPUTED = re.compile(r"(?:[}%]|\+ ?['\"])([\w.-]*launch\.(?:py|xml|ya?ml))")
 """Matches the known end of a computed name, ``f'{world}.launch.py'``."""
@@ -31,7 +32,7 @@ def set_names(
     Returns:
         ``None`` if unknown: names are computed, or unknown files are included.
     """
-    names = set(_BY_LAUNCH)
+    names = set(BY_LAUNCH)
     for call in launch.calls:
         if call.kind.startswith(_SETTERS):
             name = launch.text(call, "name")
@@ -48,24 +49,24 @@ def set_names(
     return names
 
 
-def may_be_set_elsewhere(package: Package, launch: LaunchFile, name: str) -> bool:
-    """Tell whether another launch file of the workspace includes this one and sets the name.
+def may_be_set_elsewhere(package: Package, path: str, name: str) -> bool:
+    """Tell whether another launch file of the workspace includes the one of a path and sets a name.
 
     Or includes this one and a third file that sets it, or a command line gives it.
     """
-    basename = launch.path.rpartition("/")[2]
+    basename = path.rpartition("/")[2]
     if gives_argument(package, basename, name):
         return True
     including = [
         text
-        for _, text in _other_launch_files(package, launch)
+        for _, text in _other_launch_files(package, path)
         if basename in text or (package.name in text and _may_compute(text, basename))
     ]
     if any(name in text for text in including):
         return True
     return bool(including) and any(
         name in text and any(other in item for item in including)
-        for other, text in _other_launch_files(package, launch)
+        for other, text in _other_launch_files(package, path)
     )
 
 
@@ -74,13 +75,13 @@ def _may_compute(text: str, basename: str) -> bool:
     return any(basename.endswith(match[1]) for match in _COMPUTED.finditer(text))
 
 
-def _other_launch_files(package: Package, launch: LaunchFile) -> Iterator[tuple[str, str]]:
+def _other_launch_files(package: Package, but: str) -> Iterator[tuple[str, str]]:
     """Yield name and text of the other launch files of the workspace."""
     for other in package.workspace:
         for path in other.files:
             if "launch" not in path or not path.endswith(_ENDINGS):
                 continue
-            if other is package and path == launch.path:
+            if other is package and path == but:
                 continue
             try:
                 yield path.rpartition("/")[2], other.source(path).text

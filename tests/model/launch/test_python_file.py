@@ -52,7 +52,7 @@ def generate_launch_description():
         DeclareLaunchArgument('rate', default_value='10'),
         Node(package='demo', executable='talk', name=name, namespace='/left',
              parameters=[config, {'rate': LaunchConfiguration('rate'), 'text': 'a'}]),
-        actions.Node(package=LaunchConfiguration('who'), executable='talk', **{}),
+        actions.Node(package=LaunchConfiguration('who'), executable='talk', **dict(os.environ)),
         IncludeLaunchDescription(
             PythonLaunchDescriptionSource([FindPackageShare('other'), '/launch/x.launch.py']),
         ),
