@@ -6,10 +6,24 @@ from collections.abc import Mapping
 
 _CONDITIONS = frozenset({"if", "unless"})
 _PROCESS = frozenset(
-    "name cwd launch-prefix output respawn respawn_max_retries respawn_delay sigkill_timeout "
-    "sigterm_timeout shell emulate_tty on_exit".split()
+    [
+        "name",
+        "cwd",
+        "launch-prefix",
+        "output",
+        "respawn",
+        "respawn_max_retries",
+        "respawn_delay",
+        "sigkill_timeout",
+        "sigterm_timeout",
+        "shell",
+        "emulate_tty",
+        "on_exit",
+    ]
 )
-_NODE = _PROCESS | frozenset("pkg exec namespace args ros_args exec_name node-name".split())
+_NODE = _PROCESS | frozenset(
+    ["pkg", "exec", "namespace", "args", "ros_args", "exec_name", "node-name"]
+)
 _NAME_AND_VALUE = frozenset({"name", "value"})
 
 ACTIONS: Mapping[str, frozenset[str]] = {
@@ -51,8 +65,31 @@ REQUIRED: Mapping[str, tuple[str, ...]] = {
     "set_remap": ("from", "to"),
 }
 SUBSTITUTIONS = frozenset(
-    "all and anon any command dirname env equals eval exec-in-pkg file-content filename find-exec "
-    "find-pkg-prefix find-pkg-share if launch_log_dir log_dir not not-equals or param var".split()
+    [
+        "all",
+        "and",
+        "anon",
+        "any",
+        "command",
+        "dirname",
+        "env",
+        "equals",
+        "eval",
+        "exec-in-pkg",
+        "file-content",
+        "filename",
+        "find-exec",
+        "find-pkg-prefix",
+        "find-pkg-share",
+        "if",
+        "launch_log_dir",
+        "log_dir",
+        "not",
+        "not-equals",
+        "or",
+        "param",
+        "var",
+    ]
 )
 OF_PYTHON: Mapping[str, str] = {
     "arguments": "args",

@@ -155,7 +155,7 @@ class MarkupRefused(Rule):
             severity = Severity.ERROR if is_installed else Severity.WARNING
             for element in document.root.descendants():
                 for at, problem in _problems(element):
-                    cause = _CAUSE if "ROS 1" in problem else None
+                    cause = _CAUSE if "ROS 1" in problem else ""
                     yield self.report(at, problem, severity=severity, cause=cause)
             for at, problem in _unset(package, path, document.root):
                 yield self.report(at, problem, severity=severity)

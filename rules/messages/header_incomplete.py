@@ -21,6 +21,11 @@ _NODE = (
     "{}"
     "        self.publisher.publish(reading)\n"
 )
+_STATES = {
+    "stamp": "with a zero stamp",
+    "frame_id": "without a frame",
+    "stamp frame_id": "without a stamp and a frame",
+}
 
 
 class HeaderIncomplete(MessageRule):
@@ -54,6 +59,33 @@ class HeaderIncomplete(MessageRule):
             {"talker.py": _NODE.format("")},
             "11:19: sensor_msgs/msg/Temperature is published in line 13 with a zero stamp; set "
             "header.stamp",
+        ),
+        Example(
+            "odometry whose header is shared with a transform; and a point without any",
+            {
+                "odom.py": "from geometry_msgs.msg import PointStamped, TransformStamped\n"
+                "from nav_msgs.msg import Odometry\nfrom rclpy.node import Node\n\n\n"
+                "class Wheels(Node):\n"
+                "    def __init__(self):\n"
+                "        super().__init__('wheels')\n"
+                "        self.publisher = self.create_publisher(Odometry, 'odom', 10)\n"
+                "        self.points = self.create_publisher(PointStamped, 'point', 10)\n\n"
+                "    def tick(self):\n"
+                "        odometry = Odometry(child_frame_id='base_link')\n"
+                "        odometry.header.frame_id = 'odom'\n"
+                "        self.publisher.publish(odometry)\n"
+                "        transform = TransformStamped()\n"
+                "        transform.header = odometry.header\n"
+                "        self.broadcast(transform.transform)\n\n"
+                "    def show(self, x):\n"
+                "        point = PointStamped()\n"
+                "        point.point.x = x\n"
+                "        self.points.publish(point)\n"
+            },
+            "13:20: nav_msgs/msg/Odometry is published in line 15 with a zero stamp; set "
+            "header.stamp",
+            "21:17: geometry_msgs/msg/PointStamped is published in line 23 without a stamp and a "
+            "frame; set header.stamp and header.frame_id",
         ),
         Example(
             "a pose that is nowhere",
@@ -172,10 +204,9 @@ class HeaderIncomplete(MessageRule):
         for unset in unstamped(types):
             if _is_ours(package, types, unset.sent.args[0]):
                 line = types.module.location(unset.sent).line
-                state = "with a zero stamp" if unset.missing == "stamp" else "without a frame"
                 message = (
-                    f"{unset.message.name} is published in line {line} {state}; "
-                    f"set header.{unset.missing}"
+                    f"{unset.message.name} is published in line {line} {_STATES[unset.missing]}; "
+                    f"set {' and '.join(f'header.{name}' for name in unset.missing.split())}"
                 )
                 yield self.report(types.module.location(unset.made), message)
         for unset in childless(types):

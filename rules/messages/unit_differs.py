@@ -152,6 +152,20 @@ class UnitDiffers(MessageRule):
     other_severities = {Severity.WARNING: "only the name of the value says its unit"}
     effect = Effect.WRONG_BEHAVIOR
     examples = (
+        Example(
+            "the parameter of a function is an angle in radians",
+            {
+                "turn.py": "import math\n\nfrom geometry_msgs.msg import Pose\n"
+                "from rclpy.node import Node\n\n\n"
+                "def rotation(yaw):\n    return math.sin(yaw / 2.0), math.cos(yaw / 2.0)\n\n\n"
+                "def converted(yaw):\n    yaw = math.radians(yaw)\n    return math.sin(yaw)\n\n\n"
+                "class Turn(Node):\n"
+                "    def turn(self, yaw):\n"
+                "        rotation(yaw)\n        converted(math.degrees(yaw))\n"
+                "        return Pose(), rotation(math.degrees(yaw))\n",
+            },
+            "20:33: 'yaw' of rotation() is in radians, this is in degrees; use math.radians()",
+        ),
         Example("converted", {"board.py": _NODE.format(*_RIGHT)}),
         Example(
             "hectopascals, degrees, millimeters by their names; degrees",
@@ -254,8 +268,11 @@ class UnitDiffers(MessageRule):
         for name in _OF_RADIANS:
             for call in types.module.calls_of(name):
                 if len(call.args) == 1:
+                    angle = _without_factor(call.args[0])
                     shown = f"the argument of {name}()"
-                    yield from self._check(types, call.args[0], "radians", shown)
+                    yield from self._check(types, angle, "radians", shown)
+                    for value, parameter in _passed(types, angle):
+                        yield from self._check(types, value, "radians", parameter)
 
     def _check(
         self, types: MessageTypes, value: ast.expr, wanted: str, shown: str
@@ -267,6 +284,43 @@ class UnitDiffers(MessageRule):
                 message = f"{shown} is in {wanted}, this is in {unit}; {hint}"
                 severity = Severity.WARNING if is_by_name else None
                 yield self.report(types.module.location(node), message, severity=severity)
+
+
+def _without_factor(angle: ast.expr) -> ast.expr:
+    """Return the angle of which a half is taken, as for a quaternion; else the angle itself."""
+    match angle:
+        case ast.BinOp(left=whole, op=ast.Div() | ast.Mult(), right=ast.Constant(value=2 | 0.5)):
+            return whole
+        case ast.BinOp(left=ast.Constant(value=0.5), op=ast.Mult(), right=whole):
+            return whole
+    return angle
+
+
+def _passed(types: MessageTypes, angle: ast.expr) -> Iterator[tuple[ast.expr, str]]:
+    """Yield what calls in the file pass for the parameter that an angle is, each with its name."""
+    function = types.module.enclosing_function(angle)
+    bindings = types.module.index.bindings_of(angle)
+    if not isinstance(function, ast.FunctionDef) or len(bindings) != 1:
+        return
+    parameters = function.args.args
+    if bindings[0].node not in parameters or function.decorator_list:
+        return
+    place = parameters.index(bindings[0].node)
+    is_method = parameters[0].arg == "self"
+    for call in types.module.walk(ast.Call):
+        match call.func:
+            case ast.Name(id=name) if name == function.name and not is_method:
+                pass
+            case ast.Attribute(attr=name, value=ast.Name(id="self")) if (
+                name == function.name and is_method
+            ):
+                pass
+            case _:
+                continue
+        given = call.args[place - is_method : place - is_method + 1]
+        given += [word.value for word in call.keywords if word.arg == parameters[place].arg]
+        for value in given:
+            yield value, f"{parameters[place].arg!r} of {function.name}()"
 
 
 def _elements(value: ast.expr) -> Iterator[ast.expr]:

@@ -7,8 +7,9 @@ from collections.abc import Iterator, Mapping
 
 from scaffold.api import Diagnostic, Effect, Example, MessageRule, Report, Severity
 from scaffold.api.messages import MessageTypes
+from scaffold.api.python import returned
 
-from . import _angles, _components, _fractions, _images, _matrices
+from . import _angles, _components, _constants, _fractions, _images, _matrices
 
 _NODE = (
     "from rclpy.node import Node\nfrom sensor_msgs.msg import BatteryState, Image\n"
@@ -69,6 +70,36 @@ class ValueImplausible(MessageRule):
     effect = Effect.WRONG_BEHAVIOR
     examples = (
         Example("plausible", {"talker.py": _NODE.format(*_GOOD)}),
+        Example(
+            "a constant of another field",
+            {
+                "talker.py": _NODE.format(*_GOOD).replace(
+                    "        image =",
+                    "        battery.power_supply_status = BatteryState.POWER_SUPPLY_HEALTH_GOOD\n"
+                    "        if battery.power_supply_health == "
+                    "BatteryState.POWER_SUPPLY_STATUS_FULL:\n            return None\n"
+                    "        battery.power_supply_health = BatteryState.POWER_SUPPLY_HEALTH_GOOD\n"
+                    "        image =",
+                    1,
+                )
+            },
+            "14:39: BatteryState.POWER_SUPPLY_HEALTH_GOOD is a value of power_supply_health, not "
+            "of power_supply_status",
+            "15:43: BatteryState.POWER_SUPPLY_STATUS_FULL is a value of power_supply_status, not "
+            "of power_supply_health",
+        ),
+        Example(
+            "a percentage that a method computes",
+            {
+                "talker.py": _NODE.format("self.charge()", *_GOOD[1:])
+                + "\n    def charge(self):\n        return 100.0 * self.volts / 12.0\n"
+            },
+            Report(
+                "13:30",
+                "percentage is a fraction from 0 to 1, not a percentage; remove the factor 100",
+                severity=Severity.WARNING,
+            ),
+        ),
         Example(
             "a percentage; an encoding in capitals; bytes of a row; a yaw",
             {"talker.py": _NODE.format("80.0", "BGR8", "width", "self.yaw")},
@@ -309,7 +340,7 @@ class ValueImplausible(MessageRule):
         module = types.module
         if module.in_tests:
             return  # tests, where values may be wrong on purpose
-        for part in (_angles, _components, _fractions, _images, _matrices):
+        for part in (_angles, _components, _constants, _fractions, _images, _matrices):
             for at, message in part.flaws(types):
                 yield self.report(module.location(at), message)
         for item in types.assigned:
@@ -331,8 +362,19 @@ def _problem(types: MessageTypes, owner: str, name: str, node: ast.expr) -> str:
 
 
 def _is_times_hundred(types: MessageTypes, node: ast.expr) -> bool:
-    """Tell whether an expression is a product with 100."""
-    if not (isinstance(node, ast.BinOp) and isinstance(node.op, ast.Mult)):
-        return False
-    values = [types.file.evaluator.evaluate(part) for part in (node.left, node.right)]
-    return any(value == _PERCENT for value in values)
+    """Tell whether an expression is a product with 100, or the result of a method that is."""
+    node = types.file.evaluator.single_value(node)
+    callback = types.file.callback(node.func) if isinstance(node, ast.Call) else None
+    if callback is not None and isinstance(callback.function, ast.FunctionDef):
+        values = [statement.value for statement in returned(callback.function)]
+        if len(values) == 1 and values[0] is not None:
+            node = types.file.evaluator.single_value(values[0])
+    return _factors(types, node).count(_PERCENT) == 1
+
+
+def _factors(types: MessageTypes, node: ast.expr) -> list[object]:
+    """Return the known factors and divisors of a product."""
+    match node:
+        case ast.BinOp(left=left, op=ast.Mult() | ast.Div(), right=right):
+            return [*_factors(types, left), *_factors(types, right)]
+    return [types.file.evaluator.evaluate(node)]

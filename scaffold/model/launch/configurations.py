@@ -52,7 +52,7 @@ def set_names(
 def may_be_set_elsewhere(package: Package, path: str, name: str) -> bool:
     """Tell whether another launch file of the workspace includes the one of a path and sets a name.
 
-    Or includes this one and a third file that sets it, or a command line gives it.
+    Or a file that is included before it does, perhaps through others; or a command line gives it.
     """
     basename = path.rpartition("/")[2]
     if gives_argument(package, basename, name):
@@ -64,10 +64,7 @@ def may_be_set_elsewhere(package: Package, path: str, name: str) -> bool:
     ]
     if any(name in text for text in including):
         return True
-    return bool(including) and any(
-        name in text and any(other in item for item in including)
-        for other, text in _other_launch_files(package, path)
-    )
+    return bool(including) and any(name in text for _, text in _other_launch_files(package, path))
 
 
 def _may_compute(text: str, basename: str) -> bool:

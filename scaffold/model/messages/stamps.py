@@ -21,6 +21,10 @@ _PLACED = frozenset(
     | {"geometry_msgs/msg/TransformStamped", "visualization_msgs/msg/Marker"}
 )
 """Messages for RViz and tf2, which reject them without a frame."""
+_POSITIONS = frozenset(
+    {"nav_msgs/msg/Odometry", "geometry_msgs/msg/PointStamped", "geometry_msgs/msg/PoseArray"}
+)
+"""Messages that say where something is: their frame is never implied."""
 _GOALS = {
     "goal_pose": "geometry_msgs/msg/PoseStamped",
     "initialpose": "geometry_msgs/msg/PoseWithCovarianceStamped",
@@ -53,7 +57,7 @@ class Unstamped(NamedTuple):
     message: MessageClass
     sent: ast.Call
     missing: str
-    """The missing field: ``stamp`` or ``frame_id`` of the header, or ``child_frame_id``."""
+    """The missing fields: ``stamp`` and ``frame_id`` of the header, or ``child_frame_id``."""
 
 
 class _Doubt(Exception):  # noqa: N818  it is not an error, it ends a search
@@ -182,7 +186,12 @@ def _topic(types: MessageTypes, method: ast.Attribute) -> str:
 
 
 def _missing(message: MessageClass, given: frozenset[str], topic: str) -> str:
-    """Return the field that a header lacks, given the one that it has; empty if none."""
+    """Return the fields that a header lacks, given the one that it has; empty if none.
+
+    A position is of no use without both.
+    """
+    if not given and message.name in _POSITIONS:
+        return "stamp frame_id"
     if given == {"frame_id"} and message.name.startswith(_MEASURED):
         return "stamp"
     is_placed = message.name in _PLACED or _GOALS.get(topic) == message.name
@@ -226,7 +235,7 @@ def _is_sender(types: MessageTypes, method: ast.Attribute) -> bool:
 
 
 def _has_header(message: MessageClass) -> bool:
-    names = {*_PLACED, *_GOALS.values()}
+    names = {*_PLACED, *_POSITIONS, *_GOALS.values()}
     if not message.name.startswith(_MEASURED) and message.name not in names:
         return False
     field = message.section.field("header")
@@ -300,6 +309,15 @@ def _set_in_header(
     above = types.module.parent(header)
     if isinstance(header.ctx, ast.Store) and isinstance(above, ast.Assign):
         return _expect_plain_header(types, above.value)
+    match above:
+        case ast.Assign(targets=[ast.Attribute(attr="header", value=ast.Name() as other) as place]):
+            uses = [use for use in types.module.index.uses_of(other) if use is not place.value]
+            given = [
+                _expect_harmless(types, use, may_be_zero=may_be_zero)
+                for use in uses
+                if _is_read(use)
+            ]
+            return frozenset().union(*given)  # both messages have the same header
     if not isinstance(above, ast.Attribute) or above.attr not in {"frame_id", "stamp"}:
         raise _Doubt
     assigned = types.module.parent(above)
