@@ -5,16 +5,16 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Effect, Example, Package, ParseError, Rule, Severity
-from scaffold.api.formats import Mapping, Scalar, yaml_tree
+from scaffold.api.formats import Mapping, Scalar, YamlNode, yaml_tree
 from scaffold.api.parameters import parameter_paths
 
 _FILE = "talker:\n  ros__parameters:\n    rate: 2.0\n    {}: 3.0\n"
 
 
 class KeyRepeated(Rule):
-    """A parameter file sets a parameter twice in one section.
+    """A parameter file sets a parameter of a node twice.
 
-    **Why.** The later value silently overrides the first. (Repeated sections are merged.)
+    **Why.** The later value silently overrides the first. Repeated sections are merged.
 
     **Fix.** Remove one of them.
 
@@ -32,6 +32,14 @@ class KeyRepeated(Rule):
             {"a.yaml": _FILE.format("rate")},
             "4:5: 'rate' is already set in line 3: the first value is ignored; remove one of them",
         ),
+        Example(
+            "in two sections of one node; in two nodes",
+            {
+                "a.yaml": _FILE.format("speed") + "listener:\n  ros__parameters:\n    speed: 1.0\n"
+                "talker:\n  ros__parameters:\n    rate: 4.0\n"
+            },
+            "10:5: 'rate' is already set in line 3: the first value is ignored; remove one of them",
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
@@ -40,19 +48,21 @@ class KeyRepeated(Rule):
                 roots = yaml_tree.parse(package.source(path))
             except ParseError:
                 continue
-            for _, mapping in yaml_tree.mappings(roots):
-                for key, first in _repeated(mapping):
-                    message = f"{key.text!r} is already set in line {first.location.line}: "
-                    message += "the first value is ignored; remove one of them"
-                    yield self.report(key, message)
+            seen: dict[tuple[str, ...], Scalar] = {}
+            for root in roots:
+                for names, key in _values(root, ()):
+                    first = seen.setdefault(names, key)
+                    if first is not key:
+                        message = f"{key.text!r} is already set in line {first.location.line}: "
+                        message += "the first value is ignored; remove one of them"
+                        yield self.report(key, message)
 
 
-def _repeated(mapping: Mapping) -> Iterator[tuple[Scalar, Scalar]]:
-    """Yield repeated keys, each with its first occurrence."""
-    seen: dict[str, Scalar] = {}
-    for key, value in mapping.pairs:
+def _values(node: YamlNode, above: tuple[str, ...]) -> Iterator[tuple[tuple[str, ...], Scalar]]:
+    """Yield the keys of all values, each with its own name and the names above it."""
+    for key, value in node.pairs if isinstance(node, Mapping) else ():
+        names = (*above, key.text)
         if isinstance(value, Mapping):
-            continue
-        first = seen.setdefault(key.text, key)
-        if first is not key:
-            yield key, first
+            yield from _values(value, names)
+        else:
+            yield names, key

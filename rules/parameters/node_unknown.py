@@ -5,7 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Effect, Example, Package, Report, Rule, Severity
-from scaffold.api.launch import StartedNode, names_alike, node_names, use_of
+from scaffold.api.launch import (
+    StartedNode,
+    markup_paths,
+    names_alike,
+    node_names,
+    started_nodes,
+    use_of,
+)
 from scaffold.api.parameters import (
     ParameterFile,
     Section,
@@ -14,6 +21,7 @@ from scaffold.api.parameters import (
     parameter_files,
 )
 from scaffold.api.programs import KnownNode
+from scaffold.api.python import UNKNOWN
 
 _NODE = (
     "from rclpy.node import Node\n\n\n"
@@ -119,6 +127,20 @@ class NodeUnknown(Rule):
             "launch/a.launch.py:10 starts camera",
         ),
         Example(
+            "the name in the code, next to sections that fit",
+            {
+                "package.xml": _MANIFEST,
+                "demo/talker.py": _NODE + "\n\ndef main():\n    Talker()\n",
+                "setup.py": "from setuptools import setup\n\n"
+                "setup(name='demo', packages=['demo'],\n"
+                "      entry_points={'console_scripts': ['talk = demo.talker:main']})\n",
+                "launch/a.launch.py": _LAUNCH.replace("eyes", "demo").replace("'eye'", "'talk'"),
+                "config/demo.yaml": _FILE.format("/**") + _FILE.format("talker"),
+            },
+            "config/demo.yaml:4:1: no node is named 'talker': the section is ignored; "
+            "launch/a.launch.py:10 starts camera",
+        ),
+        Example(
             "not the name in the launch file",
             {
                 "package.xml": _MANIFEST,
@@ -190,8 +212,9 @@ class NodeUnknown(Rule):
                 continue
             alike = names_alike(file, names, name)
             is_renamed = name not in everywhere or name in codes
-            if alike or (useless and use.complete and is_renamed):
-                meant = alike or sorted(names)
+            renamed = _renamed(package, file, name) if use.complete else []
+            if alike or renamed or (useless and use.complete and is_renamed):
+                meant = alike or renamed or sorted(names)
                 first = next(
                     started for started in use.nodes if started.name(package) in meant
                 ).location
@@ -241,6 +264,24 @@ class NodeUnknown(Rule):
                         f"{name!r}"
                     )
                     yield self.report(section.key, message)
+
+
+def _renamed(package: Package, file: ParameterFile, name: str) -> list[str]:
+    """Return the names that launch files give to a node of a name, if all do and none has values.
+
+    Values for the name in the code may be for `ros2 run`, if there are some for the new name too.
+    """
+    if markup_paths(package):
+        return []
+    given = set()
+    for node in started_nodes(package):
+        owner = node.owner(package)
+        if owner.node_name == name if owner is not None else node.given_name == name:
+            given.add(node.name(package))
+    names = sorted(str(item) for item in given)
+    is_known = name not in given and UNKNOWN not in given
+    has_values = any(section.name in names for section in file.sections)
+    return names if is_known and not has_values else []
 
 
 def _is_left_over(package: Package, section: Section, nodes: list[KnownNode]) -> bool:

@@ -6,8 +6,9 @@ import re
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, RclpyRule, Severity, ViewError
+from scaffold.api.launch import markup_paths, started_nodes
 from scaffold.api.parameters import parameter_files
-from scaffold.api.python import is_handled
+from scaffold.api.python import UNKNOWN, is_handled
 from scaffold.api.rclpy import NodeDefinition, RclpyFile
 
 _NODE = (
@@ -18,6 +19,25 @@ _NODE = (
 )
 _LAUNCH = (".py", ".launch.xml", ".launch.yaml", ".launch.yml")
 _PARAMETERS = (".yaml", ".yml")
+_STARTING = (
+    "from launch import LaunchDescription\nfrom launch_ros.actions import Node\n\n\n"
+    "def generate_launch_description():\n    return LaunchDescription([\n"
+    "        Node(package='demo', executable='talk', name={!r}),\n"
+    "        Node(package='other', executable='speak', name='speaker2'),\n    ])\n"
+)
+
+
+def _started(name: str) -> dict[str, str]:
+    return {
+        "package.xml": "<package><name>demo</name></package>\n",
+        "setup.py": "from setuptools import setup\n\nsetup(name='demo', packages=['demo'],\n"
+        "      entry_points={'console_scripts': ['talk = demo.talker:main']})\n",
+        "demo/talker.py": _NODE.format("Parameter.Type.DOUBLE") + "\n\ndef main():\n    Talker()\n",
+        "config/a.yaml": "speaker:\n  ros__parameters:\n    rate: 3.0\n",
+        "launch/a.launch.py": _STARTING.format(name),
+    }
+
+
 _ELSEWHERE = (*_LAUNCH, *_PARAMETERS)
 """Suffixes of files of other packages that may start the node."""
 
@@ -44,6 +64,16 @@ class RequiredNeverSet(RclpyRule):
                 "talker.py": _NODE.format("Parameter.Type.DOUBLE"),
                 "config/a.yaml": "talker:\n  ros__parameters:\n    rate: 3.0\n",
             },
+        ),
+        Example(
+            "set for a node of another name, and started under that name",
+            _started("speaker"),
+        ),
+        Example(
+            "set for another node",
+            _started("talker"),
+            "demo/talker.py:9:21: parameter 'rate' has a type but no default (line 8), and no "
+            "file of the package sets it: ParameterUninitializedException; give a default",
         ),
         Example(
             "set by another package of the workspace",
@@ -111,8 +141,8 @@ def _is_set(package: Package, node: NodeDefinition, name: str) -> bool:
             is_of_node = is_of_node or not isinstance(node.node_name, str)
             if not any(entry.name == name for entry in section.entries):
                 continue
-            if is_of_node or _mentions(package, section.name, _LAUNCH):
-                return True  # a launch file may start the node under the name of the section
+            if is_of_node or _may_have_name(package, node, section.name):
+                return True
     if _mentions(package, name, _LAUNCH):
         return True
     return any(
@@ -120,6 +150,20 @@ def _is_set(package: Package, node: NodeDefinition, name: str) -> bool:
         for other in package.workspace
         if other.name != package.name
     )
+
+
+def _may_have_name(package: Package, node: NodeDefinition, name: str) -> bool:
+    """Tell whether a launch file may start a node under a name."""
+    if markup_paths(package):
+        return _mentions(package, name, _LAUNCH)
+    for started in started_nodes(package):
+        owner, given = started.owner(package), started.name(package)
+        if not isinstance(started.package, str) or not isinstance(started.executable, str):
+            return _mentions(package, name, _LAUNCH)
+        is_this = owner is None or owner.definition(package).location == node.location
+        if is_this and given in {name, UNKNOWN}:
+            return True
+    return False
 
 
 def _mentions(package: Package, name: str, endings: tuple[str, ...]) -> bool:

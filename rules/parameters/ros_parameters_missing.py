@@ -3,12 +3,36 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from contextlib import suppress
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, Severity
+from scaffold.api import (
+    Diagnostic,
+    Edit,
+    Example,
+    Fix,
+    Package,
+    Report,
+    Rule,
+    Severity,
+    ViewError,
+)
 from scaffold.api.launch import consumers, is_loaded, use_of
-from scaffold.api.parameters import KEY, Misplaced, parameter_file, parameter_paths
+from scaffold.api.parameters import (
+    KEY,
+    Misplaced,
+    ParameterFile,
+    declared_by,
+    own_nodes,
+    parameter_file,
+    parameter_paths,
+)
+from scaffold.api.python import paths_importing
 
 _FILE = "talker:\n  {}:\n    rate: 2.0\n"
+_NODE = (
+    "from rclpy.node import Node\n\n\nclass Talker(Node):\n    def __init__(self):\n"
+    "        super().__init__('talker')\n        self.declare_parameter('rate', 2.0)\n"
+)
 
 
 class RosParametersMissing(Rule):
@@ -59,6 +83,27 @@ class RosParametersMissing(Rule):
             },
         ),
         Example(
+            "missing in a file that no launch file names; a file that the node reads itself",
+            {
+                "talker.py": _NODE,
+                "config/a.yaml": "talker:\n  rate: 2.0\n",
+                "config/b.yaml": "talker:\n  rate: 2.0\n  model: small\n",
+            },
+            Report(
+                "config/a.yaml:2:3",
+                "'rate' is not under 'ros__parameters': rcl rejects the file",
+                severity=Severity.WARNING,
+            ),
+        ),
+        Example(
+            "missing, and something reads YAML itself",
+            {
+                "talker.py": _NODE,
+                "settings.py": "import yaml\n",
+                "config/a.yaml": "talker:\n  rate: 2.0\n",
+            },
+        ),
+        Example(
             "missing for one of two nodes",
             {"config/a.yaml": _FILE.format("ros__parameters") + "listener:\n  rate: 1.0\n"},
             Report(
@@ -71,7 +116,8 @@ class RosParametersMissing(Rule):
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         paths = parameter_paths(package)
-        paths += [path for path in self._launched_files(package) if path not in paths]
+        others = [*self._launched_files(package), *_files_named_after_nodes(package)]
+        paths = [*dict.fromkeys([*paths, *others])]
         for path in paths:
             file = parameter_file(package, path)
             if file is None or not file.misplaced:
@@ -86,7 +132,7 @@ class RosParametersMissing(Rule):
                     yield self.report(
                         entry.node_key, message, Fix(f"Rename the key to {KEY!r}", (edit,))
                     )
-                elif entry.node_key is None and is_read:
+                elif entry.node_key is None and (is_read or _is_of_node(package, file)):
                     message = f"{entry.key.text!r} is not under {KEY!r}: rcl rejects the file"
                     severity = Severity.ERROR if is_given else Severity.WARNING
                     yield self.report(entry.key, message, severity=severity)
@@ -101,3 +147,26 @@ class RosParametersMissing(Rule):
             for path, _ in node.parameter_files:
                 if package.has(path) and path.endswith((".yaml", ".yml")):
                     yield path
+
+
+def _files_named_after_nodes(package: Package) -> Iterator[str]:
+    """Yield the YAML files that begin with the name of a node."""
+    nodes, _ = own_nodes(package)
+    names = tuple(f"{node.node_name}:" for node in nodes if isinstance(node.node_name, str))
+    for path in package.files if names else ():
+        if path.endswith((".yaml", ".yml")) and not {"test", "tests"} & set(path.split("/")):
+            with suppress(ViewError):
+                lines = package.source(path).text.splitlines()
+                if any(line.startswith(names) for line in lines):
+                    yield path
+
+
+def _is_of_node(package: Package, file: ParameterFile) -> bool:
+    """Tell whether a file only has parameters of one node, and no code reads YAML itself."""
+    nodes, _ = own_nodes(package)
+    names = {entry.key.text for entry in file.misplaced}
+    above = {entry.above for entry in file.misplaced}
+    return not any(paths_importing(package, "yaml")) and any(
+        above == {(node.node_name,)} and names.issubset(declared_by(node, package).types)
+        for node in nodes
+    )

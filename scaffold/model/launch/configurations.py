@@ -57,14 +57,12 @@ def may_be_set_elsewhere(package: Package, path: str, name: str) -> bool:
     basename = path.rpartition("/")[2]
     if gives_argument(package, basename, name):
         return True
-    including = [
-        text
-        for _, text in _other_launch_files(package, path)
-        if basename in text or (package.name in text and _may_compute(text, basename))
-    ]
-    if any(name in text for text in including):
-        return True
-    return bool(including) and any(name in text for _, text in _other_launch_files(package, path))
+    others = list(_other_launch_files(package, path))
+    is_included = any(
+        basename in text or (package.name in text and _may_compute(text, basename))
+        for text in others
+    )
+    return is_included and any(name in text for text in others)
 
 
 def _may_compute(text: str, basename: str) -> bool:
@@ -72,8 +70,8 @@ def _may_compute(text: str, basename: str) -> bool:
     return any(basename.endswith(match[1]) for match in _COMPUTED.finditer(text))
 
 
-def _other_launch_files(package: Package, but: str) -> Iterator[tuple[str, str]]:
-    """Yield name and text of the other launch files of the workspace."""
+def _other_launch_files(package: Package, but: str) -> Iterator[str]:
+    """Yield the texts of the other launch files of the workspace."""
     for other in package.workspace:
         for path in other.files:
             if "launch" not in path or not path.endswith(_ENDINGS):
@@ -81,7 +79,7 @@ def _other_launch_files(package: Package, but: str) -> Iterator[tuple[str, str]]
             if other is package and path == but:
                 continue
             try:
-                yield path.rpartition("/")[2], other.source(path).text
+                yield other.source(path).text
             except ViewError:
                 continue
 

@@ -83,6 +83,8 @@ class Misplaced(NamedTuple):
     """The key above it that is a misspelled ``ros__parameters``."""
     depth: int
     """The number of keys above that one."""
+    above: tuple[str, ...]
+    """The keys above it."""
 
 
 class Refused(NamedTuple):
@@ -113,7 +115,8 @@ class ParameterFile:
                 self._read(value, (*above, key), key if is_near else node_key)
             else:
                 depth = above.index(node_key) if node_key is not None else len(above)
-                self.misplaced.append(Misplaced(key, node_key, depth))
+                names = tuple(item.text for item in above)
+                self.misplaced.append(Misplaced(key, node_key, depth, names))
 
     def _read_section(self, key: Scalar, value: YamlNode, above: tuple[Scalar, ...]) -> None:
         if not above:
