@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from scaffold.api import Diagnostic, Effect, Example, Package, Report, Rule, Severity
 from scaffold.api.launch import (
     StartedNode,
-    markup_paths,
+    markup_files,
     names_alike,
     node_names,
     started_nodes,
@@ -271,7 +271,7 @@ def _renamed(package: Package, file: ParameterFile, name: str) -> list[str]:
 
     Values for the name in the code may be for `ros2 run`, if there are some for the new name too.
     """
-    if markup_paths(package):
+    if any(item.value == name for file in markup_files(package) for item in file.attributes):
         return []
     given = set()
     for node in started_nodes(package):
