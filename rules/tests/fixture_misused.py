@@ -25,6 +25,20 @@ _BUILT_IN = frozenset(
     | {"monkeypatch", "pytestconfig", "pytester", "record_property", "record_testsuite_property"}
     | {"recwarn", "request", "testdir", "tmp_path", "tmp_path_factory", "tmpdir", "tmpdir_factory"}
 )
+_OF_PLUGINS = frozenset(
+    {"benchmark", "client", "event_loop", "faker", "freezer", "launch_context", "launch_service"}
+    | {
+        "mocker",
+        "proc_info",
+        "proc_output",
+        "qapp",
+        "qtbot",
+        "requests_mock",
+        "snapshot",
+        "subtests",
+    }
+)
+"""Fixtures of widespread plugins."""
 _TEST = (
     "import pytest\n\n\n@pytest.fixture\ndef text():\n    {}\n\n\n"
     "def test_text({}):\n    assert {} == 'a'\n"
@@ -54,6 +68,14 @@ class FixtureMisused(Rule):
     code = "TS044"
     name = "fixture-misused"
     examples = (
+        Example(
+            "a name that no fixture has, and a fixture that no test asks for; one of a plugin",
+            {
+                "test/test_a.py": _TEST.format("return 'a'", "word", "word"),
+                "test/test_b.py": _TEST.format("return 'a'", "mocker", "mocker"),
+            },
+            "test/test_a.py:9:5: there is no fixture 'word'; no test uses 'text'",
+        ),
         Example("used", {"test/test_text.py": _TEST.format("return 'a'", "text", "text")}),
         Example(
             "called",
@@ -186,7 +208,22 @@ def _missing(
     if name in module.functions:
         return f"{name}() is not a fixture: pytest finds none with this name; add @pytest.fixture"
     closest = get_close_matches(name, available, 1, 0.75)
-    return f"there is no fixture {name!r}; closest: {closest[0]!r}" if closest else ""
+    if closest:
+        return f"there is no fixture {name!r}; closest: {closest[0]!r}"
+    unused = _unused(module) if name not in _OF_PLUGINS else []
+    return f"there is no fixture {name!r}; no test uses {unused[0]!r}" if unused else ""
+
+
+def _unused(module: PythonModule) -> list[str]:
+    """Return the fixtures of a file that nothing asks for."""
+    if module.mentions("pytest_generate_tests", "pytestmark", "pytest_plugins", "usefixtures"):
+        return []
+    asked = {argument.arg for argument in module.walk(ast.arg)}
+    return [
+        fixture.name
+        for fixture in own_fixtures(module)
+        if fixture.name not in asked and "autouse" not in module.text(fixture.node)
+    ]
 
 
 def _is_name(node: ast.expr, name: str) -> bool:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Rule, listed_names
 from scaffold.api.python import (
     FunctionNode,
     PythonModule,
@@ -16,6 +16,8 @@ from scaffold.api.python import (
 )
 from scaffold.api.tests import LAUNCH, is_test_case, marks, may_start, methods
 
+_GIVEN = frozenset({"launch_service", "proc_info", "proc_output", "test_args"})
+"""Arguments that launch_testing itself has for tests."""
 _MARKS = ("launch_test", "rostest")
 _TEST = (
     "import unittest\n\nfrom launch import LaunchDescription\nimport launch_testing.actions\n"
@@ -51,6 +53,17 @@ class LaunchTestMisused(Rule):
     name = "launch-test-misused"
     examples = (
         Example("right", {"setup.py": "", "test/test_talker.py": _TEST.format(*_RIGHT)}),
+        Example(
+            "an argument of the description, of launch_testing, and of nobody",
+            {
+                "setup.py": "",
+                "test/test_talker.py": _TEST.format(*_RIGHT)
+                .replace("ReadyToTest()])", "ReadyToTest()]), {'talker': 1}")
+                .replace("(self)", "(self, talker, proc_output, talkr)"),
+            },
+            "test/test_talker.py:14:45: launch_testing gives no 'talkr' to a test; there are "
+            "launch_service, proc_info, proc_output, talker, test_args",
+        ),
         Example("for launch_pytest", {"test/test_a.py": "import launch_pytest\n" + _OTHER}),
         Example(
             "never ready, and without any import of launch_testing",
@@ -103,9 +116,46 @@ class LaunchTestMisused(Rule):
                 plain = not class_.node.bases or module.qualified_names(class_.node.bases[0]) == {
                     "object"
                 }
+                if is_test_case(module, class_.node):
+                    yield from self._check_arguments(module, class_.node)
                 if has_tests and plain and not module.index.names(class_.name):
                     message = f"launch_testing does not run {class_.name}: it is not a TestCase"
                     yield self.report(class_, message)
+
+    def _check_arguments(self, module: PythonModule, class_: ast.ClassDef) -> Iterator[Diagnostic]:
+        """Report arguments of tests that nothing gives."""
+        offered = _offered(module.functions[LAUNCH].node)
+        for method in methods(class_) if offered is not None else ():
+            count = len(method.args.args) - len(method.args.defaults)
+            if not method.name.startswith("test") or method.decorator_list:
+                continue
+            for argument in method.args.args[1:count]:
+                if offered is not None and argument.arg not in offered | _GIVEN:
+                    names = listed_names(offered | _GIVEN, argument.arg, "nothing")
+                    message = (
+                        f"launch_testing gives no {argument.arg!r} to a test; there are {names}"
+                    )
+                    yield self.report(module.location(argument), message)
+
+
+def _offered(node: FunctionNode) -> frozenset[str] | None:
+    """Return the arguments for tests that the launch description comes with; else ``None``."""
+    names = {argument.arg for argument in (*node.args.args, *node.args.kwonlyargs)}
+    values = [statement.value for statement in returned(node)]
+    if is_generator(node) or not values or node.args.kwarg is not None:
+        return None
+    for value in values:
+        match value:
+            case ast.Call():
+                pass
+            case ast.Tuple(elts=[_, ast.Dict(keys=keys)]):
+                texts = [key.value for key in keys if isinstance(key, ast.Constant)]
+                if len(texts) < len(keys):
+                    return None
+                names.update(map(str, texts))
+            case _:
+                return None
+    return frozenset(names)
 
 
 def _is_marked(module: PythonModule, node: FunctionNode) -> bool:

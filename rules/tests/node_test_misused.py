@@ -6,6 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api.parameters import own_nodes
 from scaffold.api.python import PythonModule
 from scaffold.api.tests import (
     TestFunction,
@@ -31,7 +32,13 @@ _TEST_SPIN = (
     "    {}\n"
     "    assert received\n"
 )
+_NO_INIT = "nothing calls rclpy.init() before this node is made: NotInitializedException"
 _WORDS = ("spin", "launch_testing", "Executor")
+_FIXTURE = (
+    "import pytest\nimport rclpy\n\nfrom demo.talker import Talker\n\n\n"
+    "@pytest.fixture\ndef node():\n{}    node = Talker()\n    yield node\n"
+    "    rclpy.shutdown()\n\n\ndef test_node(node):\n    assert node\n"
+)
 
 
 class NodeTestMisused(Rule):
@@ -51,6 +58,17 @@ class NodeTestMisused(Rule):
     code = "TS049"
     name = "node-test-misused"
     examples = (
+        Example(
+            "a node of the package, without init() and with it",
+            {
+                "demo/talker.py": "from rclpy.node import Node\n\n\nclass Talker(Node):\n"
+                "    def __init__(self):\n        super().__init__('talker')\n",
+                "test/test_a.py": _FIXTURE.format(""),
+                "test/test_b.py": _FIXTURE.format("    rclpy.init()\n"),
+            },
+            "test/test_a.py:9:12: nothing calls rclpy.init() before this node is made: "
+            "NotInitializedException",
+        ),
         Example(
             "right",
             {
@@ -107,11 +125,16 @@ class NodeTestMisused(Rule):
         for module, texts in node_tests(package):
             seen: list[ast.Call] = []
             for test in test_functions(module):
-                for node in ast.walk(test.node):
-                    if isinstance(node, ast.Call):
-                        problem = _problem(module, test, node, texts, seen)
-                        if problem:
-                            yield self.report(module.location(node), problem)
+                for node in _calls(test.node):
+                    problem = _problem(module, test, node, texts, seen)
+                    if problem:
+                        yield self.report(module.location(node), problem)
+            makers = [test.node for test in test_functions(module) if test.class_ is None]
+            makers += [it.node for it in own_fixtures(module)]
+            for maker in makers if "init" not in texts and "patch" not in texts else ():
+                for call in _calls(maker):
+                    if _is_own_node(package, module, call):
+                        yield self.report(module.location(call), _NO_INIT)
 
     def _check_fixtures(self, package: Package) -> Iterator[Diagnostic]:
         for module, texts in node_tests(package):
@@ -160,12 +183,23 @@ def _problem(
     elif name in {"rclpy.node.Node", "rclpy.create_node"} and own and "init" not in texts:
         words = {word.arg for word in call.keywords}
         if words.isdisjoint({"context", None}):
-            return "nothing calls rclpy.init() before this node is made: NotInitializedException"
+            return _NO_INIT
     elif isinstance(call.func, ast.Attribute) and call.func.attr == "create_subscription":
         is_node = own and _is_made_here(module, call.func.value)
         if is_node and "spin" not in texts and _is_awaited(test, call):
             return "nothing spins in this test, so the callback is never called"
     return ""
+
+
+def _is_own_node(package: Package, module: PythonModule, call: ast.Call) -> bool:
+    """Tell whether a call makes a node of the package, which does not call init() itself."""
+    name = module.qualified_name(call.func) or ""
+    for node in own_nodes(package)[0]:
+        dotted = node.path.removesuffix(".py").replace("/", ".")
+        if node.is_class and name == f"{dotted}.{node.name}":
+            own = node.definition(package).file
+            return not any(own.module.enclosing_class(init) for init in own.init_calls)
+    return False
 
 
 def _is_init(module: PythonModule, call: ast.Call) -> bool:
