@@ -198,7 +198,7 @@ def _is_own_node(package: Package, module: PythonModule, call: ast.Call) -> bool
         dotted = node.path.removesuffix(".py").replace("/", ".")
         if node.is_class and name == f"{dotted}.{node.name}":
             own = node.definition(package).file
-            return not any(own.module.enclosing_class(init) for init in own.init_calls)
+            return not any(own.module.enclosing_class(init.call) for init in own.init_calls)
     return False
 
 
