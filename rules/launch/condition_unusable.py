@@ -3,13 +3,23 @@
 from __future__ import annotations
 
 import ast
+import re
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, LaunchRule, Report, Severity
-from scaffold.api.launch import LaunchCall, LaunchFile, failure, never_equal, never_equals
+from scaffold.api.launch import (
+    NODES,
+    LaunchCall,
+    LaunchFile,
+    failure,
+    never_equal,
+    never_equals,
+)
 
 _TRUTHS = frozenset({"true", "false", "1", "0"})
 _CONDITIONS = ("IfCondition", "UnlessCondition")
+_SWITCH = re.compile(r"(?:use|start|launch|run|enable|with|show|open)_(\w{3,})")
+"""The name of an argument that turns something on."""
 _BY_NAME = ("LaunchConfigurationEquals", "LaunchConfigurationNotEquals")
 _SUBSTITUTIONS = tuple(
     f"{name}Substitution" for name in ("And", "Or", "Not", "Any", "All", "Equals", "NotEquals")
@@ -26,6 +36,16 @@ _LAUNCH = (
     "        DeclareLaunchArgument('use', default_value='{}'),\n"
     "        Node(package='a', executable='b', condition=IfCondition({})),\n    ])\n"
 )
+_SWITCHES = (
+    "from launch import LaunchDescription\nfrom launch.actions import DeclareLaunchArgument\n"
+    "from launch.conditions import {0}Condition\n"
+    "from launch.substitutions import LaunchConfiguration\nfrom launch_ros.actions import Node\n"
+    "\n\ndef generate_launch_description():\n"
+    "    use_rviz = LaunchConfiguration('use_rviz')\n"
+    "    return LaunchDescription([\n"
+    "        DeclareLaunchArgument('use_rviz', default_value='true'),\n"
+    "        Node(package='rviz2', executable='{1}', condition={0}Condition(use_rviz)),\n    ])\n"
+)
 
 
 class ConditionUnusable(LaunchRule):
@@ -34,7 +54,8 @@ class ConditionUnusable(LaunchRule):
     **Why.** ``ros2 launch`` stops: ``'bool' object is not iterable`` for Python values, ``invalid
     condition expression, expected one of [true, 1, false, 0]`` for other strings, ``name 'true' is
     not defined`` for ``not true`` in a PythonExpression. String comparison is case-sensitive:
-    ``true`` is not ``True``, and the node is not started, without an error.
+    ``true`` is not ``True``, and the node is not started, without an error. ``UnlessCondition`` of
+    ``use_rviz`` starts RViz for those who do not want it.
 
     **Fix.** Write ``IfCondition(LaunchConfiguration('use'))``, ``UnlessCondition(...)`` instead of
     ``not``, and quotes around strings: ``PythonExpression(["'", mode, "' == 'fast'"])``.
@@ -91,6 +112,15 @@ class ConditionUnusable(LaunchRule):
             "a Python value",
             {"launch/a.launch.py": _LAUNCH.format("true", "not use")},
             "12:65: `not` tests the LaunchConfiguration object, not its value; use NotSubstitution",
+        ),
+        Example(
+            "a switch that is turned on, one that is turned off, and one for either of two",
+            {
+                "launch/a.launch.py": _SWITCHES.format("If", "rviz2"),
+                "launch/b.launch.py": _SWITCHES.format("Unless", "rviz2"),
+                "launch/c.launch.py": _SWITCHES.format("Unless", "player"),
+            },
+            "launch/b.launch.py:12:61: rviz2 is started unless use_rviz is true: write IfCondition",
         ),
         Example(
             "the name of the argument",
@@ -157,7 +187,7 @@ class ConditionUnusable(LaunchRule):
                 why, is_sure = never_equals(launch, call)
                 if why:
                     yield self.report(call, why, severity=None if is_sure else Severity.WARNING)
-        for node, problem in _misplaced(launch):
+        for node, problem in (*_misplaced(launch), *_inverted(launch)):
             yield self.report(launch.location(node), problem)
         for call in launch.find("PythonExpression"):
             why = failure(launch, call.given.get("expression"))
@@ -167,6 +197,31 @@ class ConditionUnusable(LaunchRule):
             why, is_sure = never_equal(launch, call.given.get("expression"))
             if why:
                 yield self.report(call, why, severity=None if is_sure else Severity.WARNING)
+
+
+def _inverted(launch: LaunchFile) -> Iterator[tuple[ast.expr, str]]:
+    """Yield the conditions by which an argument named after a program, `use_rviz`, prevents it."""
+    asked = [_argument(launch, call) for call in launch.find("IfCondition")]
+    for call in launch.find(*NODES, "ExecuteProcess"):
+        condition = launch.call_of(call.given.get("condition"))
+        name = _argument(launch, condition) if condition is not None else ""
+        program = launch.text(call, "executable")
+        match = _SWITCH.fullmatch(name)
+        if condition is None or condition.kind != "UnlessCondition" or name in asked:
+            continue
+        if match is not None and isinstance(program, str):
+            words = re.split(r"[_\d]+", program)
+            if set(match[1].split("_")) <= set(words):
+                message = f"{program} is started unless {name} is true: write IfCondition"
+                yield condition.call.func, message
+
+
+def _argument(launch: LaunchFile, condition: LaunchCall) -> str:
+    """Return the launch argument that a condition is; empty if it is something else."""
+    view = launch.call_of(next(iter(condition.given.values()), None))
+    is_plain = view is not None and view.kind == "LaunchConfiguration"
+    name = launch.text(view, "variable_name") if is_plain and view is not None else ""
+    return name if isinstance(name, str) else ""
 
 
 def _misplaced(launch: LaunchFile) -> Iterator[tuple[ast.expr, str]]:

@@ -22,7 +22,12 @@ from scaffold.model.launch.command_lines import (
     start_of_value,
     static_transforms,
 )
-from scaffold.model.launch.configurations import BY_LAUNCH, may_be_set_elsewhere, set_names
+from scaffold.model.launch.configurations import (
+    BY_LAUNCH,
+    is_named_elsewhere,
+    may_be_set_elsewhere,
+    set_names,
+)
 from scaffold.model.launch.evaluator import SHARE
 from scaffold.model.launch.execution_order import later_declarations, steps
 from scaffold.model.launch.files import DATA_DIRECTORIES, data_files, is_named, launch_files
@@ -114,6 +119,7 @@ __all__ = [
     "is_left_to_the_user",
     "is_loaded",
     "is_named",
+    "is_named_elsewhere",
     "is_reversed",
     "later_declarations",
     "launch_files",

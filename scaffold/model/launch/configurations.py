@@ -57,12 +57,16 @@ def may_be_set_elsewhere(package: Package, path: str, name: str) -> bool:
     basename = path.rpartition("/")[2]
     if gives_argument(package, basename, name):
         return True
-    others = list(_other_launch_files(package, path))
     is_included = any(
         basename in text or (package.name in text and _may_compute(text, basename))
-        for text in others
+        for text in _other_launch_files(package, path)
     )
-    return is_included and any(name in text for text in others)
+    return is_included and is_named_elsewhere(package, path, name)
+
+
+def is_named_elsewhere(package: Package, path: str, name: str) -> bool:
+    """Tell whether another launch file of the workspace contains the name of a configuration."""
+    return any(name in text for text in _other_launch_files(package, path))
 
 
 def _may_compute(text: str, basename: str) -> bool:

@@ -100,10 +100,12 @@ def is_argument_given(package: Package, name: str) -> bool:
 
 
 def _mentioned_by_launch(package: Package, word: str, others: tuple[str, ...] = ()) -> bool:
+    whole = re.compile(rf"(?<!\w){re.escape(word)}(?!\w)")
     for path in package.files:
         if path.endswith((*_LAUNCH, *others)):
             try:
-                if mentions(package, path, word):
+                is_mentioned = mentions(package, path, word)
+                if is_mentioned and whole.search(package.source(path).text):
                     return True
             except ViewError:
                 continue
