@@ -73,6 +73,8 @@ class FixtureMisused(Rule):
             {
                 "test/test_a.py": _TEST.format("return 'a'", "word", "word"),
                 "test/test_b.py": _TEST.format("return 'a'", "mocker", "mocker"),
+                "test/test_c.py": _TEST.format("return 'a'", "", "'a'")
+                + "\n\nclass TestText:\n    def test_self(self):\n        assert self\n",
             },
             "test/test_a.py:9:5: there is no fixture 'word'; no test uses 'text'",
         ),
@@ -200,7 +202,7 @@ def _missing(
     """Return the problem with an argument without a known fixture; empty if unclear."""
     if name == "self" and test.class_ is None:
         return f"{test.node.name} is not a method: pytest finds no fixture 'self'"
-    if name in _BUILT_IN:
+    if name in _BUILT_IN or name in {"self", "cls"}:
         return ""
     renamed = [it.name for it in available.values() if it.node.name == name]
     if renamed:

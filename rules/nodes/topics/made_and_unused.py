@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Effect, Example, Package, RclpyRule, Report, Severity
-from scaffold.api.python import Unknown, paths_importing
+from scaffold.api.python import FunctionNode, Unknown, paths_importing
 from scaffold.api.rclpy import NodeClass, RclpyFile, is_used_elsewhere
 
 _NAMES = r"^on_[a-z]|^callback_|_callback$|_cb$"
@@ -22,6 +22,11 @@ _NODE = (
     "        {}\n\n\n"
     "def main():\n    rclpy.init()\n    rclpy.spin(Talker())\n"
 )
+_PARAMETERS = frozenset({("request", "response"), ("future",), ("goal_handle",)})
+"""The parameters of callbacks of services, of clients and of action servers."""
+_RESULT = "rcl_interfaces.msg.SetParametersResult"
+_NODES = frozenset({"rclpy.node.Node", "rclpy.lifecycle.LifecycleNode", "rclpy.lifecycle.Node"})
+_IMPORT = "import rclpy\nfrom rcl_interfaces.msg import SetParametersResult\n"
 _MADE = {
     "create_subscription": "subscription",
     "create_publisher": "publisher",
@@ -91,6 +96,30 @@ class MadeAndUnused(RclpyRule):
                 )
             },
             "20:9: callback 'right_callback' is never registered: it never runs",
+        ),
+        Example(
+            "callbacks by their parameters or results, registered or not",
+            {
+                "talker.py": _NODE.format(
+                    "self.chatter_pub.publish(String())\n\n"
+                    "    def check(self, parameters):\n"
+                    "        return SetParametersResult(successful=True)\n\n"
+                    "    def refuse(self, parameters):\n"
+                    "        return SetParametersResult(successful=False)\n\n"
+                    "    def show(self, future):\n        return future.result()\n\n"
+                    "    def add(self, request, response):\n        return response\n"
+                )
+                .replace("import rclpy\n", _IMPORT)
+                .replace(
+                    "        self.create_timer",
+                    "        self.add_on_set_parameters_callback(self.check)\n"
+                    "        self.create_timer",
+                ),
+                "other.py": "def offer(node, kind):\n"
+                "    node.create_service(kind, 'add', node.add)\n",
+            },
+            "talker.py:20:9: callback 'refuse' is never registered: it never runs",
+            "talker.py:23:9: callback 'show' is never registered: it never runs",
         ),
         Example(
             "a publisher for each topic, and a function that is never called",
@@ -181,6 +210,9 @@ class MadeAndUnused(RclpyRule):
             for name, message in (*_uncalled_setups(file, class_), *_callbacks(file, class_)):
                 if package.is_mentioned_once(name, path):
                     yield self.report(file.module.name_location(class_.methods[name]), message)
+            for method in _unregistered(package, file, class_):
+                message = f"callback {method.name!r} is never registered: it never runs"
+                yield self.report(file.module.name_location(method), message)
 
     def _check_groups(self, package: Package, file: RclpyFile) -> Iterator[Diagnostic]:
         if not file.module.mentions("CallbackGroup(") or file.module.in_tests:
@@ -234,6 +266,33 @@ def _callbacks(file: RclpyFile, class_: NodeClass) -> Iterator[tuple[str, str]]:
         )
         if is_named and not method.decorator_list:
             yield name, f"callback {name!r} is never registered: it never runs"
+
+
+def _unregistered(
+    package: Package, file: RclpyFile, class_: NodeClass
+) -> Iterator[ast.FunctionDef]:
+    """Yield the methods that only make sense as callbacks, and that nothing mentions."""
+    bases = class_.node.bases
+    if len(bases) != 1 or not file.module.qualified_names(bases[0]) <= _NODES:
+        return
+    texts = {node.value for node in file.module.walk(ast.Constant)}
+    for name, method in class_.methods.items():
+        if re.search(_NAMES, name) or method.decorator_list or not _is_callback(file, method):
+            continue
+        uses = [use for use in file.module.index.attributes(name) if isinstance(use.ctx, ast.Load)]
+        is_used = uses or name in texts or is_used_elsewhere(package, file, name)
+        if isinstance(method, ast.FunctionDef) and not is_used:
+            yield method
+
+
+def _is_callback(file: RclpyFile, method: FunctionNode) -> bool:
+    """Tell whether a method is one by its parameters, or by its result."""
+    arguments = method.args
+    names = tuple(argument.arg for argument in arguments.args[1:])
+    if arguments.vararg or arguments.kwarg or arguments.kwonlyargs or arguments.defaults:
+        return False
+    made = {file.module.qualified_name(call.func) for call in file.calls_in(method)}
+    return names in _PARAMETERS or (len(names) == 1 and _RESULT in made)
 
 
 def _kept_in(file: RclpyFile, call: ast.Call) -> str:
