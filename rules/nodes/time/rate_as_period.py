@@ -15,6 +15,8 @@ _PERIODS = frozenset({"period", "interval"})
 _MILLISECONDS = frozenset({"ms", "msec", "msecs", "millis", "milliseconds", "millisec"})
 _LONG = 100
 """Seconds; longer integer periods are implausible and in milliseconds."""
+_FEWEST = 1000
+"""Nanoseconds; shorter durations are meant in seconds, except for the smallest step of time."""
 _SECONDS: Mapping[str, tuple[int, str]] = {
     "create_timer": (0, "timer_period_sec"),
     "Duration": (9, "seconds"),
@@ -55,6 +57,18 @@ class RateAsPeriod(RclpyRule):
     effect = Effect.WRONG_BEHAVIOR
     examples = (
         Example("a period", {"talker.py": _NODE.format("1.0 / rate")}),
+        Example(
+            "nanoseconds for seconds; the smallest step of time",
+            {
+                "wait.py": "from rclpy.duration import Duration\nfrom rclpy.node import Node\n\n\n"
+                "class Wait(Node):\n"
+                "    def wait(self):\n"
+                "        limit = Duration(nanoseconds=5)\n"
+                "        before = self.get_clock().now() - Duration(nanoseconds=1)\n"
+                "        return limit, before\n"
+            },
+            "7:38: 5 ns are no time at all; write seconds=5",
+        ),
         Example("a thousand per minute", {"talker.py": _NODE.format("1000 / 60000")}),
         Example(
             "milliseconds of a rate",
@@ -119,10 +133,9 @@ class RateAsPeriod(RclpyRule):
 
     def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
         for call in file.module.walk(ast.Call):
-            name = call.func.attr if isinstance(call.func, ast.Attribute) else ""
-            name = call.func.id if isinstance(call.func, ast.Name) else name
-            if name == "create_rate":
-                yield from self._check_rate(file, call)
+            name = _last_name(call.func)
+            if name in {"create_rate", "Duration"}:
+                yield from self._check_other_units(file, call, name)
             given = _seconds(file, call, name) if name in _SECONDS else None
             if given is None:
                 continue
@@ -171,11 +184,29 @@ class RateAsPeriod(RclpyRule):
         severity = None if is_clear and number is not None else Severity.WARNING
         yield self.report(file.module.location(given), message, severity=severity)
 
-    def _check_rate(self, file: RclpyFile, call: ast.Call) -> Iterator[Diagnostic]:
+    def _check_other_units(
+        self, file: RclpyFile, call: ast.Call, name: str
+    ) -> Iterator[Diagnostic]:
+        """Check a rate, and a duration in nanoseconds."""
+        for word in call.keywords if name == "Duration" else ():
+            value = file.evaluator.evaluate(word.value) if word.arg == "nanoseconds" else None
+            if isinstance(value, int | float) and 1 < value < _FEWEST:
+                message = f"{value:g} ns are no time at all; write seconds={value:g}"
+                yield self.report(file.module.location(word.value), message)
+        if name == "Duration":
+            return
         given = _argument(call, 0, "frequency")
         if given is not None and _words(file, given) & _PERIODS:
             message = "a period is passed as the rate; write 1.0 / period"
             yield self.report(file.module.location(given), message)
+
+
+def _last_name(function: ast.expr) -> str:
+    """Return the last part of the name of a called function; empty for other expressions."""
+    match function:
+        case ast.Attribute(attr=name) | ast.Name(id=name):
+            return name
+    return ""
 
 
 _MIN_RATE = 1.5
