@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
+from contextlib import suppress
 
-from scaffold.api import Diagnostic, Effect, Example, Package, Report, Rule, Severity
+from scaffold.api import Diagnostic, Effect, Example, Package, Report, Rule, Severity, ViewError
+from scaffold.api.launch import is_named_elsewhere
 from scaffold.api.messages import message_paths
 from scaffold.api.parameters import keeps_default_name
 from scaffold.api.programs import is_remapped, topics_of
@@ -31,6 +34,16 @@ _NODE_DIRECTION = (
     "    def __init__(self):\n"
     "        super().__init__('driver')\n"
     "        self.pub = self.create_publisher(Twist, 'cmd_vel', 10)\n"
+)
+_CLOCK = re.compile(r"\bclock\b")
+_SIM_TIME = re.compile(
+    r"use_sim_time['\"]?\s*[:,]?\s*(?:default_value|default|value)?\s*=?\s*['\"]?[Tt]rue"
+)
+"""Matches how launch files and parameter files switch to the time of the simulation."""
+_TIMED = (
+    "<launch>\n  <arg name='use_sim_time' default='true'/>\n"
+    "  <node pkg='ros_gz_bridge' exec='parameter_bridge'>\n"
+    "    <param name='use_sim_time' value='$(var use_sim_time)'/>\n  </node>\n</launch>\n"
 )
 _OF_SENSORS = frozenset(
     {"rosgraph_msgs/msg/Clock", "sensor_msgs/msg/LaserScan", "sensor_msgs/msg/Image"}
@@ -63,6 +76,30 @@ class BridgeDiffersFromNodes(Rule):
     }
     effect = Effect.WRONG_BEHAVIOR
     examples = (
+        Example(
+            "the time of the simulation, without its clock",
+            {
+                "launch/a.launch.xml": _TIMED,
+                "config/bridge.yaml": _ENTRY.format("cmd_vel", "Twist", "ROS_TO_GZ"),
+            },
+            Report(
+                "config/bridge.yaml:1:19",
+                "launch/a.launch.xml:2 sets use_sim_time, but nothing bridges /clock: "
+                "the time of the nodes stays zero and no timer runs; add an entry for "
+                "/clock",
+                severity=Severity.WARNING,
+            ),
+        ),
+        Example(
+            "the time of the simulation, and its clock",
+            {
+                "launch/a.launch.xml": _TIMED,
+                "config/bridge.yaml": _ENTRY.format("cmd_vel", "Twist", "ROS_TO_GZ"),
+                "config/clock.yaml": _ENTRY.format("/clock", "Twist", "GZ_TO_ROS")
+                .replace("geometry_msgs/msg/Twist", "rosgraph_msgs/msg/Clock")
+                .replace("gz.msgs.Twist", "gz.msgs.Clock"),
+            },
+        ),
         Example(
             "the same type; the other direction; another topic",
             {
@@ -145,6 +182,21 @@ class BridgeDiffersFromNodes(Rule):
     def check(self, package: Package) -> Iterator[Diagnostic]:
         yield from self._check_type(package)
         yield from self._check_direction(package)
+        yield from self._check_clock(package)
+
+    def _check_clock(self, package: Package) -> Iterator[Diagnostic]:
+        entries = [*bridge_entries(package)]
+        is_timed = entries and not is_named_elsewhere(package, "", "clock")
+        if not is_timed or _line_with(package, _CLOCK) or _has_plugin(package):
+            return
+        place = _line_with(package, _SIM_TIME)
+        topic = entries[0].values.get("ros_topic_name") or entries[0].values.get("topic_name")
+        if place and topic is not None:
+            message = (
+                f"{place} sets use_sim_time, but nothing bridges /clock: the time of the nodes "
+                "stays zero and no timer runs; add an entry for /clock"
+            )
+            yield self.report(topic, message, severity=Severity.WARNING)
 
     def _check_type(self, package: Package) -> Iterator[Diagnostic]:
         entries = [*bridge_entries(package)]
@@ -196,6 +248,19 @@ class BridgeDiffersFromNodes(Rule):
                         f"publishes it: nothing arrives in Gazebo; write ROS_TO_GZ"
                     )
                     yield self.report(direction, message, severity=Severity.WARNING)
+
+
+def _line_with(package: Package, pattern: re.Pattern[str]) -> str:
+    """Return the first place in a launch file or a YAML file that matches; empty if none does."""
+    for path in package.files:
+        is_python = path.endswith(".py") and "launch" in path
+        if is_python or path.endswith((".launch.xml", ".yaml", ".yml")):
+            with suppress(ViewError):
+                text = package.source(path).text
+                found = pattern.search(text)
+                if found is not None:
+                    return f"{path}:{text.count(chr(10), 0, found.start()) + 1}"
+    return ""
 
 
 def _has_plugin(package: Package) -> bool:

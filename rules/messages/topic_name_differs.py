@@ -5,9 +5,19 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from difflib import SequenceMatcher
+from itertools import product
 
 from scaffold.api import Diagnostic, Effect, Example, Package, Rule, Severity
-from scaffold.api.programs import NamedEndpoint, is_private, is_remapped, named_endpoints, one_sided
+from scaffold.api.launch import code_of, markup_files, started_nodes
+from scaffold.api.programs import (
+    NamedEndpoint,
+    is_private,
+    is_remapped,
+    named_endpoints,
+    one_sided,
+    topics_of,
+)
+from scaffold.api.python import UNKNOWN
 
 _SHORTEST = 5
 _NODE = (
@@ -17,6 +27,7 @@ _NODE = (
     "        super().__init__('talker')\n"
     "        self.create_{}\n"
 )
+_MAIN = "\n\ndef main():\n    Talker()\n"
 _NODE_SERVICES = (
     "from rclpy.node import Node\nfrom std_srvs.srv import Trigger\n\n\n"
     "class Server(Node):\n"
@@ -35,6 +46,21 @@ _ALIKE = 4
 """The minimum length of a name for which one different letter counts as a typo."""
 
 _WORD = re.compile(r"[^\W_]+")
+
+
+def _in_namespaces(sender: str, receiver: str) -> dict[str, str]:
+    return {
+        "package.xml": "<package><name>demo</name></package>\n",
+        "setup.py": "from setuptools import setup\n\nsetup(name='demo', packages=['demo'],\n"
+        "      entry_points={'console_scripts': ['a = demo.a:main', 'b = demo.b:main']})\n",
+        "demo/a.py": _NODE.format("publisher(String, '/chatter', 10)") + _MAIN,
+        "demo/b.py": _NODE.format("subscription(String, 'chatter', print, 10)") + _MAIN,
+        "launch/a.launch.py": "from launch import LaunchDescription\n"
+        "from launch_ros.actions import Node\n\n\ndef generate_launch_description():\n"
+        "    return LaunchDescription([\n"
+        f"        Node(package='demo', executable='a', namespace={sender}),\n"
+        f"        Node(package='demo', executable='b', namespace={receiver}),\n    ])\n",
+    }
 
 
 class TopicNameDiffers(Rule):
@@ -62,6 +88,16 @@ class TopicNameDiffers(Rule):
                 "a.py": _NODE.format("publisher(String, 'chatter', 10)"),
                 "b.py": _NODE.format("subscription(String, 'chatter', print, 10)"),
             },
+        ),
+        Example(
+            "an absolute name in a namespace, where another node has a relative one",
+            _in_namespaces("'left'", "'left'"),
+            "demo/a.py:8:39: '/chatter' leaves the namespace that launch/a.launch.py:8 gives, "
+            "where demo/b.py:8 has '/left/chatter': they never connect; write 'chatter'",
+        ),
+        Example(
+            "an absolute name in no namespace",
+            _in_namespaces("''", "'left'"),
         ),
         Example(
             "a topic with a missing letter",
@@ -145,6 +181,7 @@ class TopicNameDiffers(Rule):
     def check(self, package: Package) -> Iterator[Diagnostic]:
         yield from self._check_topics(package)
         yield from self._check_private(package)
+        yield from self._check_absolute(package)
         yield from self._check_services(package)
 
     def _check_topics(self, package: Package) -> Iterator[Diagnostic]:
@@ -160,6 +197,31 @@ class TopicNameDiffers(Rule):
                     )
                     yield self.report(subscription.name_location, message)
                     break
+
+    def _check_absolute(self, package: Package) -> Iterator[Diagnostic]:
+        """Report absolute names in a namespace, where another node has the relative name."""
+        for topic in topics_of(package).values():
+            for first, second in product(topic.publishers, topic.subscriptions):
+                absolute, relative = sorted((first, second), key=lambda x: x.name[:1] != "/")
+                if not absolute.name.startswith("/") or relative.name.startswith("/"):
+                    continue
+                places = _namespaces(package, relative)
+                namespace = next(iter(places)) if len(places) == 1 else None
+                is_same = namespace in _namespaces(package, absolute)
+                if not isinstance(namespace, str) or not is_same or not namespace.strip("/"):
+                    continue
+                if _is_in_markup(package, relative) or any(
+                    is_remapped(package, endpoint) for endpoint in (absolute, relative)
+                ):
+                    continue
+                other = f"{relative.location.path}:{relative.location.line}"
+                name = f"/{namespace.strip('/')}/{relative.name}"
+                message = (
+                    f"{absolute.name!r} leaves the namespace that {places[namespace]} gives, where "
+                    f"{other} has {name!r}: they never connect; "
+                    f"write {absolute.name.strip('/')!r}"
+                )
+                yield self.report(absolute.name_location, message)
 
     def _check_private(self, package: Package) -> Iterator[Diagnostic]:
         sent, awaited = one_sided(package)
@@ -202,6 +264,28 @@ class TopicNameDiffers(Rule):
                         message += " ~ expands to the node name"
                     yield self.report(client.name_location, message)
                     break
+
+
+def _namespaces(package: Package, endpoint: NamedEndpoint) -> dict[object, str]:
+    """Return the namespaces in which launch files start a node, each with the place of a start."""
+    result: dict[object, str] = {}
+    for node in started_nodes(package):
+        owner = node.owner(package)
+        if owner is not None and owner.path == endpoint.location.path:
+            namespace = UNKNOWN if node.is_scoped else node.namespace
+            result[namespace] = f"{node.launch}:{node.location.line}"
+    return result
+
+
+def _is_in_markup(package: Package, endpoint: NamedEndpoint) -> bool:
+    """Tell whether launch files in XML or YAML may start a node."""
+    for node in (node for file in markup_files(package) for node in file.nodes):
+        if node.package is None or node.executable is None:
+            return True
+        code = code_of(package, node.package.value, node.executable.value)
+        if code is not None and code.path == endpoint.location.path:
+            return True
+    return False
 
 
 def _is_slip(subscription: NamedEndpoint, publisher: NamedEndpoint) -> bool:
