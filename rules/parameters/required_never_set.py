@@ -143,10 +143,11 @@ def _is_set(package: Package, node: NodeDefinition, name: str) -> bool:
                 continue
             if is_of_node or _may_have_name(package, node, section.name):
                 return True
-    if _mentions(package, name, _LAUNCH):
+    last = name.rpartition(".")[2]  # YAML has one line for each part of the name
+    if _mentions(package, last, _LAUNCH):
         return True
     return any(
-        _mentions(other, name, _ELSEWHERE)
+        _mentions(other, last, _ELSEWHERE)
         for other in package.workspace
         if other.name != package.name
     )

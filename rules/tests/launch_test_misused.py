@@ -64,6 +64,15 @@ class LaunchTestMisused(Rule):
             "test/test_talker.py:14:45: launch_testing gives no 'talkr' to a test; there are "
             "launch_service, proc_info, proc_output, talker, test_args",
         ),
+        Example(
+            "arguments that another function may offer",
+            {
+                "setup.py": "",
+                "test/test_talker.py": _TEST.format(*_RIGHT)
+                .replace("return LaunchDescription([", "return describe([")
+                .replace("(self)", "(self, talkr)"),
+            },
+        ),
         Example("for launch_pytest", {"test/test_a.py": "import launch_pytest\n" + _OTHER}),
         Example(
             "never ready, and without any import of launch_testing",
@@ -146,7 +155,9 @@ def _offered(node: FunctionNode) -> frozenset[str] | None:
         return None
     for value in values:
         match value:
-            case ast.Call():
+            case ast.Call(func=ast.Name(id=called) | ast.Attribute(attr=called)) if (
+                called == "LaunchDescription"
+            ):
                 pass
             case ast.Tuple(elts=[_, ast.Dict(keys=keys)]):
                 texts = [key.value for key in keys if isinstance(key, ast.Constant)]
