@@ -100,7 +100,7 @@ class ArgumentsDoNotFit(LaunchRule):
                 "        Node(executable='a', **common), Node(executable='b', **common),\n"
                 "        Node(executable='c', **more),\n    ])\n"
             },
-            "8:37: Node has no argument 'params'; closest: 'parameters'",
+            "8:37: Node has no argument 'params': TypeError; closest: 'parameters'",
         ),
         Example(
             "keywords of Eloquent, for Eloquent",

@@ -131,7 +131,8 @@ class MarkupRefused(Rule):
                 "old/a.launch.xml": _LAUNCH.format("type", "a"),
                 "launch/b.launch.xml": _LAUNCH.format("type", "b"),
             },
-            "launch/b.launch.xml:2:28: 'type' of <node> is ROS 1 syntax: the launch stops; use exec",
+            "launch/b.launch.xml:2:28: 'type' of <node> is ROS 1 syntax: the launch stops; use "
+            "exec",
             Report(
                 "old/a.launch.xml:2:28",
                 "'type' of <node> is ROS 1 syntax: the launch stops; use exec",

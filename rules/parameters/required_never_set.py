@@ -72,8 +72,8 @@ class RequiredNeverSet(RclpyRule):
         Example(
             "set for another node",
             _started("talker"),
-            "demo/talker.py:9:21: parameter 'rate' has a type but no default (line 8), and no "
-            "file of the package sets it: ParameterUninitializedException; give a default",
+            "demo/talker.py:9:21: parameter 'rate' is declared without a default in line 8, and "
+            "no file of the package sets it: ParameterUninitializedException; add a default",
         ),
         Example(
             "set by another package of the workspace",
