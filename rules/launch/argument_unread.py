@@ -20,6 +20,8 @@ _LAUNCH = (
 _INCLUDE = (
     "        IncludeLaunchDescription([FindPackageShare('{}'), '/launch/b.launch.py']),\n    ])\n"
 )
+_END = "    ])\n"
+_IMPORT = "from launch.actions import DeclareLaunchArgument\n"
 _IMPORTS = (
     "from launch.actions import DeclareLaunchArgument, IncludeLaunchDescription\n"
     "from launch_ros.substitutions import FindPackageShare\n"
@@ -27,8 +29,8 @@ _IMPORTS = (
 
 
 def _including(package: str) -> str:
-    text = _LAUNCH.format("").replace("    ])\n", _INCLUDE.format(package))
-    return text.replace("from launch.actions import DeclareLaunchArgument\n", _IMPORTS)
+    text = _LAUNCH.format("").replace(_END, _INCLUDE.format(package))
+    return text.replace(_IMPORT, _IMPORTS)
 
 
 class ArgumentUnread(LaunchRule):

@@ -48,19 +48,19 @@ _ALIKE = 4
 _WORD = re.compile(r"[^\W_]+")
 
 
-def _in_namespaces(sender: str, receiver: str) -> dict[str, str]:
-    return {
-        "package.xml": "<package><name>demo</name></package>\n",
-        "setup.py": "from setuptools import setup\n\nsetup(name='demo', packages=['demo'],\n"
-        "      entry_points={'console_scripts': ['a = demo.a:main', 'b = demo.b:main']})\n",
-        "demo/a.py": _NODE.format("publisher(String, '/chatter', 10)") + _MAIN,
-        "demo/b.py": _NODE.format("subscription(String, 'chatter', print, 10)") + _MAIN,
-        "launch/a.launch.py": "from launch import LaunchDescription\n"
-        "from launch_ros.actions import Node\n\n\ndef generate_launch_description():\n"
-        "    return LaunchDescription([\n"
-        f"        Node(package='demo', executable='a', namespace={sender}),\n"
-        f"        Node(package='demo', executable='b', namespace={receiver}),\n    ])\n",
-    }
+_FILES = {
+    "package.xml": "<package><name>demo</name></package>\n",
+    "setup.py": "from setuptools import setup\n\nsetup(name='demo', packages=['demo'],\n"
+    "      entry_points={'console_scripts': ['a = demo.a:main', 'b = demo.b:main']})\n",
+    "demo/a.py": _NODE.format("publisher(String, '/chatter', 10)") + _MAIN,
+    "demo/b.py": _NODE.format("subscription(String, 'chatter', print, 10)") + _MAIN,
+}
+_STARTING = (
+    "from launch import LaunchDescription\nfrom launch_ros.actions import Node\n\n\n"
+    "def generate_launch_description():\n    return LaunchDescription([\n"
+    "        Node(package='demo', executable='a', namespace='{}'),\n"
+    "        Node(package='demo', executable='b', namespace='left'),\n    ])\n"
+)
 
 
 class TopicNameDiffers(Rule):
@@ -91,13 +91,13 @@ class TopicNameDiffers(Rule):
         ),
         Example(
             "an absolute name in a namespace, where another node has a relative one",
-            _in_namespaces("'left'", "'left'"),
+            {**_FILES, "launch/a.launch.py": _STARTING.format("left")},
             "demo/a.py:8:39: '/chatter' leaves the namespace that launch/a.launch.py:8 gives, "
             "where demo/b.py:8 has '/left/chatter': they never connect; write 'chatter'",
         ),
         Example(
             "an absolute name in no namespace",
-            _in_namespaces("''", "'left'"),
+            {**_FILES, "launch/a.launch.py": _STARTING.format("")},
         ),
         Example(
             "a topic with a missing letter",

@@ -27,17 +27,13 @@ _STARTING = (
 )
 
 
-def _started(name: str) -> dict[str, str]:
-    return {
-        "package.xml": "<package><name>demo</name></package>\n",
-        "setup.py": "from setuptools import setup\n\nsetup(name='demo', packages=['demo'],\n"
-        "      entry_points={'console_scripts': ['talk = demo.talker:main']})\n",
-        "demo/talker.py": _NODE.format("Parameter.Type.DOUBLE") + "\n\ndef main():\n    Talker()\n",
-        "config/a.yaml": "speaker:\n  ros__parameters:\n    rate: 3.0\n",
-        "launch/a.launch.py": _STARTING.format(name),
-    }
-
-
+_FILES = {
+    "package.xml": "<package><name>demo</name></package>\n",
+    "setup.py": "from setuptools import setup\n\nsetup(name='demo', packages=['demo'],\n"
+    "      entry_points={'console_scripts': ['talk = demo.talker:main']})\n",
+    "demo/talker.py": _NODE.format("Parameter.Type.DOUBLE") + "\n\ndef main():\n    Talker()\n",
+    "config/a.yaml": "speaker:\n  ros__parameters:\n    rate: 3.0\n",
+}
 _ELSEWHERE = (*_LAUNCH, *_PARAMETERS)
 """Suffixes of files of other packages that may start the node."""
 
@@ -67,11 +63,11 @@ class RequiredNeverSet(RclpyRule):
         ),
         Example(
             "set for a node of another name, and started under that name",
-            _started("speaker"),
+            {**_FILES, "launch/a.launch.py": _STARTING.format("speaker")},
         ),
         Example(
             "set for another node",
-            _started("talker"),
+            {**_FILES, "launch/a.launch.py": _STARTING.format("talker")},
             "demo/talker.py:9:21: parameter 'rate' is declared without a default in line 8, and "
             "no file of the package sets it: ParameterUninitializedException; add a default",
         ),

@@ -16,6 +16,7 @@ _SETUP = (
     "from setuptools import setup\n\nsetup(\n    name='{0}',\n    packages=['{1}'],\n"
     "    entry_points={{'console_scripts': ['talk = {1}.talk:main']}},\n)\n"
 )
+_TALK = "def main():\n    pass\n"
 
 
 def _files(name: str, module: str) -> dict[str, str]:
@@ -23,7 +24,7 @@ def _files(name: str, module: str) -> dict[str, str]:
         "package.xml": _MANIFEST.format(name),
         "setup.py": _SETUP.format(name, module),
         f"{module}/__init__.py": "",
-        f"{module}/talk.py": "def main():\n    pass\n",
+        f"{module}/talk.py": _TALK,
     }
 
 
