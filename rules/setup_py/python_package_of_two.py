@@ -43,13 +43,13 @@ class PythonPackageOfTwo(Rule):
     code = "SP061"
     name = "python-package-of-two"
     examples = (
-        Example("two names", _files("arm", "arm"), neighbours={"hand": _files("hand", "hand")}),
+        Example("two names", _files("arm", "arm"), neighbors={"hand": _files("hand", "hand")}),
         Example(
             "a copy with the old directory",
             _files("arm", "hand"),
             "setup.py:5:14: hand installs a Python package 'hand' as well: Python finds one of "
             "them; rename this one to 'arm'",
-            neighbours={"hand": _files("hand", "hand")},
+            neighbors={"hand": _files("hand", "hand")},
         ),
     )
 
