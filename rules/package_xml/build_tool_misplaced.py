@@ -1,4 +1,4 @@
-"""PX026: build tools are declared as such."""
+"""PX026: build tools are declared with ``<buildtool_depend>``."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ _MANIFEST = '<package format="3">\n  <{0}>ament_cmake</{0}>\n</package>\n'
 
 
 class BuildToolMisplaced(Rule):
-    """A build tool is declared as if it were needed at run time.
+    """A build tool is declared as a run dependency.
 
-    **Why.** Every robot that installs the package installs the build system with it, and a
-    cross-build takes it for the target's.
+    **Why.** Every robot that installs the package also installs the build system, and a cross-build
+    uses the build system of the target.
 
     **Fix.** Write ``<buildtool_depend>``.
 
@@ -28,9 +28,9 @@ class BuildToolMisplaced(Rule):
     examples = (
         Example("a build tool", {"package.xml": _MANIFEST.format("buildtool_depend")}),
         Example(
-            "needed to run",
+            "a run dependency",
             {"package.xml": _MANIFEST.format("depend")},
-            "2:11: 'ament_cmake' builds the package: write <buildtool_depend>",
+            "2:11: 'ament_cmake' is a build tool; write <buildtool_depend>",
         ),
     )
 
@@ -40,5 +40,5 @@ class BuildToolMisplaced(Rule):
             return
         for dependency in manifest.dependencies:
             if dependency.name in BUILD_TOOLS and dependency.kind in KINDS:
-                message = f"{dependency.name!r} builds the package: write <buildtool_depend>"
+                message = f"{dependency.name!r} is a build tool; write <buildtool_depend>"
                 yield self.report(dependency, message)

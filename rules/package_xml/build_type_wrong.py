@@ -1,4 +1,4 @@
-"""PX011: the manifest has one build type that exists and fits the files, and what it needs."""
+"""PX011: package.xml has one build type that exists, fits the files and is declared."""
 
 from __future__ import annotations
 
@@ -45,14 +45,15 @@ _LISTS = "project(talker)\nfind_package(ament_cmake REQUIRED)\nament_package()\n
 class BuildTypeWrong(Rule):
     """``<build_type>`` is missing, repeated, unknown or wrong, or ament_cmake is undeclared.
 
-    **Why.** Without one, colcon assumes a ROS 1 package with the build type catkin: it is built
-    without the hooks of ament, and ``ros2 run`` answers ``Package 'talker' not found``. It cannot
-    build an unknown type, and ignores a package with two. If the files do not match, the build
-    stops: ``does not appear to contain CMakeLists.txt``. On a clean machine CMake stops without a
-    declaration: ``Could not find a package configuration file provided by "ament_cmake"``.
+    **Why.** Without a build type, colcon assumes a ROS 1 package with the build type catkin: it is
+    built without the hooks of ament, and ``ros2 run`` fails with ``Package 'talker' not found``.
+    colcon cannot build an unknown type, and ignores a package with two. If the files do not match,
+    the build stops: ``does not appear to contain CMakeLists.txt``. On a clean machine, CMake stops
+    if ament_cmake is not declared: ``Could not find a package configuration file provided by
+    "ament_cmake"``.
 
-    **Fix.** Write one ``<build_type>``, ``ament_cmake``, ``ament_python`` or ``cmake``, as the
-    files are, and ``<buildtool_depend>ament_cmake</buildtool_depend>``.
+    **Fix.** Write one ``<build_type>`` that matches the files, ``ament_cmake``, ``ament_python`` or
+    ``cmake``, and ``<buildtool_depend>ament_cmake</buildtool_depend>``.
 
     **Source.** REP-149, ``<build_type>``: the default is catkin; ``<buildtool_depend>``;
     ``colcon_ros/package_identification/ros.py``; ``colcon_ros/task``.
@@ -61,10 +62,12 @@ class BuildTypeWrong(Rule):
     code = "PX011"
     name = "build-type-wrong"
     effect = Effect.STOPS_BUILD
-    other_severities = {Severity.WARNING: "a dependency brings the ament_cmake that is undeclared"}
+    other_severities = {
+        Severity.WARNING: "ament_cmake is undeclared, but a dependency depends on it"
+    }
     examples = (
         Example(
-            "a misspelled one",
+            "a misspelled build type",
             {
                 "package.xml": "<package><export>\n"
                 "  <build_type>ament_pyton</build_type>\n"
@@ -92,7 +95,7 @@ class BuildTypeWrong(Rule):
             },
         ),
         Example(
-            "two at once",
+            "two build types",
             {
                 "package.xml": _MANIFEST.format(""),
                 "setup.py": "",
@@ -128,7 +131,7 @@ class BuildTypeWrong(Rule):
             },
         ),
         Example(
-            "an export for something else",
+            "an export with another element",
             {
                 "package.xml": "<package>\n  <buildtool_depend>ament_cmake</buildtool_depend>\n"
                 "  <export>\n    <other/>\n  </export>\n</package>\n",
@@ -175,7 +178,7 @@ class BuildTypeWrong(Rule):
             {"package.xml": _MANIFEST_FILES.format("catkin"), **_FILES},
             Report(
                 "package.xml:4:5",
-                "build type catkin, but the files are those of ament_python",
+                "build type catkin, but the files are those of ament_python: the build fails",
                 fix="Replace with ament_python",
             ),
             fixed={"package.xml": _MANIFEST_FILES.format("ament_python")},
@@ -185,17 +188,19 @@ class BuildTypeWrong(Rule):
             {"package.xml": _MANIFEST_TOOL.format(""), "CMakeLists.txt": _LISTS},
             Report(
                 "package.xml:1:2",
-                "nothing declares ament_cmake, which CMakeLists.txt finds",
+                "CMakeLists.txt finds ament_cmake, which is not declared; add "
+                "<buildtool_depend>ament_cmake</buildtool_depend>",
                 fix="Declare ament_cmake",
             ),
             fixed={"package.xml": _MANIFEST_TOOL.format(_DEPEND)},
         ),
         Example(
-            "ament_cmake undeclared, which rclcpp brings along",
+            "ament_cmake undeclared, as a dependency of rclcpp",
             {"package.xml": _MANIFEST_TOOL.format(_RCLCPP), "CMakeLists.txt": _LISTS},
             Report(
                 "package.xml:1:2",
-                "nothing declares ament_cmake, which CMakeLists.txt finds",
+                "CMakeLists.txt finds ament_cmake, which is not declared; add "
+                "<buildtool_depend>ament_cmake</buildtool_depend>",
                 fix="Declare ament_cmake",
                 severity=Severity.WARNING,
             ),
@@ -299,7 +304,7 @@ class BuildTypeWrong(Rule):
             element = elements[0]
             start = manifest.source.text.find(given, element.start)
             edit = Edit("package.xml", start, start + len(given), wanted)
-            message = f"build type {given}, but the files are those of {wanted}"
+            message = f"build type {given}, but the files are those of {wanted}: the build fails"
             yield self.report(element, message, Fix(f"Replace with {wanted}", (edit,)))
 
     def _check_tool(self, package: Package) -> Iterator[Diagnostic]:
@@ -312,7 +317,10 @@ class BuildTypeWrong(Rule):
         if any(dependency.kind == "buildtool_depend" for dependency in manifest.dependencies):
             return
         fix = Fix("Declare ament_cmake", (manifest.insert("buildtool_depend", "ament_cmake"),))
-        message = "nothing declares ament_cmake, which CMakeLists.txt finds"
+        message = (
+            "CMakeLists.txt finds ament_cmake, which is not declared; add "
+            "<buildtool_depend>ament_cmake</buildtool_depend>"
+        )
         at = manifest.root.name_location
         is_brought = "ament_cmake" in transitive_dependencies(manifest.build_names)
         severity = Severity.WARNING if is_brought else Severity.ERROR

@@ -1,4 +1,4 @@
-"""PX015: conditions can be evaluated."""
+"""PX015: conditions are valid and depend on the distribution."""
 
 from __future__ import annotations
 
@@ -20,11 +20,11 @@ _MANIFEST = '<package format="3">\n  <depend condition="{}">rclpy</depend>\n</pa
 
 
 class ConditionMalformed(Rule):
-    """A ``condition`` does not follow the grammar, or is the same for all distributions.
+    """A ``condition`` is not valid, or has the same value for all distributions.
 
-    **Why.** catkin_pkg, and with it colcon, refuses the manifest. A comparison with a name that no
-    distribution has, or of a name without its ``$``, is never true: the dependency is missing,
-    without a message.
+    **Why.** catkin_pkg, and therefore colcon, rejects package.xml. A comparison with an unknown
+    distribution, or of a variable without its ``$``, is never true: the dependency is not
+    installed, without an error.
 
     **Fix.** Write ``$VARIABLE == value``, with ``and``, ``or`` and parentheses.
 
@@ -34,31 +34,31 @@ class ConditionMalformed(Rule):
     code = "PX015"
     name = "condition-malformed"
     other_severities = {
-        Severity.WARNING: "a name in it is misspelled, or it is never true, or always"
+        Severity.WARNING: "it contains a misspelled name, or is never or always true"
     }
     examples = (
         Example("a comparison", {"package.xml": _MANIFEST.format("$ROS_DISTRO == jazzy")}),
         Example(
-            "one sign",
+            "a single equals sign",
             {"package.xml": _MANIFEST.format("$ROS_VERSION = 2")},
             "2:22: condition '$ROS_VERSION = 2': '=' is not expected",
         ),
         Example(
-            "a distribution that ended, a variable of whoever builds",
+            "a distribution at its end of life, a custom variable",
             {"package.xml": _MANIFEST.format("$ROS_DISTRO == foxy or $WITH_ROBOT == 1")},
         ),
         Example(
-            "a name misspelled",
+            "a misspelled name",
             {"package.xml": _MANIFEST.format("$ROS_DISTRO == lyrcal")},
             Report(
                 "2:22",
-                "condition '$ROS_DISTRO == lyrcal': nothing is called 'lyrcal'; "
-                "did you mean 'lyrical'?",
+                "condition '$ROS_DISTRO == lyrcal': unknown name 'lyrcal': never true; "
+                "closest: 'lyrical'",
                 severity=Severity.WARNING,
             ),
         ),
         Example(
-            "true on some distributions, the next one perhaps, or for whoever builds",
+            "true on some distributions, possibly on a later one, or with a custom variable",
             {
                 "package.xml": _MANIFEST.format(
                     '$ROS_VERSION == 1 and $ROS_DISTRO == noetic">roscpp</depend>\n'
@@ -68,23 +68,23 @@ class ConditionMalformed(Rule):
             },
         ),
         Example(
-            "a variable without its sign",
+            "a variable without $",
             {"package.xml": _MANIFEST.format("$ROS_VERSION == 2 and ROS_DISTRO == jazzy")},
             Report(
                 "2:22",
                 "condition '$ROS_VERSION == 2 and ROS_DISTRO == jazzy': 'ROS_DISTRO == "
-                "jazzy' compares two texts and is never true; write $ROS_DISTRO",
+                "jazzy' compares two strings and is never true; write $ROS_DISTRO",
                 fix="Replace with $ROS_DISTRO",
                 severity=Severity.WARNING,
             ),
             fixed={"package.xml": _MANIFEST.format("$ROS_VERSION == 2 and $ROS_DISTRO == jazzy")},
         ),
         Example(
-            "two texts",
+            "two strings",
             {"package.xml": _MANIFEST.format("noetic != humble")},
             Report(
                 "2:22",
-                "condition 'noetic != humble': compares two texts and is always true",
+                "condition 'noetic != humble': compares two strings and is always true",
                 severity=Severity.WARNING,
             ),
         ),
@@ -99,7 +99,7 @@ class ConditionMalformed(Rule):
             ),
         ),
         Example(
-            "no version",
+            "a value that is not a version",
             {"package.xml": _MANIFEST.format("$ROS_VERSION == 3")},
             Report(
                 "2:22",
@@ -132,7 +132,7 @@ class ConditionMalformed(Rule):
             for constant in constants(condition)
         ]
         reported += [
-            (f"nothing is called {name!r}; did you mean {suggestion!r}?", None)
+            (f"unknown name {name!r}: never true; closest: {suggestion!r}", None)
             for name, suggestion in misspelled(condition)
         ]
         if not reported and is_never_true(condition):
@@ -147,7 +147,7 @@ class ConditionMalformed(Rule):
 def _words(constant: Constant, condition: str) -> str:
     which = f"{constant.text!r} " if constant.text != condition else ""
     hint = f"; write ${constant.variable}" if constant.variable else ""
-    return f"{which}compares two texts and is {_ALWAYS[constant.value]} true{hint}"
+    return f"{which}compares two strings and is {_ALWAYS[constant.value]} true{hint}"
 
 
 def _with_sign(package: Package, at: Location, condition: str, constant: Constant) -> Fix | None:

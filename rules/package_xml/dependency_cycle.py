@@ -13,12 +13,12 @@ _LISTENER = '<package format="3">\n  <name>listener</name>\n{}</package>\n'
 
 
 class DependencyCycle(Rule):
-    """A package depends on itself, directly or through others of the workspace.
+    """A package depends on itself, directly or through other packages in the workspace.
 
-    **Why.** colcon cannot order them: ``Unable to order packages topologically``; it refuses the
-    manifest of a package that names itself.
+    **Why.** colcon cannot order the packages: ``Unable to order packages topologically``. It
+    rejects a package that depends on itself.
 
-    **Fix.** Move what both need into a third package; remove a dependency on the package itself.
+    **Fix.** Move the common code to a third package; remove a dependency on the package itself.
 
     **Source.** REP-149, "Dependency tags"; ``colcon_core/topological_order.py``;
     ``catkin_pkg.package.Package.validate``.
@@ -28,12 +28,12 @@ class DependencyCycle(Rule):
     name = "dependency-cycle"
     examples = (
         Example(
-            "one way",
+            "one direction",
             {"package.xml": _TALKER},
             neighbors={"listener": {"package.xml": _LISTENER.format("")}},
         ),
         Example(
-            "both ways",
+            "both directions",
             {"package.xml": _TALKER},
             "3:11: dependency cycle: talker needs listener needs talker",
             neighbors={
@@ -41,11 +41,11 @@ class DependencyCycle(Rule):
             },
         ),
         Example(
-            "on itself",
+            "a dependency on itself",
             {"package.xml": _ITSELF.format("  <exec_depend>talker</exec_depend>\n")},
             Report(
                 "3:16",
-                "<exec_depend> 'talker': a package cannot depend on itself",
+                "<exec_depend> 'talker': a package cannot depend on itself; colcon rejects it",
                 fix="Remove the dependency",
             ),
             fixed={"package.xml": _ITSELF.format("")},
@@ -58,7 +58,8 @@ class DependencyCycle(Rule):
             if dependency.name and dependency.name == manifest.name:
                 fix = Fix("Remove the dependency", (manifest.remove(dependency.element),))
                 message = (
-                    f"<{dependency.kind}> {dependency.name!r}: a package cannot depend on itself"
+                    f"<{dependency.kind}> {dependency.name!r}: a package cannot depend on itself; "
+                    f"colcon rejects it"
                 )
                 yield self.report(dependency, message, fix)
                 continue

@@ -1,4 +1,4 @@
-"""PX029: released packages need nothing from pip."""
+"""PX029: released packages do not depend on pip packages."""
 
 from __future__ import annotations
 
@@ -8,12 +8,12 @@ from scaffold.api import Diagnostic, Example, Package, Rule, Severity
 
 
 class DependencyFromPip(Rule):
-    """A dependency is a key of rosdep that pip installs.
+    """A dependency is a rosdep key that pip installs.
 
-    **Why.** It works for those who build the package; a Debian package cannot depend on it, so
-    bloom refuses the release.
+    **Why.** It works when building from source, but a Debian package cannot depend on it, so bloom
+    rejects the release.
 
-    **Fix.** Use the key of the system's package where rosdep has one, such as ``python3-numpy``.
+    **Fix.** Use the key of a system package if rosdep has one, such as ``python3-numpy``.
 
     **Source.** rosdistro, "Review guidelines"; REP-111.
     """
@@ -21,22 +21,22 @@ class DependencyFromPip(Rule):
     code = "PX029"
     name = "dependency-from-pip"
     severity = Severity.INFO
-    release_refused = "a released package cannot depend on what pip installs"
+    release_refused = "a released package cannot depend on pip packages"
     examples = (
         Example(
-            "a package of the system, and what only tests need",
+            "a system package, and a test dependency",
             {
                 "package.xml": "<package>\n  <exec_depend>python3-numpy</exec_depend>\n"
                 "  <doc_depend>python3-furo-pip</doc_depend>\n</package>\n"
             },
         ),
         Example(
-            "a package of pip",
+            "a pip package",
             {
                 "package.xml": "<package>\n  <exec_depend>python3-trimesh-pip</exec_depend>\n"
                 "</package>\n"
             },
-            "2:16: pip installs 'python3-trimesh-pip': the package cannot be released",
+            "2:16: 'python3-trimesh-pip' is installed by pip: the package cannot be released",
         ),
     )
 
@@ -45,5 +45,5 @@ class DependencyFromPip(Rule):
             if dependency.kind == "doc_depend" or not dependency.may_be_active:
                 continue
             if dependency.name.endswith("-pip"):
-                message = f"pip installs {dependency.name!r}: the package cannot be released"
+                message = f"{dependency.name!r} is installed by pip: the package cannot be released"
                 yield self.report(dependency, message)

@@ -22,7 +22,7 @@ class DependencyMisspelled(Rule):
 
     **Why.** rosdep has no key for it: ``rosdep install`` and the release stop.
 
-    **Fix.** Write the name as the package spells it.
+    **Fix.** Correct the spelling.
 
     **Source.** ROS 2 documentation, "Managing dependencies with rosdep".
     """
@@ -30,10 +30,10 @@ class DependencyMisspelled(Rule):
     code = "PX022"
     name = "dependency-misspelled"
     other_severities = {
-        Severity.WARNING: "the name is one that other packages suggest, such as rclpy_action, or a "
-        "key of Python",
+        Severity.WARNING: "the name follows the pattern of other packages, such as rclpy_action, "
+        "or is a Python key",
     }
-    release_refused = "bloom finds no rule of rosdep for the name"
+    release_refused = "bloom finds no rosdep rule for the name"
     examples = (
         Example(
             "correct, and an unknown one",
@@ -47,13 +47,13 @@ class DependencyMisspelled(Rule):
             {"package.xml": "<package>\n  <depend>std_msg</depend>\n</package>\n"},
             Report(
                 "2:11",
-                "no package 'std_msg' is known; closest: 'std_msgs'",
+                "unknown package 'std_msg': rosdep stops; closest: 'std_msgs'",
                 fix="Replace with std_msgs",
             ),
             fixed={"package.xml": "<package>\n  <depend>std_msgs</depend>\n</package>\n"},
         ),
         Example(
-            "a letter too many, of a package of the workspace; one that the code imports",
+            "an extra letter, in a package of the workspace; one that the code imports",
             {
                 "package.xml": "<package>\n  <name>talker</name>\n"
                 "  <depend>our_arm_msgss</depend>\n  <depend>our_hand_msgss</depend>\n"
@@ -62,7 +62,7 @@ class DependencyMisspelled(Rule):
             },
             Report(
                 "package.xml:3:11",
-                "no package 'our_arm_msgss' is known; closest: 'our_arm_msgs'",
+                "unknown package 'our_arm_msgss': rosdep stops; closest: 'our_arm_msgs'",
                 fix="Replace with our_arm_msgs",
             ),
             neighbors={
@@ -83,7 +83,7 @@ class DependencyMisspelled(Rule):
             },
             Report(
                 "package.xml:2:11",
-                "no package 'std_msg' is known; closest: 'std_msgs'",
+                "unknown package 'std_msg': rosdep stops; closest: 'std_msgs'",
                 fix="Replace with std_msgs",
             ),
             fixed={"package.xml": "<package>\n  <depend>std_msgs</depend>\n</package>\n"},
@@ -96,7 +96,7 @@ class DependencyMisspelled(Rule):
             },
         ),
         Example(
-            "for another distribution, and for whoever asks for it",
+            "for another distribution, and under a custom condition",
             {
                 "package.xml": "<package>\n"
                 '  <depend condition="$ROS_DISTRO == humble">std_msg</depend>\n'
@@ -105,7 +105,7 @@ class DependencyMisspelled(Rule):
             },
             Report(
                 "3:41",
-                "no package 'builtin_interface' is known; closest: 'builtin_interfaces'",
+                "unknown package 'builtin_interface': rosdep stops; closest: 'builtin_interfaces'",
                 fix="Replace with builtin_interfaces",
             ),
             fixed={
@@ -116,28 +116,30 @@ class DependencyMisspelled(Rule):
             },
         ),
         Example(
-            "a key of rosdep with a letter too many",
+            "a rosdep key with an extra letter",
             {"package.xml": "<package>\n  <depend>python3-opencvv</depend>\n</package>\n"},
             Report(
                 "2:11",
-                "no rosdep key 'python3-opencvv' is known; closest: 'python3-opencv'",
+                "unknown rosdep key 'python3-opencvv': rosdep stops; closest: 'python3-opencv'",
                 severity=Severity.WARNING,
             ),
         ),
         Example(
-            "a key of rosdep that resembles another one",
+            "a rosdep key that is similar to another one",
             {"package.xml": "<package>\n  <depend>python3-scapy</depend>\n</package>\n"},
         ),
         Example(
-            "a key that this machine knows",
+            "a key in the local rosdep cache",
             {"package.xml": "<package>\n  <depend>python3-opencvv</depend>\n</package>\n"},
             rosdep_keys=("python3-opencvv",),
         ),
         Example(
-            "a name that was never one",
+            "a name that never existed",
             {"package.xml": "<package>\n  <depend>rclpy_action</depend>\n</package>\n"},
             Report(
-                "2:11", "no package 'rclpy_action' is known; use 'rclpy'", severity=Severity.WARNING
+                "2:11",
+                "unknown package 'rclpy_action': rosdep stops; use 'rclpy'",
+                severity=Severity.WARNING,
             ),
         ),
     )
@@ -151,15 +153,15 @@ class DependencyMisspelled(Rule):
                 continue
             other = OTHER_NAMES.get(name)
             if other is not None:
-                message = f"no package {name!r} is known; use {other!r}"
+                message = f"unknown package {name!r}: rosdep stops; use {other!r}"
                 yield self.report(dependency, message, severity=Severity.WARNING)
             key = similar_key(name)
             if key is not None and not _is_known(package, name):
-                message = f"no rosdep key {name!r} is known; closest: {key!r}"
+                message = f"unknown rosdep key {name!r}: rosdep stops; closest: {key!r}"
                 yield self.report(dependency, message, severity=Severity.WARNING)
             closest = similar_package(name) or _similar_neighbor(package, name)
             if closest is not None and not _has_others(package, name, closest):
-                message = f"no package {name!r} is known; closest: {closest!r}"
+                message = f"unknown package {name!r}: rosdep stops; closest: {closest!r}"
                 edit = Edit("package.xml", *dependency.element.text_span, closest)
                 yield self.report(dependency, message, Fix(f"Replace with {closest}", (edit,)))
 

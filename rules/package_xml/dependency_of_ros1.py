@@ -16,9 +16,10 @@ _WITH_CLASSIC = frozenset({"Humble"})
 class DependencyOfRos1(Rule):
     """A dependency is a package of ROS 1.
 
-    **Why.** ROS 2 does not have it: rosdep finds no rule, and a build that looks for it stops.
+    **Why.** The package does not exist in ROS 2: rosdep finds no rule, and a build that finds it
+    stops.
 
-    **Fix.** Depend on its replacement. No automatic fix: the code has to change with it.
+    **Fix.** Depend on its replacement. No automatic fix: the code has to change as well.
 
     **Source.** ROS 2 documentation, "Migrating your package.xml to ROS 2".
     """
@@ -26,7 +27,7 @@ class DependencyOfRos1(Rule):
     code = "PX024"
     name = "dependency-of-ros1"
     examples = (
-        Example("of ROS 2", {"package.xml": "<package><depend>rclpy</depend></package>\n"}),
+        Example("a ROS 2 package", {"package.xml": "<package><depend>rclpy</depend></package>\n"}),
         Example(
             "for ROS 1 only, by its condition",
             {
@@ -35,7 +36,7 @@ class DependencyOfRos1(Rule):
             },
         ),
         Example(
-            "for ROS 1 only, as CMake says",
+            "for ROS 1 only, by a condition in CMake",
             {
                 "package.xml": "<package>\n"
                 "  <buildtool_depend>catkin</buildtool_depend>\n"
@@ -45,25 +46,26 @@ class DependencyOfRos1(Rule):
             },
         ),
         Example(
-            "Gazebo classic, which Humble has",
+            "Gazebo Classic, which Humble has",
             {"package.xml": "<package><exec_depend>gazebo_ros</exec_depend></package>\n"},
             distro="humble",
         ),
         Example(
-            "left over",
+            "a ROS 1 package",
             {
                 "package.xml": "<package>\n"
                 "  <buildtool_depend>catkin</buildtool_depend>\n"
                 "  <depend>rospy</depend>\n"
                 "</package>\n"
             },
-            "2:21: 'catkin' belongs to ROS 1; use ament_cmake",
-            "3:11: 'rospy' belongs to ROS 1; use rclpy",
+            "2:21: 'catkin' is a package of ROS 1: rosdep stops; use ament_cmake",
+            "3:11: 'rospy' is a package of ROS 1: rosdep stops; use rclpy",
         ),
         Example(
-            "Gazebo classic, which other distributions lack",
+            "Gazebo Classic, which other distributions lack",
             {"package.xml": "<package><exec_depend>gazebo_ros</exec_depend></package>\n"},
-            "1:23: 'gazebo_ros' belongs to Gazebo classic, which Jazzy lacks; use ros_gz",
+            "1:23: 'gazebo_ros' is a package of Gazebo Classic, which Jazzy lacks: rosdep stops; "
+            "use ros_gz",
         ),
     )
 
@@ -78,7 +80,7 @@ class DependencyOfRos1(Rule):
                 continue
             heir = ROS1_PACKAGES.get(name)
             if heir and dependency.active and package.workspace.get(name) is None:
-                which = f"Gazebo classic, which {title} lacks" if name in _CLASSIC else "ROS 1"
-                message = f"{name!r} belongs to {which}; use {heir}"
+                which = f"Gazebo Classic, which {title} lacks" if name in _CLASSIC else "ROS 1"
+                message = f"{name!r} is a package of {which}: rosdep stops; use {heir}"
                 cause = "" if name in _CLASSIC else "dependencies of ROS 1"
                 yield self.report(dependency, message, cause=cause)

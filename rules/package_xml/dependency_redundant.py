@@ -16,13 +16,13 @@ _MANIFEST = (
 class DependencyRedundant(Rule):
     """Two tags name the same package, or a package depends on a group that it is a member of.
 
-    **Why.** catkin_pkg, and with it colcon, refuses the manifest: ``The generic dependency on
-    'std_msgs' is redundant with: exec_depend``. The same applies to two ``<depend>``, and to a
-    group, in which case the package would depend on itself. Any other repeated tag is only
-    superfluous: a warning.
+    **Why.** catkin_pkg, and therefore colcon, rejects package.xml: ``The generic dependency on
+    'std_msgs' is redundant with: exec_depend``. The same applies to two ``<depend>`` tags, and to a
+    group, because the package would depend on itself. Any other repeated tag is redundant, which is
+    a warning.
 
-    **Fix.** Keep ``<depend>``, which covers building and running, and drop the other; remove one of
-    the two for a group.
+    **Fix.** Keep ``<depend>``, which covers build and run time, and remove the other tag; for a
+    group, remove one of the two.
 
     **Source.** REP-149, ``<depend>``, ``<group_depend>``; ``catkin_pkg/package.py``.
     """
@@ -50,7 +50,8 @@ class DependencyRedundant(Rule):
             },
             Report(
                 "3:16",
-                "<exec_depend> 'std_msgs' is covered by <depend> in line 2: colcon refuses both",
+                "<exec_depend> 'std_msgs' is already covered by <depend> in line 2: "
+                "colcon rejects package.xml; remove one",
                 fix="Remove the dependency",
             ),
             fixed={
@@ -67,7 +68,7 @@ class DependencyRedundant(Rule):
             },
             Report(
                 "3:16",
-                "<exec_depend> 'std_msgs' is already declared in line 2",
+                "<exec_depend> 'std_msgs' is already declared in line 2; remove one",
                 fix="Remove the dependency",
                 severity=Severity.WARNING,
             ),
@@ -76,11 +77,12 @@ class DependencyRedundant(Rule):
                 "  <exec_depend>std_msgs</exec_depend>\n</package>\n"
             },
         ),
-        Example("another group than its own", {"package.xml": _MANIFEST.format("tools")}),
+        Example("a group of other packages", {"package.xml": _MANIFEST.format("tools")}),
         Example(
             "the group that it is a member of",
             {"package.xml": _MANIFEST.format("drivers")},
-            "3:3: member of the group 'drivers', which line 2 depends on",
+            "3:3: the package is a member of the group 'drivers', which line 2 depends on: colcon "
+            "rejects package.xml",
         ),
     )
 
@@ -100,12 +102,13 @@ class DependencyRedundant(Rule):
             if other is not None and kind in COVERED and other.condition == dependency.condition:
                 line = other.location.line
                 message = (
-                    f"<{kind}> {name!r} is covered by <depend> in line {line}: colcon refuses both"
+                    f"<{kind}> {name!r} is already covered by <depend> in line {line}: colcon "
+                    f"rejects package.xml; remove one"
                 )
             elif dependency.element is not manifest.depends(kind)[name].element and name:
                 if first == dependency.location.line:
                     continue
-                message = f"<{kind}> {name!r} is already declared in line {first}"
+                message = f"<{kind}> {name!r} is already declared in line {first}; remove one"
             else:
                 continue
             fix = Fix("Remove the dependency", (manifest.remove(dependency.element),))
@@ -120,5 +123,8 @@ class DependencyRedundant(Rule):
             other = needed.get(element.text)
             if other is not None:
                 line = other.location.line
-                message = f"member of the group {element.text!r}, which line {line} depends on"
+                message = (
+                    f"the package is a member of the group {element.text!r}, which line "
+                    f"{line} depends on: colcon rejects package.xml"
+                )
                 yield self.report(element, message)

@@ -1,4 +1,4 @@
-"""PX028: rosdep resolves the dependencies."""
+"""PX028: rosdep can resolve the dependencies."""
 
 from __future__ import annotations
 
@@ -26,17 +26,16 @@ _KEYS = ("python3-serial", "libserial-dev")
 
 
 class DependencyUnresolvable(Rule):
-    """rosdep has no key for a dependency, and no package at hand has the name.
+    """A dependency is neither a rosdep key nor an available package.
 
-    Reported only if ``rosdep update`` was run for Jazzy. A key is known if it has a rule for any
-    system, because the package may be meant for another one. The packages of the distribution are
-    among its keys.
+    Only reported after ``rosdep update``. A rule for any operating system is enough, because the
+    package may be meant for another one. The keys include the packages of the distribution.
 
-    **Why.** ``rosdep install`` stops: ``Cannot locate rosdep definition for [pyserial-3]``. So do
-    the build farm and everyone who installs the package with its dependencies.
+    **Why.** ``rosdep install`` stops: ``Cannot locate rosdep definition for [pyserial-3]``. The
+    build farm and users who install the dependencies get the same error.
 
-    **Fix.** Write the key that ``rosdep search`` finds, get the missing package into the
-    workspace, or add a rule to rosdep.
+    **Fix.** Use a key that ``rosdep search`` finds, clone the missing package into the workspace,
+    or add a rule to rosdep.
 
     **Source.** REP 111; ROS 2 documentation, "Managing dependencies with rosdep".
     """
@@ -44,7 +43,7 @@ class DependencyUnresolvable(Rule):
     code = "PX028"
     name = "dependency-unresolvable"
     severity = Severity.WARNING
-    release_refused = "bloom finds no rule of rosdep for the name"
+    release_refused = "bloom finds no rosdep rule for the name"
     examples = (
         Example(
             "a key of rosdep",
@@ -57,26 +56,26 @@ class DependencyUnresolvable(Rule):
             neighbors={"serial": {"package.xml": "<package><name>robot-serial</name></package>"}},
             rosdep_keys=_KEYS,
         ),
-        Example("rosdep is not there to say", {"package.xml": _MANIFEST.format("pyserial-3")}),
+        Example("rosdep is not installed", {"package.xml": _MANIFEST.format("pyserial-3")}),
         Example(
-            "a package from elsewhere",
+            "a package from another prefix",
             {"package.xml": _MANIFEST.format("robot_serial")},
-            "3:11: rosdep's cache has no rule for 'robot_serial', and no package of the workspace "
-            "or of AMENT_PREFIX_PATH has the name",
+            "3:11: unknown dependency 'robot_serial': rosdep has no rule for it, and it is not a "
+            "package in the workspace or AMENT_PREFIX_PATH",
             rosdep_keys=_KEYS,
         ),
         Example(
-            "neither",
+            "neither a key nor a package",
             {"package.xml": _MANIFEST.format("pyserial-3")},
-            "3:11: rosdep's cache has no rule for 'pyserial-3', and no package of the workspace "
-            "or of AMENT_PREFIX_PATH has the name",
+            "3:11: unknown dependency 'pyserial-3': rosdep has no rule for it, and it is not a "
+            "package in the workspace or AMENT_PREFIX_PATH",
             rosdep_keys=_KEYS,
         ),
         Example(
             "another spelling",
             {"package.xml": _MANIFEST.format("Serial")},
-            "3:11: rosdep's cache has no rule for 'Serial', and no package of the workspace or of "
-            "AMENT_PREFIX_PATH has the name; it has 'python3-serial'",
+            "3:11: unknown dependency 'Serial': rosdep has no rule for it, and it is not a "
+            "package in the workspace or AMENT_PREFIX_PATH; it has 'python3-serial'",
             rosdep_keys=_KEYS,
         ),
     )
@@ -95,8 +94,8 @@ class DependencyUnresolvable(Rule):
                 return
             if rosdep.resolves(name) is False:
                 message = (
-                    f"rosdep's cache has no rule for {name!r}, and no package of the workspace or "
-                    f"of AMENT_PREFIX_PATH has the name{_hint(package, name)}"
+                    f"unknown dependency {name!r}: rosdep has no rule for it, and it is not a "
+                    f"package in the workspace or AMENT_PREFIX_PATH{_hint(package, name)}"
                 )
                 yield self.report(dependency, message)
 

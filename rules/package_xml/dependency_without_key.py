@@ -1,4 +1,4 @@
-"""PX081: a dependency is one key of rosdep, or one package, and nothing else."""
+"""PX081: a dependency is exactly one rosdep key or package."""
 
 from __future__ import annotations
 
@@ -27,9 +27,9 @@ class DependencyWithoutKey(Rule):
     **Why.** ``rosdep install`` stops: ``Cannot locate rosdep definition for [std_msgs.msg]``, and
     colcon does not build packages in the right order. bloom stops at an empty one.
 
-    **Fix.** Write the name of the package, one in each element; versions are attributes such as
-    ``version_gte``. The rosdep key of a library of Python is usually ``python3-`` and its name.
-    ``ament_python`` is a build type and no package.
+    **Fix.** Write one package name in each element; versions are attributes such as
+    ``version_gte``. The rosdep key of a Python library is usually ``python3-`` and its name.
+    ``ament_python`` is a build type, not a package.
 
     **Source.** REP 149, dependencies; REP 111; ROS 2 documentation, "Using Python packages with
     ROS 2".
@@ -40,7 +40,7 @@ class DependencyWithoutKey(Rule):
     examples = (
         Example("a package", {"package.xml": _MANIFEST.format("std_msgs")}),
         Example(
-            "for another ROS",
+            "for ROS 1",
             {
                 "package.xml": _MANIFEST.format("python-numpy").replace(
                     "<exec_depend", "<exec_depend condition='$ROS_PYTHON_VERSION == 2'"
@@ -50,7 +50,7 @@ class DependencyWithoutKey(Rule):
         Example(
             "a module",
             {"package.xml": _MANIFEST.format("std_msgs.msg")},
-            "3:16: 'std_msgs.msg' is a module; the package is 'std_msgs'",
+            "3:16: 'std_msgs.msg' is a module: rosdep stops; the package is 'std_msgs'",
         ),
         Example(
             "a version",
@@ -59,7 +59,7 @@ class DependencyWithoutKey(Rule):
             "version_gte='...'",
         ),
         Example(
-            "a package of Debian",
+            "a Debian package",
             {"package.xml": _MANIFEST.format("ros-jazzy-std-msgs")},
             "3:16: 'ros-jazzy-std-msgs' is a Debian package; its rosdep key is 'std_msgs'",
         ),
@@ -72,7 +72,7 @@ class DependencyWithoutKey(Rule):
         Example(
             "empty",
             {"package.xml": "<package>\n  <depend></depend>\n</package>\n"},
-            Report("2:3", "<depend> names no package", fix="Remove the dependency"),
+            Report("2:3", "<depend> is empty: bloom stops; remove it", fix="Remove the dependency"),
             fixed={"package.xml": "<package>\n</package>\n"},
         ),
         Example(
@@ -84,23 +84,24 @@ class DependencyWithoutKey(Rule):
                     "  <exec_depend>python-numpy"
                 )
             },
-            "3:16: 'rclpy std_msgs' is more than one name: write an element for each",
-            "4:16: rosdep keys have dashes: use 'python3-numpy'",
-            "5:16: 'python-numpy' belongs to Python 2; closest: 'python3-numpy'",
+            "3:16: 'rclpy std_msgs' contains several names: rosdep stops; write an element for "
+            "each",
+            "4:16: rosdep keys contain dashes, not underscores; use 'python3-numpy'",
+            "5:16: 'python-numpy' is a Python 2 package; closest: 'python3-numpy'",
         ),
         Example(
             "the rosdep key",
             {"package.xml": "<package><exec_depend>python3-numpy</exec_depend></package>\n"},
         ),
         Example(
-            "a library in C++ of the same name",
+            "a C++ library with the same name",
             {
                 "package.xml": "<package>\n  <depend>serial</depend>\n</package>\n",
                 "CMakeLists.txt": "project(talker)\nfind_package(serial REQUIRED)\n",
             },
         ),
         Example(
-            "what only the documentation needs, which rosdep does not install",
+            "a documentation dependency, which rosdep does not install",
             {"package.xml": "<package>\n  <doc_depend>numpy</doc_depend>\n</package>\n"},
         ),
         Example(
@@ -108,7 +109,7 @@ class DependencyWithoutKey(Rule):
             {"package.xml": "<package>\n  <exec_depend>numpy</exec_depend>\n</package>\n"},
             Report(
                 "2:16",
-                "rosdep has no key 'numpy'; its key is 'python3-numpy'",
+                "'numpy' is not a rosdep key: rosdep stops; the key is 'python3-numpy'",
                 fix="Replace with python3-numpy",
             ),
             fixed={
@@ -123,7 +124,7 @@ class DependencyWithoutKey(Rule):
             },
             Report(
                 "package.xml:2:11",
-                "rosdep has no key 'opencv'; its key is 'libopencv-dev'",
+                "'opencv' is not a rosdep key: rosdep stops; the key is 'libopencv-dev'",
                 fix="Replace with libopencv-dev",
             ),
             fixed={"package.xml": "<package>\n  <depend>libopencv-dev</depend>\n</package>\n"},
@@ -136,7 +137,7 @@ class DependencyWithoutKey(Rule):
         for dependency in manifest.dependencies:
             if not dependency.name and not dependency.element.children:
                 fix = Fix("Remove the dependency", (manifest.remove(dependency.element),))
-                message = f"<{dependency.kind}> names no package"
+                message = f"<{dependency.kind}> is empty: bloom stops; remove it"
                 yield self.report(dependency.element, message, fix)
                 continue
             problem = _problem(dependency.name) if dependency.active else ""
@@ -153,7 +154,7 @@ class DependencyWithoutKey(Rule):
             if _is_found_by_cmake(package, dependency.name):
                 continue
             key = _key(package, module)
-            message = f"rosdep has no key {dependency.name!r}; its key is {key!r}"
+            message = f"{dependency.name!r} is not a rosdep key: rosdep stops; the key is {key!r}"
             edit = Edit("package.xml", *dependency.element.text_span, key)
             fix = Fix(f"Replace with {key}", (edit,))
             yield self.report(dependency, message, fix, cause=f"dependency {key}")
@@ -170,13 +171,13 @@ def _problem(name: str) -> str:
             "version_gte='...'"
         )
     elif len(name.split()) > 1:
-        problem = f"{name!r} is more than one name: write an element for each"
+        problem = f"{name!r} contains several names: rosdep stops; write an element for each"
     elif name.endswith(_MODULES):
-        problem = f"{name!r} is a module; the package is {name.rpartition('.')[0]!r}"
+        problem = f"{name!r} is a module: rosdep stops; the package is {name.rpartition('.')[0]!r}"
     elif name.startswith("python3_"):
-        problem = f"rosdep keys have dashes: use {name.replace('_', '-')!r}"
+        problem = f"rosdep keys contain dashes, not underscores; use {name.replace('_', '-')!r}"
     elif name.startswith("python-") and name[7:] in _OF_PYTHON_2:
-        problem = f"{name!r} belongs to Python 2; closest: {'python3-' + name[7:]!r}"
+        problem = f"{name!r} is a Python 2 package; closest: {'python3-' + name[7:]!r}"
     elif name in _NO_KEYS:
         problem = f"{name!r} is a build type, not a package: rosdep cannot resolve it; remove it"
     return problem

@@ -1,4 +1,4 @@
-"""PX080: what is imported is declared, even if another package brings it along."""
+"""PX080: imported packages are declared, even if they are transitive dependencies."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ _RCLPY = "  <exec_depend>rclpy</exec_depend>\n"
 
 
 class ImportDeclaredByOthers(Rule):
-    """rclpy or messages are imported that only a dependency of a dependency declares.
+    """rclpy or messages are imported, but only declared by a dependency.
 
-    **Why.** It works until that package drops the dependency; bloom and reviewers see no
-    dependency. REP 149 asks for every package that the code uses directly.
+    **Why.** It works until that package removes the dependency. REP 149 requires a declaration of
+    every package that the code uses directly.
 
     **Fix.** Declare it with ``<exec_depend>``.
 
@@ -36,8 +36,8 @@ class ImportDeclaredByOthers(Rule):
             {**_FILES, "package.xml": _MANIFEST.format(_LAUNCH)},
             Report(
                 "package.xml:3:4",
-                "talker/node.py:1 imports 'rclpy', which only launch_ros depends on; "
-                "add <exec_depend>rclpy</exec_depend>",
+                "talker/node.py:1 imports 'rclpy', which only launch_ros declares; add "
+                "<exec_depend>rclpy</exec_depend>",
                 fix="Declare rclpy",
             ),
             fixed={"package.xml": _MANIFEST.format(_LAUNCH + _RCLPY)},
@@ -70,7 +70,7 @@ class ImportDeclaredByOthers(Rule):
             )
             message = (
                 f"{need.location.path}:{need.location.line} imports {need.module!r}, which only "
-                f"{by or 'another package'} depends on; add <{tag}>{along[0]}</{tag}>"
+                f"{by or 'another package'} declares; add <{tag}>{along[0]}</{tag}>"
             )
             last = manifest.dependencies[-1].element
             fix = Fix(f"Declare {along[0]}", (manifest.insert(tag, along[0]),))

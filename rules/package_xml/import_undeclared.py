@@ -1,4 +1,4 @@
-"""PX020: what is imported is declared."""
+"""PX020: imported packages are declared."""
 
 from __future__ import annotations
 
@@ -40,14 +40,14 @@ def _manifest(*lines: str) -> str:
 
 
 class ImportUndeclared(Rule):
-    """Python code imports a package that the manifest does not declare.
+    """Python code imports a package that package.xml does not declare.
 
-    **Why.** It works on the machine of its author; on a clean one rosdep does not install the
-    package and the node ends with ``ModuleNotFoundError``.
+    **Why.** It works on the author's machine, but on a clean one, rosdep does not install the
+    package, and the node fails with ``ModuleNotFoundError``.
 
-    **Fix.** Add an ``<exec_depend>``, or a ``<test_depend>`` when only tests import it; if there is
-    one whose condition excludes the distribution, change the condition. Each module is reported at
-    its first import, where ``# noqa: PX020`` accepts it.
+    **Fix.** Add an ``<exec_depend>``, or a ``<test_depend>`` if only tests import it. If the
+    condition of an existing dependency excludes the distribution, change the condition. Each module
+    is reported at its first import, where ``# noqa: PX020`` suppresses it.
 
     **Source.** REP-149, ``<exec_depend>``: "packages providing ... Python modules".
     """
@@ -55,13 +55,13 @@ class ImportUndeclared(Rule):
     code = "PX020"
     name = "import-undeclared"
     other_severities = {
-        Severity.WARNING: "it comes with `ros2 launch` and launch files alone import it, only "
-        "scripts in the share directory import it, requirements.txt or pyproject.toml names it, "
-        "or it is torch, which many install with pip",
+        Severity.WARNING: "it is installed with `ros2 launch` and only imported by launch files, "
+        "only scripts in the share directory import it, requirements.txt or pyproject.toml lists "
+        "it, or it is torch, which is often installed with pip",
     }
     examples = (
         Example(
-            "declared; the standard library, own modules and guarded imports need nothing",
+            "declared; the standard library, own modules and guarded imports",
             {
                 "package.xml": _manifest("rclpy"),
                 "talker/__init__.py": "",
@@ -72,7 +72,7 @@ class ImportUndeclared(Rule):
             },
         ),
         Example(
-            "a library that has more than interfaces",
+            "a library besides the interfaces",
             {
                 "package.xml": _manifest("rclpy"),
                 "talker/__init__.py": "",
@@ -80,7 +80,7 @@ class ImportUndeclared(Rule):
             },
         ),
         Example(
-            "what helps to work on the package is not installed",
+            "development scripts, which are not installed",
             {
                 "package.xml": _manifest("rclpy"),
                 "setup.py": "setup(entry_points={'console_scripts': ['a = talker.a:main']})\n",
@@ -94,7 +94,7 @@ class ImportUndeclared(Rule):
             },
         ),
         Example(
-            "a script among sources in C++; a launch file that is named like a test",
+            "a script in a C++ package; a launch file that is named like a test",
             {
                 "package.xml": _manifest(
                     "launch", "<export><build_type>ament_cmake</build_type></export>"
@@ -107,7 +107,7 @@ class ImportUndeclared(Rule):
             },
             Report(
                 "launch/test_arm.launch.py:2:1",
-                "imports 'xacro', which no dependency in package.xml provides; add "
+                "imports 'xacro', which package.xml does not declare; add "
                 "<exec_depend>xacro</exec_depend>",
                 fix="Declare xacro",
             ),
@@ -118,7 +118,7 @@ class ImportUndeclared(Rule):
             },
         ),
         Example(
-            "what the package of a declared library depends on",
+            "a dependency of a declared library",
             {
                 "package.xml": _manifest("python3-fastapi", "python3-flask-socketio"),
                 "talker/__init__.py": "",
@@ -126,7 +126,7 @@ class ImportUndeclared(Rule):
             },
         ),
         Example(
-            "switched off by a constant; in a branch for ROS 1",
+            "disabled by a constant; in a branch for ROS 1",
             {
                 "package.xml": _manifest("rclpy"),
                 "talker/__init__.py": "",
@@ -137,7 +137,7 @@ class ImportUndeclared(Rule):
             },
         ),
         Example(
-            "a switch that a function turns on",
+            "an option that a function enables",
             {
                 "package.xml": _manifest("rclpy"),
                 "talker/__init__.py": "",
@@ -147,14 +147,14 @@ class ImportUndeclared(Rule):
             },
             Report(
                 "talker/node.py:13:9",
-                "imports 'trimesh', which no dependency in package.xml provides; add "
+                "imports 'trimesh', which package.xml does not declare; add "
                 "<exec_depend>python3-trimesh-pip</exec_depend>",
                 fix="Declare python3-trimesh-pip",
             ),
             fixed={"package.xml": _manifest("python3-trimesh-pip", "rclpy")},
         ),
         Example(
-            "declared for the build alone",
+            "declared for the build only",
             {
                 "package.xml": _manifest("<build_depend>std_msgs</build_depend>", "rclpy"),
                 "talker/__init__.py": "",
@@ -163,7 +163,7 @@ class ImportUndeclared(Rule):
             Report(
                 "talker/node.py:2:1",
                 "imports 'std_msgs', which line 3 of package.xml declares for the "
-                "build alone: <build_depend> does not install it where the package "
+                "build only: <build_depend> does not install it where the package "
                 "runs; add <exec_depend>std_msgs</exec_depend>",
                 fix="Declare std_msgs",
             ),
@@ -174,7 +174,7 @@ class ImportUndeclared(Rule):
             },
         ),
         Example(
-            "messages that only the tests have",
+            "messages that only tests use",
             {
                 "package.xml": _manifest(),
                 "CMakeLists.txt": "project(talker)\nset(_NAME ${PROJECT_NAME})\n"
@@ -186,7 +186,7 @@ class ImportUndeclared(Rule):
             },
         ),
         Example(
-            "what CMake has for tests alone is a dependency of tests",
+            "a test dependency, as CMake only uses it for tests",
             {
                 "package.xml": _manifest("<test_depend>rclpy</test_depend>"),
                 "CMakeLists.txt": "project(talker)\nif(BUILD_TESTING)\n"
@@ -206,7 +206,7 @@ class ImportUndeclared(Rule):
             },
             Report(
                 "scripts/tf_test.py:2:1",
-                "imports 'tf2_ros', which no dependency in package.xml provides; add "
+                "imports 'tf2_ros', which package.xml does not declare; add "
                 "<exec_depend>tf2_ros_py</exec_depend>",
                 fix="Declare tf2_ros_py",
             ),
@@ -219,7 +219,7 @@ class ImportUndeclared(Rule):
             },
         ),
         Example(
-            "declared where a variable of who builds the package is set",
+            "declared under a custom condition",
             {
                 "package.xml": _manifest(
                     "rclpy", '<exec_depend condition="$SIMULATION == yes">gazebo_msgs</exec_depend>'
@@ -260,7 +260,7 @@ class ImportUndeclared(Rule):
             },
             Report(
                 "launch/a.launch.py:1:1",
-                "imports 'launch', which no dependency in package.xml provides; add "
+                "imports 'launch', which package.xml does not declare; add "
                 "<exec_depend>launch</exec_depend>",
                 fix="Declare launch",
                 severity=Severity.WARNING,
@@ -276,7 +276,7 @@ class ImportUndeclared(Rule):
             },
             Report(
                 "talker/node.py:1:1",
-                "imports 'torch', which no dependency in package.xml provides; add "
+                "imports 'torch', which package.xml does not declare; add "
                 "<exec_depend>python3-torch</exec_depend>",
                 fix="Declare python3-torch",
                 severity=Severity.WARNING,
@@ -284,29 +284,29 @@ class ImportUndeclared(Rule):
             fixed={"package.xml": _manifest("python3-torch")},
         ),
         Example(
-            "what comes with `ros2 launch`",
+            "a package that is installed with `ros2 launch`",
             {
                 "package.xml": _manifest(),
                 "launch/a.launch.py": "import ament_index_python\nimport launch_xml\n",
             },
             Report(
                 "launch/a.launch.py:1:1",
-                "imports 'ament_index_python', which no dependency in package.xml "
-                "provides; add <exec_depend>ament_index_python</exec_depend>",
+                "imports 'ament_index_python', which package.xml does not declare; add "
+                "<exec_depend>ament_index_python</exec_depend>",
                 fix="Declare ament_index_python",
                 severity=Severity.WARNING,
             ),
             Report(
                 "launch/a.launch.py:2:1",
-                "imports 'launch_xml', which no dependency in package.xml provides; "
-                "add <exec_depend>launch_xml</exec_depend>",
+                "imports 'launch_xml', which package.xml does not declare; add "
+                "<exec_depend>launch_xml</exec_depend>",
                 fix="Declare launch_xml",
                 severity=Severity.WARNING,
             ),
             fixed={"package.xml": _manifest("ament_index_python", "launch_xml")},
         ),
         Example(
-            "a key for pip",
+            "a pip key",
             {
                 "package.xml": _manifest("python-transforms3d-pip"),
                 "talker/__init__.py": "",
@@ -314,7 +314,7 @@ class ImportUndeclared(Rule):
             },
         ),
         Example(
-            "a library that pip is asked for",
+            "a library in requirements.txt",
             {
                 "package.xml": _manifest(),
                 "requirements.txt": "numpy\ntorch>=2.0\n",
@@ -323,7 +323,7 @@ class ImportUndeclared(Rule):
             },
         ),
         Example(
-            "a library that pip is asked for under another name",
+            "a library in requirements.txt under another name",
             {
                 "package.xml": _manifest(),
                 "requirements.txt": "# hardware\npyserial>=3.5\n",
@@ -332,7 +332,7 @@ class ImportUndeclared(Rule):
             },
             Report(
                 "talker/node.py:1:1",
-                "imports 'serial', which no dependency in package.xml provides; add "
+                "imports 'serial', which package.xml does not declare; add "
                 "<exec_depend>python3-serial</exec_depend>",
                 fix="Declare python3-serial",
                 severity=Severity.WARNING,
@@ -348,7 +348,7 @@ class ImportUndeclared(Rule):
             },
         ),
         Example(
-            "a node of ROS 1, kept next to its successor",
+            "a ROS 1 node, kept next to its ROS 2 version",
             {
                 "package.xml": _manifest(),
                 "talker/__init__.py": "",
@@ -356,7 +356,7 @@ class ImportUndeclared(Rule):
             },
         ),
         Example(
-            "rospkg, which would not find the package if it were there",
+            "rospkg, which does not find ROS 2 packages",
             {
                 "package.xml": _manifest("rclpy"),
                 "talker/__init__.py": "",
@@ -365,7 +365,7 @@ class ImportUndeclared(Rule):
             },
         ),
         Example(
-            "a script among the data",
+            "a script in a data directory",
             {
                 "package.xml": _manifest("<export><build_type>ament_cmake</build_type></export>"),
                 "CMakeLists.txt": "project(talker)\nfind_package(ament_cmake REQUIRED)\n"
@@ -377,14 +377,14 @@ class ImportUndeclared(Rule):
             },
             Report(
                 "tools/draw.py:1:1",
-                "imports 'matplotlib', which no dependency in package.xml provides; "
-                "add <exec_depend>python3-matplotlib</exec_depend>",
+                "imports 'matplotlib', which package.xml does not declare; add "
+                "<exec_depend>python3-matplotlib</exec_depend>",
                 fix="Declare python3-matplotlib",
                 severity=Severity.WARNING,
             ),
             Report(
                 "tools/talk.py:1:1",
-                "imports 'yaml', which no dependency in package.xml provides; add "
+                "imports 'yaml', which package.xml does not declare; add "
                 "<exec_depend>python3-yaml</exec_depend>",
                 fix="Declare python3-yaml",
             ),
@@ -405,7 +405,7 @@ class ImportUndeclared(Rule):
             },
             Report(
                 "talker/node.py:2:1",
-                "imports 'std_msgs', which no dependency in package.xml provides; add "
+                "imports 'std_msgs', which package.xml does not declare; add "
                 "<exec_depend>std_msgs</exec_depend>",
                 fix="Declare std_msgs",
             ),
@@ -457,10 +457,10 @@ def _why_missing(package: Package, need: requirements.Requirement) -> str:
         if dependency.name in need.keys and dependency.kind.startswith("build"):
             line = dependency.location.line
             return (
-                f"line {line} of package.xml declares for the build alone: <{dependency.kind}> "
+                f"line {line} of package.xml declares for the build only: <{dependency.kind}> "
                 "does not install it where the package runs"
             )
-    return "no dependency in package.xml provides"
+    return "package.xml does not declare"
 
 
 def _comes_with_launch(need: requirements.Requirement) -> bool:

@@ -1,4 +1,4 @@
-"""PX040: a package that generates interfaces says so."""
+"""PX040: packages that generate interfaces have the required declarations."""
 
 from __future__ import annotations
 
@@ -23,15 +23,15 @@ _MEMBER = f"  <member_of_group>{GROUP}</member_of_group>\n"
 
 
 class InterfaceDeclarationsMissing(Rule):
-    """A package generates interfaces without the dependencies or the group for that.
+    """A package generates interfaces, but lacks the required dependencies or group.
 
     **Why.** Without the group CMake stops: ``Packages installing interfaces must include
-    '<member_of_group>rosidl_interface_packages</member_of_group>'``. Without the dependencies it
-    builds on the machine of its author only. A warning where other packages of interfaces bring
-    what is needed for running.
+    '<member_of_group>rosidl_interface_packages</member_of_group>'``. Without the dependencies, it
+    builds only on the author's machine. It is a warning if another message package depends on the
+    runtime.
 
-    **Fix.** Declare ``rosidl_default_generators`` for the build, ``rosidl_default_runtime`` for
-    running, and the group.
+    **Fix.** Declare ``rosidl_default_generators`` for the build, ``rosidl_default_runtime`` for run
+    time, and the group.
 
     **Source.** ROS 2 documentation, "Creating custom msg and srv files";
     ``rosidl_cmake/cmake/rosidl_generate_interfaces.cmake``.
@@ -39,13 +39,11 @@ class InterfaceDeclarationsMissing(Rule):
 
     code = "PX040"
     name = "interface-declarations-missing"
-    other_severities = {
-        Severity.WARNING: "another declared message package brings the runtime along"
-    }
+    other_severities = {Severity.WARNING: "another declared message package depends on the runtime"}
     examples = (
         Example("all three", {"package.xml": _MANIFEST.format(_BUILD + _RUN + _MEMBER), **_FILES}),
         Example(
-            "another message package brings the generators along",
+            "another message package depends on the generators",
             {
                 "package.xml": _MANIFEST.format(
                     _RUN + "  <depend>nav_2d_msgs</depend>\n" + _MEMBER
@@ -58,14 +56,14 @@ class InterfaceDeclarationsMissing(Rule):
             {"package.xml": _MANIFEST.format(_BUILD + _RUN), **_FILES},
             Report(
                 "package.xml:4:4",
-                "CMakeLists.txt:2 generates interfaces, but there is no "
-                "<member_of_group> rosidl_interface_packages: CMake stops",
+                "CMakeLists.txt:2 generates interfaces, but no <member_of_group> "
+                "rosidl_interface_packages: CMake stops",
                 fix="Add <member_of_group>rosidl_interface_packages</member_of_group>",
             ),
             fixed={"package.xml": _MANIFEST.format(_BUILD + _RUN + _MEMBER)},
         ),
         Example(
-            "another message package brings the runtime along",
+            "another message package depends on the runtime",
             {
                 "package.xml": _MANIFEST.format(_BUILD + "  <depend>std_msgs</depend>\n" + _MEMBER),
                 **_FILES,
@@ -84,7 +82,7 @@ class InterfaceDeclarationsMissing(Rule):
             },
         ),
         Example(
-            "without anything",
+            "no declarations",
             {"package.xml": _MANIFEST.format(""), **_FILES},
             Report(
                 "package.xml:1:2",
@@ -100,8 +98,8 @@ class InterfaceDeclarationsMissing(Rule):
             ),
             Report(
                 "package.xml:1:2",
-                "CMakeLists.txt:2 generates interfaces, but there is no "
-                "<member_of_group> rosidl_interface_packages: CMake stops",
+                "CMakeLists.txt:2 generates interfaces, but no <member_of_group> "
+                "rosidl_interface_packages: CMake stops",
                 fix="Add <member_of_group>rosidl_interface_packages</member_of_group>",
             ),
             fixed={"package.xml": _MANIFEST.format(_BUILD + _RUN + _MEMBER)},
@@ -128,13 +126,12 @@ class InterfaceDeclarationsMissing(Rule):
             },
         ),
         Example(
-            "groups came with format 3",
+            "package format 2, which has no groups",
             {"package.xml": _MANIFEST.format(_BUILD + _RUN).replace('"3"', '"2"'), **_FILES},
             Report(
                 "package.xml:4:4",
-                "CMakeLists.txt:2 generates interfaces, but there is no "
-                "<member_of_group> rosidl_interface_packages: CMake stops; groups need "
-                "package format 3",
+                "CMakeLists.txt:2 generates interfaces, but no <member_of_group> "
+                "rosidl_interface_packages: CMake stops; groups need package format 3",
                 fix="Add <member_of_group>rosidl_interface_packages</member_of_group>",
             ),
             fixed={"package.xml": _MANIFEST.format(_BUILD + _RUN + _MEMBER)},
@@ -170,7 +167,7 @@ def _missing(manifest: Manifest, package: Package) -> Iterator[tuple[str, str, s
         yield f"no <{tag}> {_RUNTIMES[0]}", tag, _RUNTIMES[0]
     skips = [call.options & {"SKIP_GROUP_MEMBERSHIP_CHECK"} for call in generations(package)]
     if not manifest.member_of(GROUP) and not all(skips):
-        message = f"there is no <member_of_group> {GROUP}: CMake stops"
+        message = f"no <member_of_group> {GROUP}: CMake stops"
         if manifest.format < 3:  # noqa: PLR2004  REP-149
             message += "; groups need package format 3"
         yield message, "member_of_group", GROUP

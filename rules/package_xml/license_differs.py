@@ -1,4 +1,4 @@
-"""PX083: the LICENSE file holds the license that the manifest names."""
+"""PX083: the LICENSE file contains the license in package.xml."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ class LicenseDiffers(Rule):
 
     **Why.** Users find two different licenses; release reviewers reject the package.
 
-    **Fix.** Name the license of the file.
+    **Fix.** Declare the license of the file.
 
     **Source.** REP 149, ``license``; ROS 2 documentation, "Indexing your packages".
     """
@@ -35,16 +35,17 @@ class LicenseDiffers(Rule):
     examples = (
         Example("the same", {**_FILE, "package.xml": _MANIFEST.format("Apache-2.0")}),
         Example(
-            "the GPL, which speaks of the LGPL at its end",
+            "the GPL, whose text mentions the LGPL",
             {
                 "LICENSE": "GNU GENERAL PUBLIC LICENSE\n... GNU Lesser General Public License.\n",
                 "package.xml": _MANIFEST.format("GPL-3.0-only"),
             },
         ),
         Example(
-            "another",
+            "another license",
             {**_FILE, "package.xml": _MANIFEST.format("MIT")},
-            "package.xml:3:3: 'MIT' is declared, but LICENSE contains the Apache License 2.0",
+            "package.xml:3:3: package.xml declares 'MIT', but LICENSE contains the Apache License "
+            "2.0; declare the license of the file",
         ),
     )
 
@@ -59,7 +60,10 @@ class LicenseDiffers(Rule):
             matching.remove(max("gpl", "lgpl", key=lambda name: text.index(_TEXTS[name][0])))
         if named and len(matching) == 1 and named not in matching:
             held = matching.pop()
-            message = f"{licenses[0].text!r} is declared, but LICENSE contains {_NAMES[held]}"
+            message = (
+                f"package.xml declares {licenses[0].text!r}, but LICENSE contains "
+                f"{_NAMES[held]}; declare the license of the file"
+            )
             yield self.report(licenses[0], message)
 
 

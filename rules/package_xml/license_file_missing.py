@@ -1,4 +1,4 @@
-"""PX006: the license file that the manifest names exists."""
+"""PX006: the license file that package.xml names exists."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ _MANIFEST = '<package format="3">\n  <license file="{}">MIT</license>\n</package
 class LicenseFileMissing(Rule):
     """``<license file="...">`` names a file that does not exist.
 
-    **Why.** bloom makes no release: ``License file '...' is not found``. The text of the license
-    is part of the package for Debian.
+    **Why.** bloom does not release the package: ``License file '...' is not found``. The Debian
+    package contains the license text.
 
     **Fix.** Write the path relative to package.xml, or add the file.
 
@@ -24,11 +24,11 @@ class LicenseFileMissing(Rule):
     code = "PX006"
     name = "license-file-missing"
     examples = (
-        Example("there", {"package.xml": _MANIFEST.format("LICENSE"), "LICENSE": "..."}),
+        Example("an existing file", {"package.xml": _MANIFEST.format("LICENSE"), "LICENSE": "..."}),
         Example(
-            "not there",
+            "a missing file",
             {"package.xml": _MANIFEST.format("LICENCE"), "LICENSE": "..."},
-            "package.xml:2:18: there is no file 'LICENCE' next to package.xml",
+            "package.xml:2:18: file 'LICENCE' does not exist next to package.xml: bloom stops",
         ),
     )
 
@@ -39,4 +39,6 @@ class LicenseFileMissing(Rule):
                 continue
             if file.value.startswith(("..", "/")):
                 continue
-            yield self.report(file, f"there is no file {file.value!r} next to package.xml")
+            yield self.report(
+                file, f"file {file.value!r} does not exist next to package.xml: bloom stops"
+            )

@@ -1,4 +1,4 @@
-"""PX005: licenses are named as SPDX names them."""
+"""PX005: licenses are SPDX identifiers."""
 
 from __future__ import annotations
 
@@ -9,10 +9,10 @@ from scaffold.api.manifest import similar_license, spdx_of
 
 
 class LicenseNotSpdx(Rule):
-    """``<license>`` has another spelling than the SPDX identifier.
+    """``<license>`` is not an SPDX identifier.
 
-    **Why.** The release guide asks for the short identifier, which tools compare; ``BSD`` alone
-    does not even say which license it is.
+    **Why.** The release guide requires the short identifier, which tools compare; ``BSD`` alone is
+    ambiguous.
 
     **Fix.** Write the identifier.
 
@@ -26,7 +26,7 @@ class LicenseNotSpdx(Rule):
     examples = (
         Example("SPDX", {"package.xml": "<package><license>MIT</license></package>\n"}),
         Example(
-            "as most of ROS itself writes it",
+            "a common spelling in ROS packages",
             {"package.xml": "<package><license>Apache License 2.0</license></package>\n"},
         ),
         Example(
@@ -36,25 +36,25 @@ class LicenseNotSpdx(Rule):
             fixed={"package.xml": "<package>\n  <license>MIT</license>\n</package>\n"},
         ),
         Example(
-            "a slip of the keyboard",
+            "a misspelled identifier",
             {"package.xml": "<package>\n  <license>BBSD-3-Clause</license>\n</package>\n"},
             Report(
                 "2:12",
-                "no license is called 'BBSD-3-Clause'; closest: 'BSD-3-Clause'",
+                "unknown license 'BBSD-3-Clause'; closest: 'BSD-3-Clause'",
                 fix="Replace with BSD-3-Clause",
                 severity=Severity.WARNING,
             ),
             fixed={"package.xml": "<package>\n  <license>BSD-3-Clause</license>\n</package>\n"},
         ),
         Example(
-            "this version alone, or later ones as well?",
+            "ambiguous: this version only, or later versions",
             {"package.xml": "<package>\n  <license>GPLv3</license>\n</package>\n"},
-            "2:12: 'GPLv3' may be any of GPL-3.0-only, GPL-3.0-or-later",
+            "2:12: 'GPLv3' is ambiguous; choose from GPL-3.0-only, GPL-3.0-or-later",
         ),
         Example(
-            "which BSD?",
+            "ambiguous: BSD",
             {"package.xml": "<package>\n  <license>BSD</license>\n</package>\n"},
-            "2:12: 'BSD' may be any of BSD-2-Clause, BSD-3-Clause",
+            "2:12: 'BSD' is ambiguous; choose from BSD-2-Clause, BSD-3-Clause",
         ),
     )
 
@@ -63,7 +63,7 @@ class LicenseNotSpdx(Rule):
             identifiers = spdx_of(element.text)
             closest = similar_license(element.text)
             if closest:
-                message = f"no license is called {element.text!r}; closest: {closest!r}"
+                message = f"unknown license {element.text!r}; closest: {closest!r}"
                 edit = Edit("package.xml", *element.text_span, closest)
                 fix = Fix(f"Replace with {closest}", (edit,))
                 at = element.text_location
@@ -71,7 +71,7 @@ class LicenseNotSpdx(Rule):
             if not identifiers or element.text in identifiers or identifiers == ("Apache-2.0",):
                 continue
             if len(identifiers) > 1:
-                message = f"{element.text!r} may be any of {', '.join(identifiers)}"
+                message = f"{element.text!r} is ambiguous; choose from {', '.join(identifiers)}"
                 yield self.report(element.text_location, message)
                 continue
             edit = Edit("package.xml", *element.text_span, identifiers[0])

@@ -1,4 +1,4 @@
-"""PX030: linters that CMake asks for are declared."""
+"""PX030: linters that CMake runs are declared."""
 
 from __future__ import annotations
 
@@ -26,12 +26,12 @@ _LISTS = (
 
 
 class LintersUndeclared(Rule):
-    """CMake runs the linters that package.xml declares, and it declares none.
+    """CMake runs the linters in package.xml, but none is declared.
 
-    **Why.** ``colcon test`` passes, and no linter has checked anything:
-    ``ament_lint_auto_find_test_dependencies()`` runs what ``<test_depend>`` names.
+    **Why.** ``colcon test`` passes without running any linter:
+    ``ament_lint_auto_find_test_dependencies()`` only runs linters declared with ``<test_depend>``.
 
-    **Fix.** ``<test_depend>ament_lint_common</test_depend>``, or the linters one by one.
+    **Fix.** Add ``<test_depend>ament_lint_common</test_depend>``, or declare individual linters.
 
     **Source.** ``ament_lint_auto/cmake/ament_lint_auto_find_test_dependencies.cmake``.
     """
@@ -41,26 +41,26 @@ class LintersUndeclared(Rule):
     severity = Severity.WARNING
     examples = (
         Example(
-            "the usual ones",
+            "ament_lint_common",
             {
                 "CMakeLists.txt": _LISTS,
                 "package.xml": _MANIFEST.format("  <test_depend>ament_lint_common</test_depend>\n"),
             },
         ),
         Example(
-            "one of them",
+            "a single linter",
             {
                 "CMakeLists.txt": _LISTS,
                 "package.xml": _MANIFEST.format("  <test_depend>ament_cmake_mypy</test_depend>\n"),
             },
         ),
         Example(
-            "none",
+            "no linter",
             {"CMakeLists.txt": _LISTS, "package.xml": _MANIFEST.format("")},
             Report(
                 "package.xml:3:4",
-                "CMakeLists.txt:5 runs the linters that <test_depend> names, but none "
-                "is named; add <test_depend>ament_lint_common</test_depend>",
+                "CMakeLists.txt:5 runs the linters declared with <test_depend>, but "
+                "there are none; add <test_depend>ament_lint_common</test_depend>",
                 fix="Declare ament_lint_common",
             ),
             fixed={
@@ -82,8 +82,8 @@ class LintersUndeclared(Rule):
         last = manifest.dependencies[-1].element if manifest.dependencies else manifest.root
         line = calls[0].location.line
         message = (
-            f"CMakeLists.txt:{line} runs the linters that <test_depend> names, but none is "
-            "named; add <test_depend>ament_lint_common</test_depend>"
+            f"CMakeLists.txt:{line} runs the linters declared with <test_depend>, but there are "
+            f"none; add <test_depend>ament_lint_common</test_depend>"
         )
         edit = manifest.insert("test_depend", "ament_lint_common")
         yield self.report(last.name_location, message, Fix("Declare ament_lint_common", (edit,)))

@@ -1,4 +1,4 @@
-"""PX001: the manifest says what the package is, who maintains it, and under which license."""
+"""PX001: package.xml has a description, a maintainer and a license."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ _PERSON = '<package>\n  <maintainer email="{}">{}</maintainer>\n</package>\n'
 class ManifestPlaceholder(Rule):
     """``<license>``, ``<description>`` or ``<maintainer>`` is empty or a placeholder.
 
-    **Why.** Without a license no one may use the package; catkin_pkg, and with it colcon and bloom,
-    refuses an empty license or description. The description becomes the text of the Debian
-    package, and the build farm writes to the maintainer when the package breaks.
+    **Why.** Without a license, nobody may use the package; catkin_pkg, and therefore colcon and
+    bloom, rejects an empty license or description. The description becomes the description of the
+    Debian package, and the build farm notifies the maintainer when the build fails.
 
-    **Fix.** Write an SPDX identifier such as ``Apache-2.0``, a sentence about the package, a name
-    and an address that is read. No automatic fix: the choice is the author's.
+    **Fix.** Write an SPDX identifier such as ``Apache-2.0``, a sentence about the package, and the
+    name and email address of the maintainer. No automatic fix: only the author can decide.
 
     **Source.** REP-149; ``catkin_pkg.package.Package.validate``; rosdistro review guidelines;
     ``ros2 pkg create`` writes ``TODO`` and ``@todo.todo``.
@@ -29,12 +29,12 @@ class ManifestPlaceholder(Rule):
     name = "manifest-placeholder"
     severity = Severity.WARNING
     other_severities = {
-        Severity.ERROR: "there is no license or description: the package is not built"
+        Severity.ERROR: "the license or description is empty: the package is not built"
     }
-    release_refused = "its license, its purpose or its maintainer would be unknown"
+    release_refused = "its license, purpose or maintainer would be unknown"
     examples = (
         Example(
-            "all three are written",
+            "all three",
             {
                 "package.xml": "<package>\n"
                 "  <description>Talks.</description>\n"
@@ -52,9 +52,9 @@ class ManifestPlaceholder(Rule):
                 "  <license>TODO: License declaration</license>\n"
                 "</package>\n"
             },
-            "2:3: the description is a placeholder, 'TODO: Package description'",
+            "2:3: <description> is a placeholder, 'TODO: Package description'",
             "3:22: maintainer email 'root@todo.todo' is a placeholder",
-            "4:12: the license is a placeholder, 'TODO: License declaration': nobody may use the "
+            "4:12: <license> is a placeholder, 'TODO: License declaration': nobody may use the "
             "package",
         ),
         Example(
@@ -66,12 +66,10 @@ class ManifestPlaceholder(Rule):
                 "</package>\n"
             },
             Report(
-                "2:3",
-                "the description is empty: colcon refuses the package",
-                severity=Severity.ERROR,
+                "2:3", "<description> is empty: colcon rejects the package", severity=Severity.ERROR
             ),
             Report(
-                "3:3", "the license is empty: colcon refuses the package", severity=Severity.ERROR
+                "3:3", "<license> is empty: colcon rejects the package", severity=Severity.ERROR
             ),
         ),
         Example(
@@ -96,10 +94,10 @@ class ManifestPlaceholder(Rule):
 
     def _check_text(self, element: Element) -> Iterator[Diagnostic]:
         if not element.text:
-            message = f"the {element.tag} is empty: colcon refuses the package"
+            message = f"<{element.tag}> is empty: colcon rejects the package"
             yield self.report(element, message, severity=Severity.ERROR)
         elif is_placeholder(element.text):
-            message = f"the {element.tag} is a placeholder, {element.text!r}"
+            message = f"<{element.tag}> is a placeholder, {element.text!r}"
             if element.tag == "license":
                 message = f"{message}: nobody may use the package"
                 yield self.report(element.text_location, message)

@@ -1,4 +1,4 @@
-"""PX017: package.xml has the name that everything else of the package has."""
+"""PX017: the name in package.xml matches the other files."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ _FILES = {"CMakeLists.txt": "project(talker)\n", "talker/__init__.py": ""}
 
 
 class NameDiffersFromFiles(Rule):
-    """The name in package.xml differs from the one in all other files.
+    """The name in package.xml differs from the name in all other files.
 
-    **Why.** ``ament_package()`` stops the build; for ament_python ``ros2 run`` looks below the one
-    name and finds nothing, since the executables are below the other.
+    **Why.** ``ament_package()`` stops the build; for ament_python, ``ros2 run`` finds no
+    executables, because they are installed under the other name.
 
-    **Fix.** Write the name that the build file and the directories have.
+    **Fix.** Use the name in the build file and the directories.
 
     **Source.** ``ament_cmake_core/cmake/core/ament_package_xml.cmake``;
     ``colcon_ros/task/ament_python/build.py``.
@@ -28,12 +28,11 @@ class NameDiffersFromFiles(Rule):
     examples = (
         Example("one name", {**_FILES, "package.xml": _MANIFEST.format("talker")}),
         Example(
-            "renamed here alone",
+            "renamed only in package.xml",
             {**_FILES, "package.xml": _MANIFEST.format("robot_talker")},
             Report(
                 "package.xml:2:9",
-                "the name is 'robot_talker', but 'talker' in CMakeLists.txt and the "
-                "files around it",
+                "the name is 'robot_talker', but 'talker' in CMakeLists.txt and other files",
                 unsafe_fix="Replace with talker",
             ),
             fixed={"package.xml": _MANIFEST.format("talker")},
@@ -46,7 +45,7 @@ class NameDiffersFromFiles(Rule):
         if other is None or element is None:
             return
         where = "CMakeLists.txt" if package.has("CMakeLists.txt") else "setup.py"
-        message = f"the name is {element.text!r}, but {other!r} in {where} and the files around it"
+        message = f"the name is {element.text!r}, but {other!r} in {where} and other files"
         edit = Edit("package.xml", *element.text_span, other)
         fix = Fix(f"Replace with {other}", (edit,), Safety.UNSAFE)
         yield self.report(element.text_location, message, fix)

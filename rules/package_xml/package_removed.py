@@ -1,4 +1,4 @@
-"""PX031: the distribution has the packages that are used."""
+"""PX031: used packages exist in the distribution."""
 
 from __future__ import annotations
 
@@ -14,16 +14,16 @@ _NAMED = "<package>\n  <name>talker</name>\n{}</package>\n"
 
 
 class PackageRemoved(Rule):
-    """A package is used that this distribution has removed.
+    """A package is used that the distribution has removed.
 
-    Only packages of ROS 2 itself are judged, those in the repositories of ``ros2.repos``. A package
-    of the same name in the workspace replaces it; dependencies, imports and ``find_package`` calls
-    that are for other distributions only are accepted.
+    Only packages of ROS 2 itself are checked, which are those in the repositories of
+    ``ros2.repos``. A package with the same name in the workspace is accepted, and so are
+    dependencies, imports and ``find_package`` calls for other distributions.
 
-    **Why.** ``rosdep install`` finds no rule for it, CMake stops at ``find_package``, and an import
-    ends with ``ModuleNotFoundError``.
+    **Why.** ``rosdep install`` finds no rule, CMake stops at ``find_package``, and imports raise
+    ``ModuleNotFoundError``.
 
-    **Fix.** Use its replacement. No automatic fix: the code has to change with it.
+    **Fix.** Use its replacement. No automatic fix: the code has to change as well.
 
     **Source.** ``distribution.yaml`` of each distribution in ros/rosdistro, and ``ros2.repos``.
     """
@@ -32,7 +32,7 @@ class PackageRemoved(Rule):
     name = "package-removed"
     examples = (
         Example(
-            "still there",
+            "an existing package",
             {
                 "package.xml": _NAMED.format("  <depend>actionlib_msgs</depend>\n"),
                 "talker/__init__.py": "",
@@ -40,7 +40,7 @@ class PackageRemoved(Rule):
             },
         ),
         Example(
-            "for older distributions, or where it is installed",
+            "for older distributions, or only if it is installed",
             {
                 "package.xml": '<package format="3">\n  <name>talker</name>\n'
                 '  <depend condition="$ROS_DISTRO == jazzy">actionlib_msgs</depend>\n'

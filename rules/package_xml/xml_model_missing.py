@@ -1,4 +1,4 @@
-"""PX010: the manifest names its schema."""
+"""PX010: package.xml has an ``<?xml-model ...?>`` line."""
 
 from __future__ import annotations
 
@@ -15,10 +15,10 @@ LINE = (
 class XmlModelMissing(Rule):
     """package.xml has no ``<?xml-model ...?>`` line.
 
-    **Why.** ament_xmllint then accepts any content, and colcon drops an invalid manifest without
-    a warning: the package just is not there.
+    **Why.** Without the line, ament_xmllint accepts any content, and colcon ignores an invalid
+    package.xml without a warning: the package is not built.
 
-    **Fix.** Add the line for the manifest's format.
+    **Fix.** Add the line for the package format.
 
     **Source.** ``ament_xmllint/main.py``; ``colcon_ros/package_identification/ros.py``.
     """
@@ -28,15 +28,15 @@ class XmlModelMissing(Rule):
     severity = Severity.WARNING
     examples = (
         Example(
-            "with its schema",
+            "with the line",
             {"package.xml": f'<?xml version="1.0"?>\n{LINE.format(3)}\n<package format="3"/>\n'},
         ),
         Example(
-            "without",
+            "without the line",
             {"package.xml": '<?xml version="1.0"?>\n<package format="3"/>\n'},
             Report(
                 "2:2",
-                "no <?xml-model ...?> line: no tool validates this manifest",
+                "no <?xml-model ...?> line: no tool validates package.xml; add it",
                 fix="Add the xml-model line",
             ),
             fixed={
@@ -55,4 +55,6 @@ class XmlModelMissing(Rule):
             text = LINE.format(manifest.format) + manifest.source.newline
             fix = Fix("Add the xml-model line", (Edit("package.xml", start, start, text),))
         at = manifest.root.name_location
-        yield self.report(at, "no <?xml-model ...?> line: no tool validates this manifest", fix)
+        yield self.report(
+            at, "no <?xml-model ...?> line: no tool validates package.xml; add it", fix
+        )

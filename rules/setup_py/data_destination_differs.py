@@ -1,4 +1,4 @@
-"""SP052: data_files are pairs, and go where they are looked for."""
+"""SP052: data_files are pairs, and are installed to the share directory."""
 
 from __future__ import annotations
 
@@ -26,10 +26,10 @@ class DataDestinationDiffers(Rule):
     """An entry of ``data_files`` is not a pair, or has a wrong destination.
 
     **Why.** Files outside of ``share/<package>`` are not found: ``file 'talk.launch.py' was not
-    found in the share directory of package 'talker'``. An absolute path leaves the workspace, or
-    stops colcon.
+    found in the share directory of package 'talker'``. An absolute path is outside of the
+    workspace, or stops colcon.
 
-    **Fix.** ``(os.path.join('share', package_name, 'launch'), glob('launch/*.launch.py'))``.
+    **Fix.** Write ``(os.path.join('share', package_name, 'launch'), glob('launch/*.launch.py'))``.
 
     **Source.** ROS 2 documentation, "Launch files"; ``colcon_core/task/python``; setuptools
     documentation, ``data_files``.
@@ -38,7 +38,10 @@ class DataDestinationDiffers(Rule):
     code = "SP052"
     name = "data-destination-differs"
     examples = (
-        Example("right", {**_FILES, "setup.py": _SETUP.format("'share/talker/launch'", _GLOB)}),
+        Example(
+            "the share directory",
+            {**_FILES, "setup.py": _SETUP.format("'share/talker/launch'", _GLOB)},
+        ),
         Example(
             "a second copy elsewhere",
             {
@@ -51,22 +54,22 @@ class DataDestinationDiffers(Rule):
         Example(
             "without the package",
             {**_FILES, "setup.py": _SETUP.format("'share/launch'", _GLOB)},
-            "setup.py:6:10: installs launch/talk.launch.py to share/launch; ROS 2 looks in "
+            "setup.py:6:10: installs launch/talk.launch.py to share/launch, but ROS 2 searches "
             "share/talker/",
         ),
         Example(
             "absolute",
             {**_FILES, "setup.py": _SETUP.format("'/share/talker/launch'", _GLOB)},
-            "setup.py:6:10: installs to /share/talker/launch: an absolute path leaves the "
+            "setup.py:6:10: installs to the absolute path /share/talker/launch, outside of the "
             "workspace; write share/talker/...",
         ),
         Example(
-            "no list",
+            "not a list",
             {**_FILES, "setup.py": _SETUP.format("'share/talker'", "'package.xml'")},
             "setup.py:6:9: the files are a string, not a list: the build stops",
         ),
         Example(
-            "no comma",
+            "a missing comma",
             {
                 **_FILES,
                 "setup.py": _SETUP.format("'share/talker'", "['package.xml']").replace(
@@ -109,7 +112,9 @@ def _problem(data: DataFile, share: str) -> str:
     if not isinstance(target, str):
         return ""
     if target.startswith("/"):
-        return f"installs to {target}: an absolute path leaves the workspace; write {share}/..."
+        return (
+            f"installs to the absolute path {target}, outside of the workspace; write {share}/..."
+        )
     sources = [
         source.pattern if isinstance(source, Glob) else str(source) for source in data.sources
     ]
@@ -118,7 +123,7 @@ def _problem(data: DataFile, share: str) -> str:
         for source in sources
     )
     if is_data and target.rstrip("/") != share and not target.startswith(f"{share}/"):
-        return f"installs {sources[0]} to {target}; ROS 2 looks in {share}/"
+        return f"installs {sources[0]} to {target}, but ROS 2 searches {share}/"
     return ""
 
 

@@ -1,4 +1,4 @@
-"""SP001: console scripts are ``name = module:function``, of a function that can be called."""
+"""SP001: console scripts are ``name = module:function``, with a function that can be called."""
 
 from __future__ import annotations
 
@@ -42,15 +42,16 @@ _FILES = {"talker/__init__.py": "", "talker/node.py": "def main(args=None):\n   
 
 
 class EntryPointUnusable(Rule):
-    """A console script is malformed, repeated, or leads to no function without arguments.
+    """A console script is malformed, repeated, or does not name a function without arguments.
 
     **Why.** setuptools stops the build, joins two lines without a comma between them, or creates
-    only the last of two scripts with the same name. Otherwise, the build passes, and ``ros2 run``
-    ends with ``ModuleNotFoundError: No module named 'node'``, ``AttributeError: module
+    only the last of two scripts with the same name. Otherwise, the build succeeds, but ``ros2 run``
+    fails with ``ModuleNotFoundError: No module named 'node'``, ``AttributeError: module
     'talker.node' has no attribute 'run'`` or ``TypeError: main() missing 1 required positional
-    argument``. Nothing awaits an ``async`` function.
+    argument``. An ``async`` function is never awaited.
 
-    **Fix.** ``'name = package.module:function'``, a comma after each, and ``def main(args=None):``.
+    **Fix.** Write ``'name = package.module:function'`` with a comma after each script, and ``def
+    main(args=None):``.
 
     **Source.** setuptools documentation, "Entry points"; Python packaging user guide, "Entry points
     specification"; ROS 2 documentation, "Writing a simple publisher and subscriber (Python)".
@@ -59,15 +60,15 @@ class EntryPointUnusable(Rule):
     code = "SP001"
     name = "entry-point-unusable"
     other_severities = {
-        Severity.WARNING: "no function is named, but the module runs its node when it is imported; "
-        "or CMake builds the package, and nothing reads setup.py"
+        Severity.WARNING: "no function is named, but the module runs its node on import, or CMake "
+        "builds the package and setup.py is not used"
     }
     examples = (
         Example(
             "one script", {"setup.py": _SETUP.format("        'talker = talker.node:main',\n")}
         ),
         Example(
-            "a module whose name begins with a digit, which is imported by its text",
+            "a module whose name starts with a digit, imported with importlib",
             {
                 "setup.py": _SETUP.format("        'see = talker.4_see:main',\n"),
                 "talker/__init__.py": "",
@@ -75,7 +76,7 @@ class EntryPointUnusable(Rule):
             },
         ),
         Example(
-            "a comma is missing",
+            "a missing comma",
             {
                 "setup.py": _SETUP.format(
                     "        'talker = talker.node:main'\n"
@@ -91,7 +92,7 @@ class EntryPointUnusable(Rule):
             "module:function",
         ),
         Example(
-            "no function, of a module that runs when it is imported",
+            "no function, in a module that runs its node on import",
             {
                 "setup.py": _SETUP.format("        'talker = talker.node',\n"),
                 "talker/__init__.py": "",
@@ -106,9 +107,9 @@ class EntryPointUnusable(Rule):
             ),
         ),
         Example(
-            "two scripts of one name",
+            "two scripts with the same name",
             {"setup.py": _SETUP_NAMES.format("talker")},
-            "8:9: 'talker' is the name of another entry point: only one is installed",
+            "8:9: 'talker' is also the name of another entry point: only one is installed",
         ),
         Example(
             "another function, another module",
@@ -131,7 +132,7 @@ class EntryPointUnusable(Rule):
                 "talker/node.py": "async def main():\n    pass\n",
             },
             "setup.py:5:9: `ros2 run` of 'talker' fails: talker/node.py has an async main(), "
-            "which nothing awaits; use asyncio.run()",
+            "which is never awaited; use asyncio.run()",
         ),
         Example(
             "a module in another directory",
@@ -155,10 +156,10 @@ class EntryPointUnusable(Rule):
             },
             "setup.py:5:9: `ros2 run` of 'a' fails: the package has no module 'talkr'; closest: "
             "talker",
-            "setup.py:6:9: `ros2 run` of 'b' fails: there is no directory listener/",
+            "setup.py:6:9: `ros2 run` of 'b' fails: directory listener/ does not exist",
         ),
         Example(
-            "a module of another package here",
+            "a module of another package in the workspace",
             {
                 "setup.py": _SETUP.format("        'talker = talkr.node:main',\n"),
                 "talker/__init__.py": "",
@@ -167,7 +168,7 @@ class EntryPointUnusable(Rule):
             "setup.py:5:9: no module 'talkr.node' is installed; closest: 'talker.node'",
         ),
         Example(
-            "a function of a module that is there",
+            "an existing function",
             {"setup.py": _SETUP_USE.format("talker.node"), **_FILES},
         ),
         Example(
@@ -198,10 +199,10 @@ class EntryPointUnusable(Rule):
                 "talker/node.py": "from rclpy.node import Node\n\n\n"
                 "class Talker(Node):\n    pass\n",
             },
-            "setup.py:6:39: Talker is a node class: a program needs a function that spins it",
+            "setup.py:6:39: Talker is a node class: nothing spins it; write a function that does",
         ),
         Example(
-            "no function, where CMake builds the package",
+            "no function, in a package that CMake builds",
             {
                 "setup.py": _SETUP.format("'node = talker.node',\n"),
                 **_FILES,
@@ -243,7 +244,7 @@ class EntryPointUnusable(Rule):
             first = seen.setdefault(entry.name, entry)
             if first is not entry and entry.name:
                 message = (
-                    f"{entry.name!r} is the name of another entry point: only one is installed"
+                    f"{entry.name!r} is also the name of another entry point: only one is installed"
                 )
                 yield self.report(entry, message)
 
@@ -285,7 +286,7 @@ class EntryPointUnusable(Rule):
             return None
         function = entry.function.partition(".")[0]
         if function in exports.coroutines:
-            return f"{path} has an async {function}(), which nothing awaits; use asyncio.run()"
+            return f"{path} has an async {function}(), which is never awaited; use asyncio.run()"
         if exports.defines(function) is not False:
             return None
         closest = get_close_matches(function, exports.functions, n=1)
@@ -305,7 +306,7 @@ class EntryPointUnusable(Rule):
             if where is None and closest and not package.has(f"{root}.py"):
                 return f"the package has no module {root!r}; closest: {closest[0]}"
             return None
-        return None if is_elsewhere(package, module) else f"there is no directory {root}/"
+        return None if is_elsewhere(package, module) else f"directory {root}/ does not exist"
 
     def _check_use(self, package: Package) -> Iterator[Diagnostic]:
         setup = package.setup_py
@@ -339,7 +340,9 @@ class EntryPointUnusable(Rule):
             )
             yield self.report(at, message)
         if is_node_class:
-            message = f"{entry.function} is a node class: a program needs a function that spins it"
+            message = (
+                f"{entry.function} is a node class: nothing spins it; write a function that does"
+            )
             yield self.report(entry, message)
 
 

@@ -1,4 +1,4 @@
-"""SP050: setup() gets keywords, and entry points groups, that somebody reads."""
+"""SP050: keywords of setup() and groups of entry points exist."""
 
 from __future__ import annotations
 
@@ -33,10 +33,10 @@ _SETUP = (
 class KeywordMisspelled(Rule):
     """``setup`` gets an unknown keyword, or ``entry_points`` an unknown group.
 
-    **Why.** setuptools only warns ``Unknown distribution option``, or says nothing: no executable
-    is made, no file installed.
+    **Why.** setuptools only warns ``Unknown distribution option``, or ignores the name silently: no
+    executable or file is installed.
 
-    **Fix.** Spell it as setuptools does: ``entry_points``, ``data_files``, ``console_scripts``.
+    **Fix.** Correct the spelling: ``entry_points``, ``data_files``, ``console_scripts``.
 
     **Source.** setuptools documentation, "Keywords", "Entry points".
     """
@@ -46,12 +46,12 @@ class KeywordMisspelled(Rule):
     examples = (
         Example("known", {"setup.py": _SETUP.format("entry_points", _GROUP)}),
         Example(
-            "the keyword",
+            "a misspelled keyword",
             {"setup.py": _SETUP.format("entry_point", _GROUP)},
             "6:5: setup() ignores the unknown keyword 'entry_point'; closest: 'entry_points'",
         ),
         Example(
-            "the group",
+            "a misspelled group",
             {"setup.py": _SETUP.format("entry_points", "console_script")},
             "7:9: setuptools ignores the unknown group 'console_script'; closest: "
             "'console_scripts'",

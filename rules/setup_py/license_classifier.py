@@ -1,4 +1,4 @@
-"""SP058: classifiers do not say what the license is."""
+"""SP058: the license is not declared with a classifier."""
 
 from __future__ import annotations
 
@@ -21,13 +21,13 @@ _LICENSE = "    license='Apache-2.0',\n"
 
 
 class LicenseClassifier(Rule):
-    """A classifier in setup.py names the license, which setuptools has deprecated.
+    """A classifier in setup.py declares the license, which setuptools has deprecated.
 
-    **Why.** setuptools 77 and later, as on Lyrical, warn in each build: ``License classifiers are
-    deprecated``. With a license expression in pyproject.toml they stop.
+    **Why.** setuptools 77 and later, as on Lyrical, warns in each build: ``License classifiers are
+    deprecated``. With a license expression in pyproject.toml, it stops.
 
-    **Fix.** Remove the classifier; ``license`` of setup.py and of package.xml say it. The fix
-    does that where ``license`` is there.
+    **Fix.** Remove the classifier, and set ``license`` in setup.py. The automatic fix removes it if
+    ``license`` is set.
 
     **Source.** ``setuptools/dist.py``, since 77.0; PEP 639; rqt_reconfigure pull request 153.
     """
@@ -40,26 +40,26 @@ class LicenseClassifier(Rule):
     is_fixed_for_all = True
     examples = (
         Example(
-            "where setuptools is silent",
+            "an older setuptools, which does not warn",
             {"setup.py": _SETUP.format(_LICENSE, f"        '{_APACHE}',\n")},
         ),
-        Example("others", {"setup.py": _SETUP.format(_LICENSE, "")}, distro="lyrical"),
+        Example("other classifiers", {"setup.py": _SETUP.format(_LICENSE, "")}, distro="lyrical"),
         Example(
             "a classifier",
             {"setup.py": _SETUP.format(_LICENSE, f"        '{_APACHE}',\n")},
             Report(
                 "8:9",
-                "setuptools 78.1.1 of Lyrical warns of license classifiers; remove it",
+                "license classifiers are deprecated in setuptools 78.1.1 of Lyrical; remove it",
                 fix="Remove the classifier",
             ),
             fixed={"setup.py": _SETUP.format(_LICENSE, "")},
             distro="lyrical",
         ),
         Example(
-            "nothing else names the license",
+            "no license argument",
             {"setup.py": _SETUP.format("", f"        '{_APACHE}',\n")},
-            "7:9: setuptools 78.1.1 of Lyrical warns of license classifiers; write license='...' "
-            "instead",
+            "7:9: license classifiers are deprecated in setuptools 78.1.1 of Lyrical; write "
+            "license='...' instead",
             distro="lyrical",
         ),
     )
@@ -78,7 +78,9 @@ class LicenseClassifier(Rule):
         for item in named:
             is_last = len(named) == len(classifiers.node.elts)
             edit = _removal(setup, item) if has_license and not is_last else None
-            message = f"setuptools {setuptools} of {target().title} warns of license classifiers"
+            message = (
+                f"license classifiers are deprecated in setuptools {setuptools} of {target().title}"
+            )
             fix = Fix("Remove the classifier", (edit,)) if edit else None
             yield self.report(setup.module.location(item), f"{message}; {advice}", fix)
 

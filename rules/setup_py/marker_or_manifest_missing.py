@@ -1,4 +1,4 @@
-"""SP006: the marker of the ament index and package.xml are there and installed."""
+"""SP006: the marker of the ament index and package.xml exist and are installed."""
 
 from __future__ import annotations
 
@@ -26,8 +26,8 @@ class MarkerOrManifestMissing(Rule):
     """The file ``resource/<package>`` is missing, or data_files do not install it or package.xml.
 
     **Why.** Without the file the build stops: ``can't copy 'resource/talker'``. Without the lines,
-    colcon warns and adds them, but the released Debian package is not found by ``ros2``, and lacks
-    the manifest that tools read.
+    colcon warns and installs both, but ``ros2`` does not find the released Debian package, which
+    also lacks package.xml.
 
     **Fix.** Create the empty file, install it to the ament index, and add
     ``('share/' + package_name, ['package.xml'])``.
@@ -39,12 +39,13 @@ class MarkerOrManifestMissing(Rule):
     code = "SP006"
     name = "marker-or-manifest-missing"
     other_severities = {
-        Severity.WARNING: "setup.py does not install it: colcon still does; or it installs another"
+        Severity.WARNING: "setup.py does not install it, but colcon does, or setup.py installs "
+        "another one"
     }
     release_refused = "`ros2` does not find the released package"
     examples = (
         Example(
-            "there and installed",
+            "existing and installed",
             {"package.xml": _MANIFEST, "setup.py": _SETUP.format(_BOTH), "resource/talker": ""},
         ),
         Example(
@@ -78,21 +79,21 @@ class MarkerOrManifestMissing(Rule):
                 "setup.py:5:16",
                 "data_files does not install resource/talker to "
                 "share/ament_index/resource_index/packages: ros2 does not find a "
-                "released package; colcon adds it for now, with a warning",
+                "released package; colcon installs it with a warning",
                 severity=Severity.WARNING,
             ),
         ),
         Example(
-            "of another package",
+            "the marker of another package",
             {
                 "package.xml": _MANIFEST,
                 "setup.py": _SETUP.format(_BOTH.replace("resource/talker", "resource/listener")),
                 "resource/listener": "",
             },
-            "setup.py:5:18: installs listener as marker, but the package is 'talker'",
+            "setup.py:5:18: installs listener as the marker, but the package is 'talker'",
         ),
         Example(
-            "another one besides that of the package",
+            "a second marker besides that of the package",
             {
                 "package.xml": _MANIFEST,
                 "setup.py": _SETUP.format(
@@ -103,7 +104,7 @@ class MarkerOrManifestMissing(Rule):
             },
             Report(
                 "setup.py:5:121",
-                "installs talker.rviz as marker, but the package is 'talker'",
+                "installs talker.rviz as the marker, but the package is 'talker'",
                 severity=Severity.WARNING,
             ),
         ),
@@ -116,7 +117,7 @@ class MarkerOrManifestMissing(Rule):
             },
         ),
         Example(
-            "forgotten",
+            "package.xml not installed",
             {
                 "package.xml": _MANIFEST,
                 "resource/talker": "",
@@ -124,7 +125,8 @@ class MarkerOrManifestMissing(Rule):
             },
             Report(
                 "setup.py:5:16",
-                "data_files does not install package.xml to share/talker",
+                "data_files does not install package.xml to share/talker: released "
+                "packages lack it",
                 fix="Install package.xml",
                 severity=Severity.WARNING,
             ),
@@ -153,7 +155,8 @@ class MarkerOrManifestMissing(Rule):
             complete = data.complete and len(sources) == len(data.sources)
             if complete and package.name not in names and not name_used_elsewhere(package):
                 message = (
-                    f"installs {', '.join(names)} as marker, but the package is {package.name!r}"
+                    f"installs {', '.join(names)} as the marker, but the package is "
+                    f"{package.name!r}"
                 )
                 if all(package.has(source) for source in sources):
                     is_extra = any(marker in other.sources for other in installed)
@@ -163,7 +166,7 @@ class MarkerOrManifestMissing(Rule):
         if not (installed or configured) and setup.call is not None and setup.data_files_complete:
             message = (
                 f"data_files does not install {marker} to {INDEX}: ros2 does not find a released "
-                "package; colcon adds it for now, with a warning"
+                f"package; colcon installs it with a warning"
             )
             yield self.report(
                 setup.keywords.get("data_files", setup), message, severity=Severity.WARNING
@@ -176,7 +179,10 @@ class MarkerOrManifestMissing(Rule):
             return
         if keyword is None or any("package.xml" in data.sources for data in setup.data_files):
             return
-        message = f"data_files does not install package.xml to share/{package.name}"
+        message = (
+            f"data_files does not install package.xml to share/{package.name}: released "
+            f"packages lack it"
+        )
         fix = self._fix(package)
         yield self.report(keyword, message, fix, severity=Severity.WARNING)
 

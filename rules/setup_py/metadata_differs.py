@@ -1,4 +1,4 @@
-"""SP008: setup.py and package.xml say the same."""
+"""SP008: setup.py and package.xml have the same metadata."""
 
 from __future__ import annotations
 
@@ -55,12 +55,13 @@ _MANIFEST_NAME = '<package format="3"><name>talker</name></package>\n'
 class MetadataDiffers(Rule):
     """Name, version, maintainer, description or license differ between setup.py and package.xml.
 
-    **Why.** With two names, executables land below the one and ``ros2 run`` looks below the other.
-    For the rest, ``ros2 pkg xml`` and ``importlib.metadata`` disagree, and
-    ``catkin_prepare_release`` stops at two versions.
+    **Why.** If the names differ, executables are installed under one name, and ``ros2 run``
+    searches the other. Otherwise, ``ros2 pkg xml`` and ``importlib.metadata`` disagree, and
+    ``catkin_prepare_release`` stops at different versions.
 
-    **Fix.** Write the same in both, or read package.xml in setup.py; the name is also that in
-    setup.cfg and ``resource/``. No automatic fix: only the author knows which one is right.
+    **Fix.** Use the same values in both, or read package.xml in setup.py; setup.cfg and
+    ``resource/`` must have the same name. No automatic fix: only the author knows which one is
+    right.
 
     **Source.** ROS 2 documentation, "Writing a simple publisher and subscriber (Python)": "match
     exactly"; ``colcon_ros/task/ament_python/build.py``; ``catkin_pkg/package_version.py``.
@@ -78,11 +79,13 @@ class MetadataDiffers(Rule):
         Example(
             "another version and another license",
             {"package.xml": _MANIFEST, "setup.py": _SETUP.format("0.1.0", "MIT")},
-            "setup.py:5:13: version is '0.1.0', but '0.2.0' in package.xml, line 3",
-            "setup.py:9:13: license is 'MIT', but 'Apache-2.0' in package.xml, line 6",
+            "setup.py:5:13: version is '0.1.0', but '0.2.0' in package.xml, line 3; use the same "
+            "value",
+            "setup.py:9:13: license is 'MIT', but 'Apache-2.0' in package.xml, line 6; use the "
+            "same value",
         ),
         Example(
-            "long descriptions that begin with the same words",
+            "long descriptions with the same beginning",
             {
                 "package.xml": _MANIFEST.replace(
                     "Talks.", "Publishes greetings on a topic, ten times a second."
@@ -92,7 +95,7 @@ class MetadataDiffers(Rule):
                 ),
             },
             "setup.py:8:17: description is '...c, ten times a minute.', but '...c, ten times a "
-            "second.' in package.xml, line 4",
+            "second.' in package.xml, line 4; use the same value",
         ),
         Example(
             "one name",
@@ -127,7 +130,7 @@ class MetadataDiffers(Rule):
             fixed={"setup.py": "from setuptools import setup\n\nsetup(name='talker')\n"},
         ),
         Example(
-            "a comma too many after the name",
+            "an extra comma after the name",
             {
                 "package.xml": _MANIFEST_NAME,
                 "setup.py": "from setuptools import setup\n\npackage_name = 'talker',\n\n"
@@ -174,7 +177,10 @@ class MetadataDiffers(Rule):
             element = manifest.one(tag)
             line = element.location.line if element else 1
             in_setup_py, in_manifest = _short(keyword.value, wanted[0])
-            message = f"{name} is {in_setup_py}, but {in_manifest} in package.xml, line {line}"
+            message = (
+                f"{name} is {in_setup_py}, but {in_manifest} in package.xml, line {line}; "
+                f"use the same value"
+            )
             yield self.report(keyword, message)
 
     def _check_name(self, package: Package) -> Iterator[Diagnostic]:

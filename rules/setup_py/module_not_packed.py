@@ -1,4 +1,4 @@
-"""SP051: packages, package_dir and py_modules list the packages that there are."""
+"""SP051: packages, package_dir and py_modules match the source tree."""
 
 from __future__ import annotations
 
@@ -34,13 +34,13 @@ _FILES_PLACES = {"src/talker/__init__.py": "", "src/text.py": ""}
 class ModuleNotPacked(Rule):
     """``packages`` lacks a package or subpackage, or setup.py names a missing directory.
 
-    **Why.** The executables are created, but the code is not installed: ``ModuleNotFoundError: No
-    module named 'talker.text'`` when they are started, though it works in the source tree. For what
-    does not exist the build stops: ``package directory 'demo' does not exist``, ``error in
-    'egg_base' option: 'src' does not exist``.
+    **Why.** The executables are installed, but the code is not: ``ModuleNotFoundError: No module
+    named 'talker.text'`` when they are started, although it works in the source tree. The build
+    stops at missing directories: ``package directory 'demo' does not exist``, ``error in 'egg_base'
+    option: 'src' does not exist``.
 
-    **Fix.** ``packages=find_packages(exclude=['test'])``, and ``package_dir`` where the packages
-    are.
+    **Fix.** Write ``packages=find_packages(exclude=['test'])``, and set ``package_dir`` to the
+    directory with the packages.
 
     **Source.** setuptools documentation, "Package Discovery and Namespace Packages"; the template
     of ``ros2 pkg create``.
@@ -73,7 +73,7 @@ class ModuleNotPacked(Rule):
             "another name",
             {"setup.py": _SETUP.format("    packages=['demo'],\n"), **_FILES},
             "setup.py:5:14: packages does not include 'talker', which the entry points start",
-            "setup.py:5:14: packages names 'demo', but there is no such directory: the build stops",
+            "setup.py:5:14: packages lists 'demo', which does not exist: the build stops",
         ),
         Example(
             "no __init__.py",
@@ -81,16 +81,16 @@ class ModuleNotPacked(Rule):
                 "setup.py": _SETUP.format("    packages=find_packages(),\n"),
                 "talker/node.py": "def main():\n    pass\n",
             },
-            "talker/__init__.py:1:1: missing: find_packages does not install talker/ without it",
+            "talker/__init__.py:1:1: missing: without it, find_packages does not install talker/",
         ),
         Example(
             "no directory src",
             {"setup.py": _SETUP.format("    packages=find_packages(where='src'),\n"), **_FILES},
-            "setup.py:5:14: find_packages looks in src/, which does not exist: nothing is "
+            "setup.py:5:14: find_packages searches src/, which does not exist: nothing is "
             "installed",
         ),
         Example(
-            "a sub-package that CMake installs",
+            "a subpackage that CMake installs",
             {
                 **_FILES_SUBPACKAGES,
                 "package.xml": _BY_CMAKE,
@@ -98,25 +98,25 @@ class ModuleNotPacked(Rule):
             },
         ),
         Example(
-            "sub-packages listed by their directories",
+            "subpackages listed by their directories",
             {
                 **_FILES_SUBPACKAGES,
                 "setup.py": _SETUP_SUBPACKAGES.format("setup", "['talker', 'talker/text/']"),
             },
         ),
         Example(
-            "a sub-package listed that is not there",
+            "a listed subpackage that does not exist",
             {
                 **_FILES_SUBPACKAGES,
                 "setup.py": _SETUP_SUBPACKAGES.format(
                     "setup", "['talker', 'talker/' + 'text', 'talker/models']"
                 ),
             },
-            "setup.py:5:14: packages names 'talker.models', but there is no talker/models/: the "
-            "build stops",
+            "setup.py:5:14: packages lists 'talker.models', but talker/models/ does not exist: "
+            "the build stops",
         ),
         Example(
-            "a sub-package left out with its tests",
+            "a subpackage that is excluded with its tests",
             {
                 "talker/__init__.py": "",
                 "talker/tests/__init__.py": "",
@@ -124,7 +124,7 @@ class ModuleNotPacked(Rule):
             },
         ),
         Example(
-            "a sub-package among the data",
+            "a subpackage in the package data",
             {
                 "talker/__init__.py": "",
                 "talker/launch/__init__.py": "",
@@ -135,7 +135,7 @@ class ModuleNotPacked(Rule):
             },
         ),
         Example(
-            "one listed, and no sub-package",
+            "one package listed, without its subpackages",
             {
                 **_FILES_SUBPACKAGES,
                 "setup.py": _SETUP_SUBPACKAGES.format("find_packages, setup", "['talker']"),
@@ -159,17 +159,17 @@ class ModuleNotPacked(Rule):
             },
         ),
         Example(
-            "a directory of package_dir that is not there",
+            "a directory of package_dir that does not exist",
             {"setup.py": _SETUP_PLACES.format("    package_dir={'': 'lib'},\n"), **_FILES_PLACES},
             "setup.py:5:17: package_dir names lib/, which does not exist: nothing is installed",
         ),
         Example(
-            "a package among py_modules",
+            "a package in py_modules",
             {
                 "setup.py": _SETUP_PLACES.format("    py_modules=['talker'],\n"),
                 "talker/__init__.py": "",
             },
-            "setup.py:5:16: talker/ is a package: it belongs in packages, not in py_modules",
+            "setup.py:5:16: talker/ is a package: list it in packages, not in py_modules",
         ),
     )
 
@@ -197,14 +197,12 @@ class ModuleNotPacked(Rule):
         for name in names or ():
             root = name.partition(".")[0]
             if not package.has_directory(root):
-                message = (
-                    f"packages names {name!r}, but there is no such directory: the build stops"
-                )
+                message = f"packages lists {name!r}, which does not exist: the build stops"
                 yield self.report(at, message, cause=f"directory {root}")
                 continue
             place = name.replace(".", "/")
             if not package.has_directory(place):
-                message = f"packages names {name!r}, but there is no {place}/: the build stops"
+                message = f"packages lists {name!r}, but {place}/ does not exist: the build stops"
                 yield self.report(at, message, cause=f"directory {place}")
         for root in sorted(roots - {item.partition(".")[0] for item in names or ()}):
             if package.has_directory(root):
@@ -219,7 +217,7 @@ class ModuleNotPacked(Rule):
             return
         where = packages.where.strip("./")
         if where and not package.has_directory(where):
-            message = f"find_packages looks in {where}/, which does not exist: nothing is installed"
+            message = f"find_packages searches {where}/, which does not exist: nothing is installed"
             yield self.report(keyword, message)
             return
         for root in sorted(roots) if not where else ():
@@ -231,7 +229,7 @@ class ModuleNotPacked(Rule):
                 yield self.report(keyword, message)
             elif package.glob(f"{root}/*.py") and not package.has(f"{root}/__init__.py"):
                 init = f"{root}/__init__.py"
-                message = f"missing: find_packages does not install {root}/ without it"
+                message = f"missing: without it, find_packages does not install {root}/"
                 yield self.report(package.start_of(init), message)
 
     def _check_subpackages(self, package: Package) -> Iterator[Diagnostic]:
@@ -276,7 +274,7 @@ class ModuleNotPacked(Rule):
         named = modules.value if modules is not None else ()
         for name in named if isinstance(named, list | tuple) else ():
             if modules and isinstance(name, str) and package.has(f"{name}/__init__.py"):
-                message = f"{name}/ is a package: it belongs in packages, not in py_modules"
+                message = f"{name}/ is a package: list it in packages, not in py_modules"
                 yield self.report(modules, message)
 
 

@@ -1,4 +1,4 @@
-"""SP055: every node can be started."""
+"""SP055: every node has an entry point."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ _TEXTS = (".md", ".rst", ".sh")
 class NodeWithoutEntryPoint(Rule):
     """A module with a node and a ``main`` is in no entry point.
 
-    **Why.** ``ros2 run`` answers ``No executable found``.
+    **Why.** ``ros2 run`` fails with ``No executable found``.
 
     **Fix.** Add ``'other = talker.other:main'`` to ``console_scripts``.
 
@@ -42,10 +42,10 @@ class NodeWithoutEntryPoint(Rule):
 
     code = "SP055"
     name = "node-without-entry-point"
-    other_severities = {Severity.WARNING: "no launch file and no text names it"}
+    other_severities = {Severity.WARNING: "no launch file or document mentions it"}
     examples = (
         Example(
-            "both are",
+            "both nodes have entry points",
             {"setup.py": _SETUP.format("        'other = talker.other:main',\n"), **_FILES},
         ),
         Example(
@@ -58,7 +58,7 @@ class NodeWithoutEntryPoint(Rule):
             },
         ),
         Example(
-            "one that nothing starts",
+            "a node without an entry point",
             {"setup.py": _SETUP.format(""), **_FILES},
             Report(
                 "setup.py:6:18",
@@ -68,7 +68,7 @@ class NodeWithoutEntryPoint(Rule):
             ),
         ),
         Example(
-            "one that the readme starts",
+            "a node that the README starts",
             {
                 "setup.py": _SETUP.format(""),
                 **_FILES,

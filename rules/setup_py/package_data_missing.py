@@ -24,24 +24,24 @@ _FILES = {
 class PackageDataMissing(Rule):
     """A module reads a file next to it that setup.py does not install.
 
-    **Why.** It works in the source tree and with ``--symlink-install``; installed it is
-    ``FileNotFoundError: .../site-packages/talker/words.txt``.
+    **Why.** It works in the source tree and with ``--symlink-install``, but fails after
+    installation: ``FileNotFoundError: .../site-packages/talker/words.txt``.
 
-    **Fix.** ``package_data={'talker': ['words.txt']}``.
+    **Fix.** Add ``package_data={'talker': ['words.txt']}``.
 
     **Source.** setuptools documentation, "Data Files Support".
     """
 
     code = "SP015"
     name = "package-data-missing"
-    other_severities = {Severity.WARNING: "nothing imports or starts the module"}
+    other_severities = {Severity.WARNING: "the module is not imported or started"}
     examples = (
         Example(
             "installed with the package",
             {**_FILES, "setup.py": _SETUP.format("    package_data={'talker': ['*.txt']},\n")},
         ),
         Example(
-            "one of several places, of which the module takes one that is there",
+            "one of several paths, of which the module uses an existing one",
             {
                 **_FILES,
                 "talker/text.py": "import os\n\nPLACES = [\n"
@@ -52,7 +52,7 @@ class PackageDataMissing(Rule):
             },
         ),
         Example(
-            "only read where Python is given the source file",
+            "only read when the source file is executed",
             {
                 **_FILES,
                 "talker/text.py": "from pathlib import Path\n\nif __name__ == '__main__':\n"
@@ -61,7 +61,7 @@ class PackageDataMissing(Rule):
             },
         ),
         Example(
-            "installed once more, with its data",
+            "also installed elsewhere, with its data",
             {
                 **_FILES,
                 "setup.py": _SETUP.format(
@@ -76,7 +76,7 @@ class PackageDataMissing(Rule):
             "package_data={'talker': ['words.txt']}",
         ),
         Example(
-            "excluded; nothing imports or starts the module",
+            "excluded; the module is not used",
             {
                 **_FILES,
                 "setup.py": _SETUP.format(

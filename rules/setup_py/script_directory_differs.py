@@ -1,4 +1,4 @@
-"""SP004: a setup.cfg sends executables to ``lib/<package>``, where ``ros2 run`` looks."""
+"""SP004: setup.cfg installs executables to ``lib/<package>``, which ``ros2 run`` searches."""
 
 from __future__ import annotations
 
@@ -40,8 +40,8 @@ _CFG_VALUE = "[develop]\nscript_dir={}\n[install]\ninstall_scripts={}\n"
 class ScriptDirectoryDiffers(Rule):
     """setup.cfg does not install executables to ``$base/lib/<package>``.
 
-    **Why.** They land in ``bin/`` or elsewhere; ``ros2 run`` only looks in ``lib/<package>``: ``No
-    executable found``.
+    **Why.** Executables are installed to ``bin/`` or elsewhere, but ``ros2 run`` only searches
+    ``lib/<package>``: ``No executable found``.
 
     **Fix.** Write a setup.cfg with ``script_dir`` and ``install_scripts`` set to ``$base/lib/`` and
     the name in package.xml.
@@ -52,7 +52,7 @@ class ScriptDirectoryDiffers(Rule):
 
     code = "SP004"
     name = "script-directory-differs"
-    other_severities = {Severity.WARNING: "it is bin/, from where a shell starts the program"}
+    other_severities = {Severity.WARNING: "it is bin/, from which a shell can run the program"}
     examples = (
         Example(
             "a setup.cfg",
@@ -64,7 +64,7 @@ class ScriptDirectoryDiffers(Rule):
             },
         ),
         Example(
-            "a tool that is no node may go to bin",
+            "a tool that is not a node, in bin",
             {
                 "package.xml": _MANIFEST,
                 "setup.py": _SETUP.format(_ENTRY),
@@ -96,14 +96,14 @@ class ScriptDirectoryDiffers(Rule):
             {"package.xml": _MANIFEST, "setup.py": _SETUP.format(_ENTRY), **_NODE},
             Report(
                 "setup.cfg:1:1",
-                "no setup.cfg: 'talker' of setup.py is installed to bin/, where `ros2 "
-                "run` does not look",
+                "no setup.cfg: 'talker' in setup.py is installed to bin/, which `ros2 "
+                "run` does not search",
                 fix="Create setup.cfg",
             ),
             fixed={"setup.cfg": _CFG.format("talker")},
         ),
         Example(
-            "a command that the readme starts in a shell",
+            "a command that the README runs in a shell",
             {
                 "package.xml": _MANIFEST,
                 "setup.py": _SETUP.format(_ENTRY),
@@ -112,15 +112,15 @@ class ScriptDirectoryDiffers(Rule):
             },
             Report(
                 "setup.cfg:1:1",
-                "no setup.cfg: 'talker' of setup.py is installed to bin/, where `ros2 "
-                "run` does not look",
+                "no setup.cfg: 'talker' in setup.py is installed to bin/, which `ros2 "
+                "run` does not search",
                 fix="Create setup.cfg",
                 severity=Severity.WARNING,
             ),
             fixed={"setup.cfg": _CFG.format("talker")},
         ),
         Example(
-            "bin/, as it is written",
+            "bin/",
             {
                 "package.xml": _MANIFEST_VALUE,
                 "setup.py": _SETUP_VALUE,
@@ -128,7 +128,7 @@ class ScriptDirectoryDiffers(Rule):
             },
             Report(
                 "setup.cfg:4:17",
-                "install_scripts is '$base/bin'; `ros2 run talker` looks in $base/lib/talker",
+                "install_scripts is '$base/bin', but `ros2 run talker` searches $base/lib/talker",
                 fix="Replace with $base/lib/talker",
                 severity=Severity.WARNING,
             ),
@@ -143,7 +143,7 @@ class ScriptDirectoryDiffers(Rule):
             },
         ),
         Example(
-            "set by a command",
+            "set by another command",
             {
                 "package.xml": _MANIFEST_VALUE,
                 "setup.py": _SETUP_VALUE.replace("setup(", "setup(cmdclass={'install': Install}, "),
@@ -152,7 +152,7 @@ class ScriptDirectoryDiffers(Rule):
             },
         ),
         Example(
-            "of the package that it was copied from",
+            "the name of the package that it was copied from",
             {
                 "package.xml": _MANIFEST_VALUE,
                 "setup.py": _SETUP_VALUE,
@@ -160,13 +160,14 @@ class ScriptDirectoryDiffers(Rule):
             },
             Report(
                 "setup.cfg:4:17",
-                "install_scripts is '$base/lib/other'; `ros2 run talker` looks in $base/lib/talker",
+                "install_scripts is '$base/lib/other', but `ros2 run talker` searches "
+                "$base/lib/talker",
                 fix="Replace with $base/lib/talker",
             ),
             fixed={"setup.cfg": _CFG_VALUE.format("$base/lib/talker", "$base/lib/talker")},
         ),
         Example(
-            "for pip alone",
+            "for pip only",
             {
                 "package.xml": _MANIFEST_VALUE,
                 "setup.py": _SETUP_VALUE,
@@ -175,13 +176,13 @@ class ScriptDirectoryDiffers(Rule):
             },
             Report(
                 "setup.cfg:1:1",
-                "[install] has no install_scripts=$base/lib/talker: `ros2 run` finds nothing",
+                "[install] has no install_scripts=$base/lib/talker: `ros2 run` finds no executable",
                 fix="Replace with $base/lib/talker",
             ),
             fixed={"setup.cfg": _CFG_VALUE.format("$base/lib/talker", "$base/lib/talker")},
         ),
         Example(
-            "next to a CMakeLists.txt, where nothing reads it",
+            "next to a CMakeLists.txt, where setup.cfg is not used",
             {
                 "package.xml": _MANIFEST.replace("_python", "_cmake"),
                 "CMakeLists.txt": "",
@@ -204,8 +205,8 @@ class ScriptDirectoryDiffers(Rule):
             return
         fix = Fix("Create setup.cfg", (CreateFile("setup.cfg", _CFG.format(package.name)),))
         message = (
-            f"no setup.cfg: {scripts[0].name!r} of setup.py is installed to bin/, where `ros2 run` "
-            "does not look"
+            f"no setup.cfg: {scripts[0].name!r} in setup.py is installed to bin/, which `ros2 "
+            f"run` does not search"
         )
         is_command = all(_is_run_in_shell(package, script.name) for script in scripts)
         severity = Severity.WARNING if is_command else Severity.ERROR
@@ -224,14 +225,16 @@ class ScriptDirectoryDiffers(Rule):
             entry = cfg.option(section, key, key.replace("_", "-"))
             if entry is None and node_scripts(package):
                 at = package.start_of("setup.cfg")
-                message = f"[{section}] has no {key}={wanted}: `ros2 run` finds nothing"
+                message = f"[{section}] has no {key}={wanted}: `ros2 run` finds no executable"
                 fix = Fix(f"Replace with {wanted}", (cfg.set(section, key, wanted),))
                 yield self.report(at, message, fix, cause="directory of scripts")
             elif entry is not None and entry.value.rstrip("/") not in {
                 wanted,
                 wanted.replace("$base", "${base}"),
             }:
-                message = f"{key} is {entry.value!r}; `ros2 run {package.name}` looks in {wanted}"
+                message = (
+                    f"{key} is {entry.value!r}, but `ros2 run {package.name}` searches {wanted}"
+                )
                 edit = Edit("setup.cfg", entry.value_start, entry.value_end, wanted)
                 fix = Fix(f"Replace with {wanted}", (edit,))
                 is_bin = entry.value.rstrip("/").endswith("/bin")

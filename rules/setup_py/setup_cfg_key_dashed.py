@@ -1,4 +1,4 @@
-"""SP005: options of setup.cfg have underscores."""
+"""SP005: options in setup.cfg have underscores."""
 
 from __future__ import annotations
 
@@ -46,12 +46,12 @@ class SetupCfgKeyDashed(Rule):
             fixed={"setup.cfg": _CFG.format("_")},
         ),
         Example(
-            "dashes, where setuptools is about to stop",
+            "dashes, with a setuptools that will stop",
             {"setup.py": "", "setup.cfg": "[develop]\nscript-dir=$base/lib/talker\n"},
             Report(
                 "setup.cfg:2:1",
-                "setuptools 78.1.1 of Lyrical is about to stop at 'script-dir': use "
-                "'script_dir' instead of 'script-dir'",
+                "setuptools 78.1.1 of Lyrical will stop at 'script-dir' in a later "
+                "version; use 'script_dir' instead of 'script-dir'",
                 fix="Replace with script_dir",
             ),
             fixed={"setup.cfg": "[develop]\nscript_dir=$base/lib/talker\n"},
@@ -72,8 +72,8 @@ class SetupCfgKeyDashed(Rule):
                 setuptools = target().fact("setuptools")
                 if int(setuptools.partition(".")[0]) >= _STOPPING:
                     message = (
-                        f"setuptools {setuptools} of {target().title} is about to stop at "
-                        f"{option.key!r}: {message}"
+                        f"setuptools {setuptools} of {target().title} will stop at {option.key!r} "
+                        f"in a later version; {message}"
                     )
                 fix = Fix(f"Replace with {right}", (cfg.rename(option, right),))
                 yield self.report(option.key_location, message, fix)

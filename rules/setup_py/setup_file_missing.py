@@ -1,4 +1,4 @@
-"""SP011: the files that setup.py names and reads exist."""
+"""SP011: files that setup.py names or opens exist."""
 
 from __future__ import annotations
 
@@ -24,10 +24,10 @@ class SetupFileMissing(Rule):
     """setup.py opens or names a file that does not exist, or a pattern that matches no file.
 
     **Why.** A missing file stops the build: ``FileNotFoundError: [Errno 2] No such file or
-    directory``. A pattern in ``data_files`` that matches nothing is silent: the files next to it
-    are not there at run time.
+    directory``. A pattern in ``data_files`` that matches no file is not an error, but the files are
+    missing at run time.
 
-    **Fix.** Write the name, or the ending, that the files have, or remove it.
+    **Fix.** Correct the name or the extension, or remove the entry.
 
     **Source.** setuptools documentation, ``data_files``, ``scripts``; ROS 2 documentation,
     "Integrating launch files into ROS 2 packages".
@@ -47,7 +47,7 @@ class SetupFileMissing(Rule):
             },
         ),
         Example(
-            "all files lie in directories below, which have lines of their own",
+            "all files are in subdirectories, which have separate entries",
             {
                 "setup.py": _SETUP.format(
                     "        ('share/talker', ['package.xml']),\n"
@@ -59,7 +59,7 @@ class SetupFileMissing(Rule):
             },
         ),
         Example(
-            "a directory among the files",
+            "a directory in a list of files",
             {
                 "setup.py": _SETUP.format(
                     "        ('share/talker', ['package.xml']),\n"
@@ -73,10 +73,10 @@ class SetupFileMissing(Rule):
                 "maps/map.yaml": "",
             },
             "setup.py:9:33: the pattern config/* matches the directory config/arm, which cannot "
-            "be copied: the build stops; list it separately",
+            "be copied: the build stops; add a separate entry for it",
         ),
         Example(
-            "no such file, and files with another ending",
+            "a missing file, and files with another extension",
             {
                 "setup.py": _SETUP.format(
                     "        ('share/talker', ['package.xml', 'LICENCE']),\n"
@@ -85,7 +85,7 @@ class SetupFileMissing(Rule):
                 "package.xml": "<package/>\n",
                 "launch/talk.launch.py": "",
             },
-            "setup.py:8:42: data_files names LICENCE, which is not there",
+            "setup.py:8:42: data_files names LICENCE, which is missing",
             "setup.py:9:33: the pattern launch/*_launch.py matches no file; closest: "
             "launch/talk.launch.py",
         ),
@@ -94,7 +94,7 @@ class SetupFileMissing(Rule):
             {"setup.py": _SETUP_READ.format(_READ), "README.md": "# talker\n"},
         ),
         Example(
-            "read if it is there",
+            "opened only if it exists",
             {
                 "setup.py": _SETUP_READ.format(
                     f"{_READ} if __import__('os').path.exists('README.md') else ''"
@@ -102,12 +102,12 @@ class SetupFileMissing(Rule):
             },
         ),
         Example(
-            "a file to read is missing",
+            "a missing file that is opened",
             {"setup.py": _SETUP_READ.format(_READ)},
             "5:27: setup.py opens README.md, which does not exist: the build stops",
         ),
         Example(
-            "a script is missing",
+            "a missing script",
             {"setup.py": _SETUP_READ.format("scripts=['scripts/talk']")},
             "5:13: scripts names scripts/talk, which does not exist: the build stops",
         ),
@@ -133,7 +133,7 @@ class SetupFileMissing(Rule):
                     path = source.removeprefix("./")
                     if "resource/" in path or package.has(path) or path.startswith(("/", "../")):
                         continue
-                    problem = "a directory" if package.has_directory(path) else "not there"
+                    problem = "a directory" if package.has_directory(path) else "missing"
                     message = f"data_files names {source}, which is {problem}"
                     yield self.report(at, message, cause=_CAUSE)
 
@@ -192,7 +192,7 @@ def _directory_in(package: Package, pattern: Glob) -> str | None:
         if fnmatchcase(folder, name):
             return (
                 f"the pattern {pattern.pattern} matches the directory {start}{folder}, which "
-                "cannot be copied: the build stops; list it separately"
+                f"cannot be copied: the build stops; add a separate entry for it"
             )
     return None
 

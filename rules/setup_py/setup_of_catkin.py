@@ -1,4 +1,4 @@
-"""SP060: the setup.py of an ament_python package is one of its own."""
+"""SP060: the setup.py of an ament_python package does not use catkin."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ _SETUP = (
 
 
 class SetupOfCatkin(Rule):
-    """A package of build type ament_python has the setup.py of catkin.
+    """An ament_python package has a setup.py for catkin.
 
-    **Why.** colcon stops, ``TypeError: 'NoneType' object is not iterable``: what catkin makes of
-    package.xml has no ``data_files`` and no entry points.
+    **Why.** colcon stops with ``TypeError: 'NoneType' object is not iterable``: the arguments that
+    catkin generates contain no ``data_files`` and no entry points.
 
     **Fix.** Call ``setup()`` with ``name``, ``version``, ``packages``, ``data_files`` and
     ``entry_points``; ``ros2-scaffold new`` writes one.
@@ -43,8 +43,8 @@ class SetupOfCatkin(Rule):
         Example(
             "for ament_python",
             {"package.xml": _MANIFEST.format("ament_python"), "setup.py": _SETUP},
-            "setup.py:2:1: generate_distutils_setup() belongs to catkin: the build type "
-            "ament_python needs setup() with data_files and entry_points",
+            "setup.py:2:1: generate_distutils_setup() is for catkin: colcon stops; call setup() "
+            "with data_files and entry_points",
         ),
     )
 
@@ -54,8 +54,7 @@ class SetupOfCatkin(Rule):
         for import_ in package.setup_py.module.imports:
             if import_.module == "catkin_pkg.python_setup" and import_.top_level:
                 message = (
-                    "generate_distutils_setup() belongs to catkin: the build type "
-                    "ament_python needs "
-                    "setup() with data_files and entry_points"
+                    "generate_distutils_setup() is for catkin: colcon stops; call setup() with "
+                    "data_files and entry_points"
                 )
                 yield self.report(import_, message)

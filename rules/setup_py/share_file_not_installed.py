@@ -21,11 +21,11 @@ _LAUNCH = "def generate_launch_description():\n    pass\n"
 
 
 class ShareFileNotInstalled(Rule):
-    """data_files do not install a launch file, or a directory of files read at run time.
+    """data_files do not install a launch file or a directory with data.
 
-    **Why.** ``ros2 launch`` answers ``file 'talk.launch.py' was not found in the share
-    directory``; a missing parameter file is a warning among others, and nodes run with defaults.
-    A warning where nothing in the workspace names a file of the directory.
+    **Why.** ``ros2 launch`` fails with ``file 'talk.launch.py' was not found in the share
+    directory``; if a parameter file is missing, nodes run with their defaults. It is a warning if
+    nothing in the workspace refers to the directory.
 
     **Fix.** Add a line such as ``('share/' + package_name + '/launch', glob('launch/*'))``.
 
@@ -34,7 +34,7 @@ class ShareFileNotInstalled(Rule):
 
     code = "SP010"
     name = "share-file-not-installed"
-    other_severities = {Severity.WARNING: "nothing in the package names the directory"}
+    other_severities = {Severity.WARNING: "nothing in the package refers to the directory"}
     examples = (
         Example(
             "installed",
@@ -58,7 +58,7 @@ class ShareFileNotInstalled(Rule):
             },
         ),
         Example(
-            "a launch file and a parameter file are forgotten",
+            "a launch file and a parameter file are not installed",
             {
                 "package.xml": _MANIFEST,
                 "setup.py": _SETUP.format(""),
@@ -66,10 +66,11 @@ class ShareFileNotInstalled(Rule):
                 "config/talker.yaml": "",
             },
             "setup.py:7:16: data_files does not install launch/talk.launch.py: `ros2 launch` does "
-            "not find it",
+            "not find it; add an entry",
             Report(
                 "setup.py:7:16",
-                "data_files installs nothing of config/, for instance config/talker.yaml",
+                "data_files installs no files from config/, such as "
+                "config/talker.yaml: they are missing at run time",
                 severity=Severity.WARNING,
             ),
         ),
@@ -90,23 +91,27 @@ class ShareFileNotInstalled(Rule):
             },
             Report(
                 "setup.py:7:16",
-                "data_files installs nothing of config/, for instance config/talker.yaml",
+                "data_files installs no files from config/, such as "
+                "config/talker.yaml: they are missing at run time",
                 severity=Severity.WARNING,
             ),
-            "setup.py:7:16: data_files installs nothing of maps/, for instance maps/hall.pgm",
+            "setup.py:7:16: data_files installs no files from maps/, such as maps/hall.pgm: they "
+            "are missing at run time",
             Report(
                 "setup.py:7:16",
-                "data_files installs nothing of rviz/, for instance rviz/view.rviz",
+                "data_files installs no files from rviz/, such as rviz/view.rviz: they "
+                "are missing at run time",
                 severity=Severity.WARNING,
             ),
             Report(
                 "setup.py:7:16",
-                "data_files installs nothing of worlds/, for instance worlds/hall.dae",
+                "data_files installs no files from worlds/, such as worlds/hall.dae: "
+                "they are missing at run time",
                 severity=Severity.WARNING,
             ),
         ),
         Example(
-            "a parameter file whose name stands for one elsewhere",
+            "a parameter file with the same name as one in another package",
             {
                 "package.xml": _MANIFEST,
                 "setup.py": _SETUP.format(
@@ -117,12 +122,13 @@ class ShareFileNotInstalled(Rule):
             },
             Report(
                 "setup.py:7:16",
-                "data_files installs nothing of config/, for instance config/talker.yaml",
+                "data_files installs no files from config/, such as "
+                "config/talker.yaml: they are missing at run time",
                 severity=Severity.WARNING,
             ),
         ),
         Example(
-            "a file that two packages have, named by a third one",
+            "a file in two packages, used by a third one",
             {
                 "package.xml": _MANIFEST,
                 "setup.py": _SETUP.format(""),
@@ -130,7 +136,8 @@ class ShareFileNotInstalled(Rule):
             },
             Report(
                 "setup.py:7:16",
-                "data_files installs nothing of config/, for instance config/talker.yaml",
+                "data_files installs no files from config/, such as "
+                "config/talker.yaml: they are missing at run time",
                 severity=Severity.WARNING,
             ),
             neighbors={
@@ -145,7 +152,7 @@ class ShareFileNotInstalled(Rule):
             },
         ),
         Example(
-            "a name that the pattern does not match",
+            "a file name that the pattern does not match",
             {
                 "package.xml": _MANIFEST,
                 "setup.py": _SETUP.format(
@@ -155,7 +162,7 @@ class ShareFileNotInstalled(Rule):
                 "launch/talk_all.py": _LAUNCH,
             },
             "setup.py:7:16: data_files does not install launch/talk_all.py: `ros2 launch` does "
-            "not find it",
+            "not find it; add an entry",
         ),
     )
 
@@ -169,12 +176,18 @@ class ShareFileNotInstalled(Rule):
             if path in installed or _is_copy(path, stems):
                 continue
             if not is_copy_of_old_code(package, path):
-                message = f"data_files does not install {path}: `ros2 launch` does not find it"
+                message = (
+                    f"data_files does not install {path}: `ros2 launch` does not find it; "
+                    f"add an entry"
+                )
                 yield self.report(at, message, cause=f"files in {path.rpartition('/')[0]}/")
         for directory in DATA_DIRECTORIES:
             files = data_files(package, directory)
             if files and not installed.intersection(files):
-                message = f"data_files installs nothing of {directory}/, for instance {files[0]}"
+                message = (
+                    f"data_files installs no files from {directory}/, such as {files[0]}: "
+                    f"they are missing at run time"
+                )
                 is_used = is_named(package, directory)
                 severity = Severity.ERROR if is_used else Severity.WARNING
                 yield self.report(at, message, severity=severity)

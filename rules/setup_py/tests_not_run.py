@@ -41,12 +41,12 @@ class TestsNotRun(Rule):
 
     setup.cfg may declare it instead.
 
-    **Why.** ``colcon test`` falls back to unittest, which finds nothing in pytest files: ``Ran 0
-    tests ... OK``. setuptools 72 dropped ``tests_require``; the version of Ubuntu 24.04 still reads
-    it.
+    **Why.** ``colcon test`` falls back to unittest, which finds no tests in pytest files: ``Ran 0
+    tests ... OK``. setuptools 72 removed ``tests_require``; the version in Ubuntu 24.04 still
+    supports it.
 
-    **Fix.** Write ``extras_require={'test': ['pytest']}``, or in setup.cfg ``test = pytest`` below
-    ``[options.extras_require]``.
+    **Fix.** Write ``extras_require={'test': ['pytest']}``, or ``test = pytest`` under
+    ``[options.extras_require]`` in setup.cfg.
 
     **Source.** ``colcon_core/task/python/test``; colcon-core issue 678;
     ros2_documentation issue 4727.
@@ -58,14 +58,16 @@ class TestsNotRun(Rule):
     is_fixed_for_all = True
     is_deprecation = True
     other_severities = {
-        Severity.INFO: "it says so with ``tests_require``, which Ubuntu 24.04 still reads",
+        Severity.INFO: "it is declared with ``tests_require``, which Ubuntu 24.04 still supports",
         Severity.WARNING: "the tests only run linters of ament",
     }
     examples = (
-        Example("said", {"setup.py": _SETUP.format(_EXTRA), "test/test_talker.py": _TEST}),
+        Example(
+            "pytest declared", {"setup.py": _SETUP.format(_EXTRA), "test/test_talker.py": _TEST}
+        ),
         Example("no tests", {"setup.py": _SETUP.format("")}),
         Example(
-            "tests of unittest, which colcon runs without pytest",
+            "unittest tests, which colcon runs without pytest",
             {
                 "setup.py": _SETUP.format(""),
                 "test/__init__.py": "",
@@ -75,7 +77,7 @@ class TestsNotRun(Rule):
             },
         ),
         Example(
-            "not said; the only test is one of ``ros2 pkg create``",
+            "pytest not declared; the only test comes from ``ros2 pkg create``",
             {
                 "setup.py": _SETUP.format(""),
                 "test/test_flake8.py": "from ament_flake8.main import main_with_errors\n"
@@ -84,7 +86,7 @@ class TestsNotRun(Rule):
             },
             Report(
                 "setup.py:3:1",
-                "no extra requires pytest for test/: colcon runs 0 tests; add "
+                "pytest is not declared for test/: colcon runs 0 tests; add "
                 "extras_require={'test': ['pytest']}",
                 fix="Add extras_require={'test': ['pytest']}",
                 severity=Severity.WARNING,
@@ -92,11 +94,11 @@ class TestsNotRun(Rule):
             fixed={"setup.py": _SETUP.format(_EXTRA)},
         ),
         Example(
-            "not said",
+            "pytest not declared",
             {"setup.py": _SETUP.format(""), "test/test_talker.py": _TEST},
             Report(
                 "setup.py:3:1",
-                "no extra requires pytest for test/: colcon runs 0 tests; add "
+                "pytest is not declared for test/: colcon runs 0 tests; add "
                 "extras_require={'test': ['pytest']}",
                 fix="Add extras_require={'test': ['pytest']}",
             ),
@@ -116,7 +118,7 @@ class TestsNotRun(Rule):
             fixed={"setup.py": _SETUP.format(_EXTRA)},
         ),
         Example(
-            "tests_require where it is ignored",
+            "tests_require, with a setuptools that ignores it",
             {"setup.py": _SETUP.format("    tests_require=['pytest'],\n")},
             Report(
                 "5:19",
@@ -128,7 +130,7 @@ class TestsNotRun(Rule):
             distro="lyrical",
         ),
         Example(
-            "tests_require of more than pytest",
+            "tests_require with several packages",
             {"setup.py": _SETUP.format("    tests_require=['pytest', 'numpy>=1.2'],\n")},
             Report(
                 "5:19",
@@ -179,7 +181,7 @@ class TestsNotRun(Rule):
             distro="lyrical",
         ),
         Example(
-            "tests_require in setup.cfg, where it is the last of all",
+            "tests_require in setup.cfg, as the last line",
             {
                 "setup.py": "from setuptools import setup\n\nsetup()\n",
                 "setup.cfg": _CFG.format("tests_require = pytest\n"),
@@ -203,7 +205,7 @@ class TestsNotRun(Rule):
             distro="lyrical",
         ),
         Example(
-            "tests_require in setup.cfg, which is read",
+            "tests_require in setup.cfg, which is supported",
             {
                 "setup.py": _SETUP.format(""),
                 "setup.cfg": _CFG.format("tests_require = pytest\n"),
@@ -240,7 +242,7 @@ class TestsNotRun(Rule):
         edit = setup_edit.insert(setup, _NEW)
         can_fix = edit is not None and setup.keyword("extras_require") is None
         directory = tests[0].partition("/")[0]
-        message = f"no extra requires pytest for {directory}/: colcon runs 0 tests; add {_NEW}"
+        message = f"pytest is not declared for {directory}/: colcon runs 0 tests; add {_NEW}"
         fix = Fix(f"Add {_NEW}", (edit,)) if edit and can_fix else None
         is_generated = all(_is_of_linter(package, path) for path in tests)
         yield self.report(setup, message, fix, severity=Severity.WARNING if is_generated else None)

@@ -1,4 +1,4 @@
-"""TS071: the assert methods of a TestCase exist, and compare what they are given."""
+"""TS071: assert methods of a TestCase exist, and compare their arguments."""
 
 from __future__ import annotations
 
@@ -39,13 +39,13 @@ _TEST = (
 
 
 class AssertMethodMisused(TestRule):
-    """A test calls an assert method that Python does not have, or one that compares nothing.
+    """A test calls an assert method that does not exist, or that does not compare its arguments.
 
-    **Why.** ``AttributeError: 'TestText' object has no attribute 'assertEquals'``.
-    Python 3.12 removed the old names, which Python 3.10 of Humble only warns about.
-    ``assertTrue(a, b)`` takes ``b`` for a message: it passes whatever ``b`` is.
+    **Why.** ``AttributeError: 'TestText' object has no attribute 'assertEquals'``. Python 3.12
+    removed the old names, which are deprecated in Python 3.10 of Humble. ``assertTrue(a, b)`` uses
+    ``b`` as the message: the test passes with any ``b``.
 
-    **Fix.** ``assertEqual``.
+    **Fix.** Use ``assertEqual``.
 
     **Source.** Python documentation, ``unittest``, and "What's New In Python 3.12".
     """
@@ -57,7 +57,7 @@ class AssertMethodMisused(TestRule):
     examples = (
         Example("compared", {"test/test_text.py": _TEST.format("assertEqual")}),
         Example(
-            "gone",
+            "removed",
             {"test/test_text.py": _TEST.format("assertEquals")},
             Report(
                 "6:9",
@@ -71,7 +71,7 @@ class AssertMethodMisused(TestRule):
             {"test/test_text.py": _TEST.format("failUnlessEqual")},
             Report(
                 "6:9",
-                "failUnlessEqual is deprecated, and Python 3.12 removes it; use assertEqual",
+                "failUnlessEqual is deprecated, and removed in Python 3.12; use assertEqual",
                 fix="Replace with assertEqual",
                 severity=Severity.INFO,
             ),
@@ -79,24 +79,24 @@ class AssertMethodMisused(TestRule):
             distro="humble",
         ),
         Example(
-            "gone, and no other has its arguments",
+            "removed, without a replacement that has the same arguments",
             {"test/test_text.py": _TEST.format("assertDictContainsSubset")},
             "6:9: assertDictContainsSubset was removed in Python 3.12: AttributeError; use "
             "assertLessEqual(part.items(), whole.items())",
         ),
         Example(
-            "of Python 2",
+            "a method of Python 2",
             {"test/test_text.py": _TEST.format("assertItemsEqual")},
             Report(
                 "6:9",
-                "Python 3 has no assertItemsEqual: AttributeError; use assertCountEqual",
+                "assertItemsEqual does not exist in Python 3: AttributeError; use assertCountEqual",
                 fix="Replace with assertCountEqual",
             ),
             fixed={"test/test_text.py": _TEST.format("assertCountEqual")},
             distro="humble",
         ),
         Example(
-            "a method of one's own",
+            "a method of the class",
             {
                 "test/test_text.py": _TEST.format("assertItemsEqual")
                 + "\n    def assertItemsEqual(self, first, second):\n"
@@ -106,16 +106,17 @@ class AssertMethodMisused(TestRule):
         Example(
             "not compared",
             {"test/test_text.py": _TEST.format("assertTrue").replace("'A'", "['A']")},
-            "6:9: assertTrue checks one value, the second is a message; use assertEqual",
+            "6:9: assertTrue only checks the first argument, the second is a message; use "
+            "assertEqual",
         ),
         Example(
-            "what raises, called too early and passed",
+            "the function for assertRaises, called and passed",
             {
                 "test/test_text.py": "import pytest\n\n\ndef test_number():\n"
                 "    pytest.raises(ValueError, int('a'))\n"
                 "    pytest.raises(ValueError, int, 'a')\n"
             },
-            "5:31: int() is called before raises() is: the test fails; pass int itself",
+            "5:31: int() is called before raises(): the test fails; pass int itself",
         ),
     )
 
@@ -127,7 +128,7 @@ class AssertMethodMisused(TestRule):
                     args=[_, ast.Call(func=ast.Name() | ast.Attribute() as func) as made, *_],
                 ) if not _makes_function(module, func):
                     called = module.text(func)
-                    message = f"{called}() is called before {name}() is: the test fails"
+                    message = f"{called}() is called before {name}(): the test fails"
                     yield self.report(module.location(made), f"{message}; pass {called} itself")
         for class_ in module.classes.values():
             if is_test_case(module, class_.node):
@@ -142,7 +143,8 @@ class AssertMethodMisused(TestRule):
                         yield self._old_name(module, method)
                     elif name in {"assertTrue", "assertFalse"} and _compares(node.args):
                         message = (
-                            f"{name} checks one value, the second is a message; use assertEqual"
+                            f"{name} only checks the first argument, the second is a message; use "
+                            f"assertEqual"
                         )
                         yield self.report(module.location(method), message)
 
@@ -150,11 +152,11 @@ class AssertMethodMisused(TestRule):
         name, severity = method.attr, None
         use = (_RENAMED | _WITHOUT_NAME | _OF_PYTHON2)[name]
         if name in _OF_PYTHON2:
-            message = f"Python 3 has no {name}: AttributeError"
+            message = f"{name} does not exist in Python 3: AttributeError"
         elif target().python >= _REMOVED_IN:
             message = f"{name} was removed in Python 3.12: AttributeError"
         else:
-            message = f"{name} is deprecated, and Python 3.12 removes it"
+            message = f"{name} is deprecated, and removed in Python 3.12"
             severity = Severity.INFO
         fix = None
         if name not in _WITHOUT_NAME:

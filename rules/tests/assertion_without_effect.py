@@ -1,4 +1,4 @@
-"""TS043: what a test asserts can fail."""
+"""TS043: assertions can fail."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ _ENDS = frozenset({"pytest.fail", "pytest.skip", "pytest.xfail"})
 
 
 class AssertionWithoutEffect(TestRule):
-    """A test has a condition without an assert, or asserts something that is always true.
+    """A test compares without asserting, or asserts something that is always true.
 
-    **Why.** The test passes whatever happens: a comparison without ``assert``, ``pytest.raises``
-    with nothing to call, ``assert`` in a ``try`` that drops the AssertionError. A function that is
-    not called is true, and so is a string that is not compared with anything.
+    **Why.** The test always passes: a comparison without ``assert``, ``pytest.raises`` without a
+    block, ``assert`` in a ``try`` that discards the AssertionError. A function that is not called
+    is always true, and so is a string that is not compared.
 
     **Fix.** Write ``assert``, or ``with pytest.raises(...):``; call the function; compare with the
     string.
@@ -34,7 +34,7 @@ class AssertionWithoutEffect(TestRule):
     severity = Severity.WARNING
     examples = (
         Example(
-            "looked at",
+            "valid assertions",
             {
                 "test/test_text.py": _TEST.format(
                     "    assert ready()\n    with pytest.raises(ValueError):\n        1 < ready()\n"
@@ -42,17 +42,17 @@ class AssertionWithoutEffect(TestRule):
             },
         ),
         Example(
-            "a comparison, an error that nothing raises",
+            "a comparison without assert, raises without a block",
             {
                 "test/test_text.py": _TEST.format(
                     "    1 == ready()\n    pytest.raises(ValueError)\n"
                 )
             },
-            "9:5: the result of this comparison is ignored: write assert before it",
-            "10:5: nothing is called here: write `with pytest.raises(...):`",
+            "9:5: the result of this comparison is ignored; write assert before it",
+            "10:5: nothing is called here, so nothing is tested; write `with pytest.raises(...):`",
         ),
         Example(
-            "an error that is dropped",
+            "an AssertionError that is discarded",
             {
                 "test/test_text.py": _TEST.format(
                     "    try:\n        assert ready()\n    except Exception:\n        pass\n"
@@ -64,21 +64,22 @@ class AssertionWithoutEffect(TestRule):
         Example(
             "a function that is not called",
             {"test/test_text.py": _ASSERTION.format("ready")},
-            "6:5: ready is a function, which is always true: call it",
+            "6:5: ready is a function, which is always true; call it",
         ),
         Example(
-            "a text next to a comparison",
+            "a string next to a comparison",
             {"test/test_text.py": _ASSERTION.format("ready() == 'a' or 'b'")},
-            "6:5: one side of this `or` is always true: compare with it as well",
+            "6:5: one side of this `or` is always true; compare both sides",
         ),
         Example(
-            "values for who reads the failure",
+            "values in the message of the assertion",
             {"test/test_text.py": _ASSERTION.format("ready(), (ready(), [len('ab')])")},
         ),
         Example(
-            "a comma for a comparison",
+            "a comma instead of a comparison",
             {"test/test_text.py": _ASSERTION.format("len('ab'), 2\n    assert ready(), 'b'")},
-            "6:5: what follows the comma is only the message: write == to compare with it",
+            "6:5: the value after the comma is only the message: the assertion is always true; "
+            "write == to compare",
         ),
         Example(
             "calls without parentheses, a mock, a string",
@@ -88,14 +89,14 @@ class AssertionWithoutEffect(TestRule):
                 "test/test_c.py": _ASSERTION.format("ready.called_once()"),
                 "test/test_d.py": _ASSERTION.format("'ready'"),
             },
-            "test/test_a.py:9:5: pytest.skip is not called: missing parentheses",
-            "test/test_b.py:9:5: rclpy.ok is a function, which is always true: call it",
-            "test/test_c.py:6:5: a mock has no called_once(): it fails, or is always true; use "
-            "assert_called_once()",
+            "test/test_a.py:9:5: pytest.skip is not called; add the parentheses",
+            "test/test_b.py:9:5: rclpy.ok is a function, which is always true; call it",
+            "test/test_c.py:6:5: mocks have no called_once(): the call fails, or is always true; "
+            "use assert_called_once()",
             "test/test_d.py:6:5: a non-empty string is always true: nothing is asserted",
         ),
         Example(
-            "a method of a class of the package, called and named",
+            "a method of a class in the package, called and not called",
             {
                 "talker/__init__.py": "",
                 "talker/node.py": "class Talker:\n"
@@ -108,7 +109,7 @@ class AssertionWithoutEffect(TestRule):
                 "    assert not talker.is_done()\n"
                 "    assert talker.is_done\n",
             },
-            "test/test_talker.py:8:5: is_done is a method, which is always true: call it",
+            "test/test_talker.py:8:5: is_done is a method, which is always true; call it",
         ),
     )
 
@@ -126,7 +127,10 @@ def _problem(module: PythonModule, node: ast.AST) -> tuple[ast.AST, str]:
     problem = ""
     match node:
         case ast.Assert(msg=ast.expr() as message) if _is_value(message):
-            problem = "what follows the comma is only the message: write == to compare with it"
+            problem = (
+                "the value after the comma is only the message: the assertion is always "
+                "true; write == to compare"
+            )
         case ast.Assert(test=condition):
             problem = _condition_problem(module, condition)
         case ast.Expr(value=value):
@@ -150,7 +154,7 @@ def _uncalled(package: Package, module: PythonModule, condition: ast.expr) -> st
             full = module.qualified_name(made.func) if isinstance(made, ast.Call) else ""
             path, _, class_name = (full or "").rpartition(".")
             methods = _methods_of(package, f"{path.replace('.', '/')}.py", class_name)
-            return f"{name} is a method, which is always true: call it" if name in methods else ""
+            return f"{name} is a method, which is always true; call it" if name in methods else ""
     return ""
 
 
@@ -181,15 +185,15 @@ def _is_value(node: ast.expr) -> bool:
 def _statement_problem(module: PythonModule, value: ast.expr) -> str:
     match value:
         case ast.Compare() if not _in_with(module, value):
-            return "the result of this comparison is ignored: write assert before it"
+            return "the result of this comparison is ignored; write assert before it"
         case ast.Call(args=[_], keywords=[]) if (
             module.qualified_name(value.func) == "pytest.raises"
         ):
-            return "nothing is called here: write `with pytest.raises(...):`"
+            return "nothing is called here, so nothing is tested; write `with pytest.raises(...):`"
         case ast.Attribute(attr=name) if (
             name.startswith("assert_") or module.qualified_name(value) in _ENDS
         ):
-            return f"{module.text(value)} is not called: missing parentheses"
+            return f"{module.text(value)} is not called; add the parentheses"
     return ""
 
 
@@ -212,17 +216,17 @@ def _condition_problem(module: PythonModule, condition: ast.expr) -> str:
         case ast.Constant(value=str(text)) if text:
             return "a non-empty string is always true: nothing is asserted"
         case ast.BoolOp(op=ast.Or(), values=values) if any(map(_is_true, values)):
-            return "one side of this `or` is always true: compare with it as well"
+            return "one side of this `or` is always true; compare both sides"
         case ast.Call(func=ast.Attribute(attr=name)) if name in _MOCKED:
-            return f"a mock has no {name}(): it fails, or is always true; use assert_{name}()"
+            return f"mocks have no {name}(): the call fails, or is always true; use assert_{name}()"
         case ast.Name(id=name):
             function = module.functions.get(name)
             lookup = module.index.lookup(name, condition)
             if function is not None and lookup is not None and lookup[0] is module.tree:
                 plain = not function.node.decorator_list and len(lookup[1]) == 1
-                return f"{name} is a function, which is always true: call it" if plain else ""
+                return f"{name} is a function, which is always true; call it" if plain else ""
         case ast.Attribute() if module.qualified_name(condition) == "rclpy.ok":
-            return "rclpy.ok is a function, which is always true: call it"
+            return "rclpy.ok is a function, which is always true; call it"
     return ""
 
 

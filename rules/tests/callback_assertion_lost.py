@@ -1,4 +1,4 @@
-"""TS078: tests assert in their own thread."""
+"""TS078: tests assert in the main thread."""
 
 from __future__ import annotations
 
@@ -23,12 +23,12 @@ _MAKERS = frozenset({"create_subscription", "create_timer", "create_service", "a
 
 
 class CallbackAssertionLost(TestRule):
-    """A test asserts in a callback that another thread runs.
+    """A test asserts in a callback that runs in another thread.
 
-    **Why.** The ``AssertionError`` ends that thread, and pytest never sees it: the test passes,
-    whatever arrives.
+    **Why.** The ``AssertionError`` only ends that thread, and pytest does not notice it: the test
+    always passes.
 
-    **Fix.** Collect the messages in the callback, and assert in the test itself.
+    **Fix.** Collect the messages in the callback, and assert in the test function.
 
     **Source.** Python documentation, ``threading.excepthook``: exceptions end their thread alone.
     """
@@ -42,14 +42,14 @@ class CallbackAssertionLost(TestRule):
             {"test/test_a.py": _TEST.format("rclpy.spin_once(node)", "assert msg.data")},
         ),
         Example(
-            "for type checkers",
+            "an assertion for type checkers",
             {"test/test_a.py": _TEST.format(_THREAD, "assert msg is not None")},
         ),
         Example(
             "asserted in the other thread",
             {"test/test_a.py": _TEST.format(_THREAD, "assert msg.data == 'hello'")},
-            "12:9: another thread runs this callback: a failure ends that thread, and the test "
-            "passes; collect what arrives and assert in the test",
+            "12:9: this callback runs in another thread: a failure only ends that thread, and the "
+            "test passes; collect the messages, and assert in the test",
         ),
     )
 
@@ -62,8 +62,8 @@ class CallbackAssertionLost(TestRule):
             for argument in (*call.args, *(word.value for word in call.keywords)):
                 for node in _assertions(module, argument):
                     message = (
-                        "another thread runs this callback: a failure ends that thread, and the "
-                        "test passes; collect what arrives and assert in the test"
+                        "this callback runs in another thread: a failure only ends that thread, "
+                        "and the test passes; collect the messages, and assert in the test"
                     )
                     yield self.report(module.location(node), message)
 

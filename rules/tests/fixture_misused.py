@@ -1,4 +1,4 @@
-"""TS044: fixtures that tests ask for exist, give one value, and are not called."""
+"""TS044: fixtures exist, provide one value, and are not called."""
 
 from __future__ import annotations
 
@@ -59,8 +59,8 @@ class FixtureMisused(Rule):
     found``, ``'NoneType' object has no attribute ...``, ``ScopeMismatch``, ``fixture function has
     more than one 'yield'``.
 
-    **Fix.** Take the fixture as an argument of the test, under its name; ``return`` or ``yield``
-    the value once, with a scope that is not wider than those of the fixtures it takes.
+    **Fix.** Add an argument with the name of the fixture to the test; ``return`` or ``yield`` the
+    value once; use a scope that is not wider than those of the requested fixtures.
 
     **Source.** pytest documentation, "How to use fixtures".
     """
@@ -82,18 +82,19 @@ class FixtureMisused(Rule):
         Example(
             "called",
             {"test/test_text.py": _TEST.format("return 'a'", "", "text()")},
-            "10:12: text is a fixture: take it as an argument instead of calling it",
+            "10:12: text is a fixture, which cannot be called: the test fails; request it as an "
+            "argument",
         ),
         Example(
             "another name",
             {"test/test_text.py": _TEST.format("return 'a'", "txt", "txt")},
-            "9:5: there is no fixture 'txt'; closest: 'text'",
+            "9:5: unknown fixture 'txt': the test fails; closest: 'text'",
         ),
         Example(
-            "not asked for, and used all the same",
+            "used without being requested",
             {"test/test_text.py": _TEST.format("return 'a'", "", "text")},
-            "10:12: text is the fixture itself here, a function: take it as an argument of the "
-            "test",
+            "10:12: text is the fixture function here, not its value; request it as an argument "
+            "of the test",
         ),
         Example(
             "a function without the decorator",
@@ -102,7 +103,7 @@ class FixtureMisused(Rule):
                     "@pytest.fixture\n", ""
                 )
             },
-            "8:5: text() is not a fixture: pytest finds none with this name; add @pytest.fixture",
+            "8:5: text() is not a fixture: the test fails; add @pytest.fixture",
         ),
         Example(
             "nothing returned",
@@ -121,25 +122,25 @@ class FixtureMisused(Rule):
             "9:2: unknown scope 'modul'; choose from function, class, module, package, session",
         ),
         Example(
-            "a wider scope than that of what it takes",
+            "a wider scope than that of a requested fixture",
             {"test/test_text.py": _TEST_MADE.format("module", "")},
             "9:2: a fixture of scope 'module' cannot use word of scope 'function'",
         ),
         Example(
             "two values",
             {"test/test_text.py": _TEST_MADE.format("function", "    yield 'b'\n")},
-            "9:2: the fixture text yields twice: pytest takes one value",
+            "9:2: the fixture text yields twice: pytest reports an error; yield once",
         ),
         Example(
-            "a fixture with a name of its own",
+            "a fixture with an explicit name",
             {
                 "test/conftest.py": "import pytest\n\n\n@pytest.fixture(name='motor')\n"
                 "def make_motor():\n    return 'motor'\n",
                 "test/test_motor.py": "def test_name(motor):\n    assert motor == 'motor'\n\n\n"
                 "def test_length(make_motor):\n    assert len(make_motor) == 5\n",
             },
-            "test/test_motor.py:5:5: there is no fixture 'make_motor': make_motor() is the "
-            "fixture 'motor'",
+            "test/test_motor.py:5:5: unknown fixture 'make_motor': 'make_motor'() is the fixture "
+            "'motor'",
         ),
     )
 
@@ -154,12 +155,15 @@ class FixtureMisused(Rule):
             for call in module.walk(ast.Call):
                 name = _called_fixture(module, call)
                 if name:
-                    message = f"{name} is a fixture: take it as an argument instead of calling it"
+                    message = (
+                        f"{name} is a fixture, which cannot be called: the test fails; "
+                        f"request it as an argument"
+                    )
                     yield self.report(module.location(call), message)
             for use in _taken_from_module(module):
                 message = (
-                    f"{use.id} is the fixture itself here, a function: take it as an argument of "
-                    "the test"
+                    f"{use.id} is the fixture function here, not its value; request it as an "
+                    f"argument of the test"
                 )
                 yield self.report(module.location(use), message)
         for module in test_modules(package):
@@ -206,12 +210,12 @@ def _missing(
         return ""
     renamed = [it.name for it in available.values() if it.node.name == name]
     if renamed:
-        return f"there is no fixture {name!r}: {name}() is the fixture {renamed[0]!r}"
+        return f"unknown fixture {name!r}: {name!r}() is the fixture {renamed[0]!r}"
     if name in module.functions:
-        return f"{name}() is not a fixture: pytest finds none with this name; add @pytest.fixture"
+        return f"{name}() is not a fixture: the test fails; add @pytest.fixture"
     closest = get_close_matches(name, available, 1, 0.75)
     if closest:
-        return f"there is no fixture {name!r}; closest: {closest[0]!r}"
+        return f"unknown fixture {name!r}: the test fails; closest: {closest[0]!r}"
     unused = _unused(module) if name not in _OF_PLUGINS else []
     return f"there is no fixture {name!r}; no test uses {unused[0]!r}" if unused else ""
 
@@ -269,7 +273,7 @@ def _problem(fixture: Fixture, available: Mapping[str, Fixture]) -> str:
     if fixture.scope not in _SCOPES:
         return f"unknown scope {fixture.scope!r}; choose from {', '.join(_SCOPES)}"
     if sum(map(_yields, fixture.node.body)) > 1:
-        return f"the fixture {fixture.name} yields twice: pytest takes one value"
+        return f"the fixture {fixture.name} yields twice: pytest reports an error; yield once"
     for name in arguments(fixture.node):
         inner = available.get(name)
         if inner is None or inner.scope not in _SCOPES or inner.node is fixture.node:

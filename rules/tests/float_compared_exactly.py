@@ -22,10 +22,10 @@ _DEPTH = 3
 
 
 class FloatComparedExactly(TestRule):
-    """A test compares the result of sines, roots and the like with ``==``.
+    """A test compares the result of sine, square root and the like with ``==``.
 
-    **Why.** ``math.cos(math.pi / 2)`` is 6e-17 and not 0.0: the test fails because of rounding,
-    here or on another machine.
+    **Why.** ``math.cos(math.pi / 2)`` is 6e-17, not 0.0: the test fails because of rounding, here
+    or on another machine.
 
     **Fix.** ``assert w == pytest.approx(0.0, abs=1e-9)``.
 
@@ -51,15 +51,15 @@ class FloatComparedExactly(TestRule):
                 "test/test_a.py": _TEST.format("w == 0.0"),
                 "test/test_b.py": _TEST.format("math.sqrt(2.0) ** 2 == 2.0"),
             },
-            "test/test_a.py:9:12: w is computed: it may differ by rounding, and the test fails; "
+            "test/test_a.py:9:12: w is a computed float: the test may fail because of rounding; "
             "compare with pytest.approx(...)",
-            "test/test_b.py:9:12: math.sqrt(2.0) ** 2 is computed: it may differ by rounding, and "
-            "the test fails; compare with pytest.approx(...)",
+            "test/test_b.py:9:12: math.sqrt(2.0) ** 2 is a computed float: the test may fail "
+            "because of rounding; compare with pytest.approx(...)",
         ),
         Example(
             "a sum",
             {"test/test_a.py": _TEST.format("0.1 + 0.2 == 0.3")},
-            "9:12: 0.1 + 0.2 is computed: it may differ by rounding, and the test fails; compare "
+            "9:12: 0.1 + 0.2 is a computed float: the test may fail because of rounding; compare "
             "with pytest.approx(...)",
         ),
     )
@@ -73,8 +73,8 @@ class FloatComparedExactly(TestRule):
                     ) if _is_computed(package, module, left, 0):
                         text = module.text(left)
                         message = (
-                            f"{text} is computed: it may differ by rounding, and the test fails; "
-                            "compare with pytest.approx(...)"
+                            f"{text} is a computed float: the test may fail because of rounding; "
+                            f"compare with pytest.approx(...)"
                         )
                         yield self.report(module.location(compare), message)
 

@@ -1,4 +1,4 @@
-"""TS048: tests with launch_testing start what they describe, and are run with it."""
+"""TS048: launch_testing tests have a ReadyToTest action, a mark and tests."""
 
 from __future__ import annotations
 
@@ -36,14 +36,14 @@ _OTHER = _TEST.format("", *_RIGHT[1:3], "object")
 
 
 class LaunchTestMisused(Rule):
-    """A launch_testing test never becomes ready, runs without its launch file, or has no tests.
+    """A launch_testing test never becomes ready, runs without its nodes, or contains no tests.
 
     **Why.** launch_testing stops: ``generate_test_description functions must return a
-    LaunchDescription containing a ReadyToTest action``. Without the mark pytest runs the tests of
-    an ament_python package, and starts none of the nodes. Classes that are not a ``TestCase`` are
+    LaunchDescription containing a ReadyToTest action``. Without the mark, pytest runs the tests of
+    an ament_python package, but does not start the nodes. Classes that are not a ``TestCase`` are
     not run at all.
 
-    **Fix.** ``launch_testing.actions.ReadyToTest()`` in the list; ``@pytest.mark.launch_test``;
+    **Fix.** Add ``launch_testing.actions.ReadyToTest()`` to the list; ``@pytest.mark.launch_test``;
     ``class TestTalker(unittest.TestCase)``.
 
     **Source.** ``launch_testing/loader.py``, ``launch_testing/pytest/hooks.py``.
@@ -52,7 +52,7 @@ class LaunchTestMisused(Rule):
     code = "TS048"
     name = "launch-test-misused"
     examples = (
-        Example("right", {"setup.py": "", "test/test_talker.py": _TEST.format(*_RIGHT)}),
+        Example("a valid test", {"setup.py": "", "test/test_talker.py": _TEST.format(*_RIGHT)}),
         Example(
             "an argument of the description, of launch_testing, and of nobody",
             {
@@ -98,15 +98,15 @@ class LaunchTestMisused(Rule):
             "no mark",
             {"setup.py": "", "test/test_talker.py": _TEST.format("", *_RIGHT[1:])},
             "test/test_talker.py:8:5: @pytest.mark.launch_test is missing: pytest does not start "
-            "what generate_test_description describes",
+            "the nodes of generate_test_description",
         ),
         Example(
             "nothing returned, no TestCase",
             {"setup.py": "", "test/test_talker.py": _TEST.format("", "", _RIGHT[2], "object")},
             "test/test_talker.py:8:5: generate_test_description returns nothing: launch_testing "
             "needs a LaunchDescription",
-            "test/test_talker.py:12:7: launch_testing does not run TestTalker: it is not a "
-            "TestCase",
+            "test/test_talker.py:12:7: TestTalker is not a TestCase: launch_testing does not run "
+            "it; inherit from unittest.TestCase",
         ),
     )
 
@@ -128,7 +128,10 @@ class LaunchTestMisused(Rule):
                 if is_test_case(module, class_.node):
                     yield from self._check_arguments(module, class_.node)
                 if has_tests and plain and not module.index.names(class_.name):
-                    message = f"launch_testing does not run {class_.name}: it is not a TestCase"
+                    message = (
+                        f"{class_.name} is not a TestCase: launch_testing does not run it; "
+                        f"inherit from unittest.TestCase"
+                    )
                     yield self.report(class_, message)
 
     def _check_arguments(self, module: PythonModule, class_: ast.ClassDef) -> Iterator[Diagnostic]:
@@ -191,7 +194,7 @@ def _problems(package: Package, module: PythonModule) -> Iterator[str]:
     collected = name.startswith("test_") or name.endswith("_test.py")
     marked = _is_marked(module, node)
     if by_pytest and collected and tests and not marked and not may_start(package, name):
-        yield f"@pytest.mark.launch_test is missing: pytest does not start what {LAUNCH} describes"
+        yield f"@pytest.mark.launch_test is missing: pytest does not start the nodes of {LAUNCH}"
 
 
 def _calls_others(module: PythonModule, node: ast.AST) -> bool:

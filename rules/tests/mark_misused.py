@@ -1,4 +1,4 @@
-"""TS046: marks of tests are known to pytest, and complete."""
+"""TS046: pytest marks exist and are complete."""
 
 from __future__ import annotations
 
@@ -32,10 +32,10 @@ class MarkMisused(TestRule):
     """A mark is misspelled or incomplete, or ``parametrize`` has more or fewer values than names.
 
     **Why.** pytest stops: ``Unknown 'parameterize' mark``, ``you need to specify reason=STRING``,
-    ``in "parametrize" the number of names must be equal to the number of values``; without any
-    value it skips the test.
+    ``in "parametrize" the number of names must be equal to the number of values``; without values,
+    it skips the test.
 
-    **Fix.** ``@pytest.mark.parametrize('a, b', [(1, 2)])``; ``reason='...'`` for ``skipif``.
+    **Fix.** Write ``@pytest.mark.parametrize('a, b', [(1, 2)])``; ``reason='...'`` for ``skipif``.
 
     **Source.** pytest documentation, "How to mark test functions with attributes", "How to
     parametrize fixtures and test functions", "How to use skip and xfail".
@@ -44,11 +44,11 @@ class MarkMisused(TestRule):
     code = "TS046"
     name = "mark-misused"
     examples = (
-        Example("right", {"test/test_text.py": _TEST.format("parametrize", "[('a', 1)]")}),
+        Example("valid marks", {"test/test_text.py": _TEST.format("parametrize", "[('a', 1)]")}),
         Example(
             "misspelled",
             {"test/test_text.py": _TEST.format("parameterize", "[('a', 1)]")},
-            "4:2: pytest has no mark 'parameterize'; closest: 'parametrize'",
+            "4:2: unknown mark 'parameterize': pytest stops; closest: 'parametrize'",
         ),
         Example(
             "no reason",
@@ -60,14 +60,14 @@ class MarkMisused(TestRule):
         ),
         Example("as many values as names", {"test/test_text.py": _PARAMETERS.format("[('a', 1)]")}),
         Example(
-            "a value too many",
+            "an extra value",
             {"test/test_text.py": _PARAMETERS.format("[('a', 1), ('b', 1, 2)]")},
-            "4:2: there are 2 names, and ('b', 1, 2) has 3 values",
+            "4:2: 2 names, but ('b', 1, 2) has 3 values: pytest stops",
         ),
         Example(
             "no values",
             {"test/test_text.py": _PARAMETERS.format("[]")},
-            "4:2: there are no values: pytest skips the test",
+            "4:2: no values: pytest skips the test",
         ),
         Example(
             "neither names nor values; no values",
@@ -77,17 +77,17 @@ class MarkMisused(TestRule):
                 "    pass\n\n\n@pytest.mark.parametrize('word')\ndef test_two(word):\n"
                 "    pass\n"
             },
-            "4:2: parametrize needs names and values",
-            "9:2: parametrize needs the values as well as the names",
+            "4:2: parametrize requires names and values",
+            "9:2: parametrize requires values in addition to the names",
         ),
         Example(
-            "values that a constant holds",
+            "values in a constant",
             {
                 "test_sum.py": "import pytest\n\nSUMS = [(1, 2, 3)]\n\n\n"
                 "@pytest.mark.parametrize('first, second', SUMS)\n"
                 "def test_sum(first, second):\n    assert first + second == 3\n"
             },
-            "6:2: there are 2 names, and (1, 2, 3) has 3 values",
+            "6:2: 2 names, but (1, 2, 3) has 3 values: pytest stops",
         ),
     )
 
@@ -101,9 +101,9 @@ class MarkMisused(TestRule):
 
 def _mark_problem(module: PythonModule, name: str, decorator: ast.expr) -> str:
     if name in _MEANT:
-        return f"pytest has no mark {name!r}; closest: {_MEANT[name]!r}"
+        return f"unknown mark {name!r}: pytest stops; closest: {_MEANT[name]!r}"
     if not isinstance(decorator, ast.Call):
-        return "" if name != "parametrize" else "parametrize needs names and values"
+        return "" if name != "parametrize" else "parametrize requires names and values"
     if name == "parametrize":
         return _parametrize_problem(module, decorator)
     words = keywords(decorator)
@@ -122,17 +122,17 @@ def _parametrize_problem(module: PythonModule, call: ast.Call) -> str:
     values = call.args[1] if len(call.args) > 1 else words.get("argvalues")
     if values is None:
         is_open = len(words) < len(call.keywords)
-        return "" if is_open else "parametrize needs the values as well as the names"
+        return "" if is_open else "parametrize requires values in addition to the names"
     values = module.index.only_value(values) or values
     if not isinstance(values, ast.List | ast.Tuple):
         return ""
     if not values.elts:
-        return "there are no values: pytest skips the test"
+        return "no values: pytest skips the test"
     count = _count(names)
     for value in values.elts if count > 1 else ():
         given = _value_count(module, value)
         if given is not None and given != count:
-            return f"there are {count} names, and {module.text(value)} has {given} values"
+            return f"{count} names, but {module.text(value)} has {given} values: pytest stops"
     return ""
 
 

@@ -1,4 +1,4 @@
-"""TS049: tests of nodes initialize rclpy, and spin the node whose messages they wait for."""
+"""TS049: tests of nodes initialize rclpy and spin the node."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ _TEST_SPIN = (
     "    {}\n"
     "    assert received\n"
 )
-_NO_INIT = "nothing calls rclpy.init() before this node is made: NotInitializedException"
+_NO_INIT = "rclpy.init() is not called before this node is constructed: NotInitializedException"
 _WORDS = ("spin", "launch_testing", "Executor")
 _FIXTURE = (
     "import pytest\nimport rclpy\n\nfrom demo.talker import Talker\n\n\n"
@@ -45,11 +45,11 @@ class NodeTestMisused(Rule):
     """A test creates a node without rclpy.init(), or waits for messages without spinning.
 
     **Why.** ``NotInitializedException: rclpy.init() has not been called``; ``Context.init() must
-    only be called once`` in the second test. Callbacks run while somebody spins: nothing is ever
-    received, and the assertion fails.
+    only be called once`` in the second test. Callbacks only run while the node is spun: without
+    that, nothing is received, and the assertion fails.
 
-    **Fix.** A fixture with ``rclpy.init()``, ``yield`` and ``rclpy.shutdown()``; ``spin_once`` with
-    ``timeout_sec=0.1`` in a loop until the message arrives or a timeout expires.
+    **Fix.** Write a fixture with ``rclpy.init()``, ``yield`` and ``rclpy.shutdown()``; call
+    ``spin_once`` with ``timeout_sec=0.1`` in a loop until the message arrives or a timeout expires.
 
     **Source.** rclpy, ``context.py``, ``node.py``, ``executors.py``; ROS 2 documentation,
     "Executors".
@@ -66,11 +66,11 @@ class NodeTestMisused(Rule):
                 "test/test_a.py": _FIXTURE.format(""),
                 "test/test_b.py": _FIXTURE.format("    rclpy.init()\n"),
             },
-            "test/test_a.py:9:12: nothing calls rclpy.init() before this node is made: "
+            "test/test_a.py:9:12: rclpy.init() is not called before this node is constructed: "
             "NotInitializedException",
         ),
         Example(
-            "right",
+            "a valid test",
             {
                 "test/test_node.py": _TEST.format(
                     "rclpy.init()", "rclpy.spin_once(node, timeout_sec=1.0)"
@@ -78,10 +78,11 @@ class NodeTestMisused(Rule):
             },
         ),
         Example(
-            "no init, nothing spins",
+            "no init, no spin",
             {"test/test_node.py": _TEST.format("pass", "pass")},
-            "8:12: nothing calls rclpy.init() before this node is made: NotInitializedException",
-            "10:5: nothing spins in this test, so the callback is never called",
+            "8:12: rclpy.init() is not called before this node is constructed: "
+            "NotInitializedException",
+            "10:5: this test never spins the node, so the callback is never called",
         ),
         Example(
             "initialized again",
@@ -89,18 +90,19 @@ class NodeTestMisused(Rule):
                 "test/test_node.py": "import rclpy\n\n\ndef test_one():\n    rclpy.init()\n\n\n"
                 "def test_two():\n    rclpy.init()\n"
             },
-            "9:5: the test in line 5 calls init() as well, but nothing calls shutdown()",
+            "9:5: the test in line 5 also calls init(), but shutdown() is never called: the "
+            "second test fails",
         ),
         Example(
-            "spun until it has arrived",
+            "spins until the message arrives",
             {"test/test_a.py": _TEST_SPIN.format("rclpy.spin_once(node, timeout_sec=1.0)")},
         ),
         Example(
-            "slept until it has arrived",
+            "sleeps until the message arrives",
             {"test/test_a.py": _TEST_SPIN.format("time.sleep(0.5)")},
-            "11:5: nothing spins in this test, so the callback is never called",
-            "12:5: nothing spins the node while the test sleeps: no callback runs, and line 13 "
-            "fails; call rclpy.spin_once() in a loop instead",
+            "11:5: this test never spins the node, so the callback is never called",
+            "12:5: the node is not spun while the test sleeps: no callback runs, and line "
+            "{node.lineno} fails; call rclpy.spin_once() in a loop instead",
         ),
         Example(
             "a fixture for two tests that does not shut rclpy down",
@@ -111,7 +113,7 @@ class NodeTestMisused(Rule):
                 "def test_name(node):\n    assert node.get_name() == 'two'\n\n\n"
                 "def test_space(node):\n    assert node.get_namespace() == '/'\n"
             },
-            "7:5: each test calls init() again, but nothing calls shutdown(): the second one "
+            "7:5: each test calls init() again, but shutdown() is never called: the second test "
             "fails; call rclpy.shutdown() after the yield",
         ),
     )
@@ -145,8 +147,8 @@ class NodeTestMisused(Rule):
                 inits = [it for it in _calls(fixture.node) if _is_init(module, it)]
                 if inits and fixture.scope == "function" and asked.count(fixture.name) > 1:
                     message = (
-                        "each test calls init() again, but nothing calls shutdown(): the second "
-                        "one fails; call rclpy.shutdown() after the yield"
+                        "each test calls init() again, but shutdown() is never called: the second "
+                        "test fails; call rclpy.shutdown() after the yield"
                     )
                     yield self.report(module.location(inits[0]), message)
 
@@ -163,8 +165,8 @@ class NodeTestMisused(Rule):
                     names = {item.id for item in ast.walk(node) if isinstance(item, ast.Name)}
                     if names & filled and sleeps[0].lineno < node.lineno:
                         message = (
-                            "nothing spins the node while the test sleeps: no callback runs, and "
-                            f"line {node.lineno} fails; call rclpy.spin_once() in a loop instead"
+                            "the node is not spun while the test sleeps: no callback runs, and "
+                            "line {node.lineno} fails; call rclpy.spin_once() in a loop instead"
                         )
                         yield self.report(module.location(sleeps[0]), message)
                         break
@@ -179,7 +181,10 @@ def _problem(
         inits.append(call)
         if len(inits) > 1:
             line = module.location(inits[0]).line
-            return f"the test in line {line} calls init() as well, but nothing calls shutdown()"
+            return (
+                f"the test in line {line} also calls init(), but shutdown() is never called: "
+                f"the second test fails"
+            )
     elif name in {"rclpy.node.Node", "rclpy.create_node"} and own and "init" not in texts:
         words = {word.arg for word in call.keywords}
         if words.isdisjoint({"context", None}):
@@ -187,7 +192,7 @@ def _problem(
     elif isinstance(call.func, ast.Attribute) and call.func.attr == "create_subscription":
         is_node = own and _is_made_here(module, call.func.value)
         if is_node and "spin" not in texts and _is_awaited(test, call):
-            return "nothing spins in this test, so the callback is never called"
+            return "this test never spins the node, so the callback is never called"
     return ""
 
 

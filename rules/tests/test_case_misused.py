@@ -1,4 +1,4 @@
-"""TS045: the methods of a TestCase are those that unittest calls, and as it calls them."""
+"""TS045: methods of a TestCase have the names and arguments that unittest expects."""
 
 from __future__ import annotations
 
@@ -22,12 +22,12 @@ _CASE = "unittest.TestCase"
 class TestCaseMisused(TestRule):
     """A TestCase has a method that unittest never calls, or calls with other arguments.
 
-    **Why.** ``set_up`` is never called, nor is ``setUp`` in a class without TestCase:
-    AttributeError in the tests. unittest gives a test no arguments, so neither fixtures nor
+    **Why.** ``set_up`` is never called, nor is ``setUp`` in a class that is not a TestCase:
+    AttributeError in the tests. unittest passes no arguments to tests, so neither fixtures nor
     ``parametrize`` work: TypeError.
 
-    **Fix.** ``setUp``, ``tearDown``; ``@classmethod`` for ``setUpClass``; a plain class or function
-    for fixtures.
+    **Fix.** Use ``setUp`` and ``tearDown``; ``@classmethod`` for ``setUpClass``; a plain class or
+    function for fixtures.
 
     **Source.** Python documentation, ``unittest``; pytest documentation, "How to use unittest-based
     tests with pytest".
@@ -36,7 +36,7 @@ class TestCaseMisused(TestRule):
     code = "TS045"
     name = "test-case-misused"
     examples = (
-        Example("right", {"test/test_text.py": _TEST.format(_CASE, "setUp", "")}),
+        Example("valid methods", {"test/test_text.py": _TEST.format(_CASE, "setUp", "")}),
         Example(
             "setUpClass as a function without arguments",
             {
@@ -46,7 +46,7 @@ class TestCaseMisused(TestRule):
             },
         ),
         Example(
-            "made by the file itself",
+            "constructed in the file",
             {
                 "test/test_text.py": _TEST.format(_CASE, "__init__", "")
                 + "\n\nTestText().test_text()\n"
@@ -56,12 +56,12 @@ class TestCaseMisused(TestRule):
             "set_up, a fixture",
             {"test/test_text.py": _TEST.format(_CASE, "set_up", ", tmp_path")},
             "5:9: unittest never calls set_up; use setUp",
-            "8:9: unittest gives test_text no arguments, but it takes 'tmp_path': TypeError",
+            "8:9: unittest passes no arguments to test_text, but it takes 'tmp_path': TypeError",
         ),
         Example(
             "setUp without TestCase",
             {"test/test_text.py": _TEST.format("object", "setUp", "")},
-            "5:9: pytest calls setUp in a TestCase only; use setup_method",
+            "5:9: pytest only calls setUp in a TestCase; use setup_method",
         ),
         Example(
             "an argument of setUp, an instance method setUpClass, parametrize",
@@ -74,9 +74,11 @@ class TestCaseMisused(TestRule):
                 .replace("    def test_", "    @pytest.mark.parametrize('a', [1])\n    def test_")
                 .replace("import ", "import pytest\nimport "),
             },
-            "test/test_a.py:5:9: unittest calls setUp with self only, but it takes 2 arguments",
-            "test/test_b.py:5:9: unittest calls setUpClass on the class: @classmethod is missing",
-            "test/test_c.py:10:9: parametrize does nothing in a TestCase: test_text fails with "
+            "test/test_a.py:5:9: unittest only passes self to setUp, but it takes 2 arguments: "
+            "TypeError",
+            "test/test_b.py:5:9: unittest calls setUpClass on the class: TypeError; add "
+            "@classmethod",
+            "test/test_c.py:10:9: parametrize has no effect in a TestCase: test_text fails with "
             "TypeError",
         ),
     )
@@ -113,7 +115,7 @@ def _has_no_base(class_: ast.ClassDef) -> bool:
 
 def _plain(method: FunctionNode) -> str:
     name = _PLAIN.get(method.name)
-    return f"pytest calls {method.name} in a TestCase only; use {name}" if name else ""
+    return f"pytest only calls {method.name} in a TestCase; use {name}" if name else ""
 
 
 def _case_problem(module: PythonModule, method: FunctionNode) -> str:
@@ -126,14 +128,18 @@ def _case_problem(module: PythonModule, method: FunctionNode) -> str:
         if name != right and name.replace("_", "").lower() == right.lower():
             return f"unittest never calls {name}; use {right}"
     if name in {"setUpClass", "tearDownClass"} and given and not decorated:
-        problem = f"unittest calls {name} on the class: @classmethod is missing"
+        problem = f"unittest calls {name} on the class: TypeError; add @classmethod"
     elif name in {"setUp", "tearDown"} and not decorated and len(given) != 1 and not launched:
-        problem = f"unittest calls {name} with self only, but it takes {len(given)} arguments"
+        problem = (
+            f"unittest only passes self to {name}, but it takes {len(given)} arguments: TypeError"
+        )
     elif name == "__init__" and len(method.args.args) == 1 and not method.args.vararg:
-        problem = "unittest gives __init__ the name of a test: use setUp instead"
+        problem = "unittest passes the name of a test to __init__; use setUp instead"
     elif name.startswith("test") and not launched and not static:
         if any(mark == "parametrize" for mark, _ in marks(module, method)):
-            problem = f"parametrize does nothing in a TestCase: {name} fails with TypeError"
+            problem = f"parametrize has no effect in a TestCase: {name} fails with TypeError"
         elif len(given) > 1 and not decorated:
-            problem = f"unittest gives {name} no arguments, but it takes {given[1]!r}: TypeError"
+            problem = (
+                f"unittest passes no arguments to {name}, but it takes {given[1]!r}: TypeError"
+            )
     return problem

@@ -15,9 +15,9 @@ DIRECTORIES = ("test/", "tests/")
 class TestFileNotCollected(Rule):
     """A file with tests has a name that pytest does not collect.
 
-    **Why.** ``colcon test`` passes and says nothing: these tests never run.
+    **Why.** ``colcon test`` passes, but these tests never run.
 
-    **Fix.** Name it ``test_*.py``. No automatic fix: a CMakeLists.txt may name it.
+    **Fix.** Name it ``test_*.py``. No automatic fix: CMakeLists.txt may refer to it.
 
     **Source.** pytest documentation, "Conventions for Python test discovery".
     """
@@ -44,10 +44,10 @@ class TestFileNotCollected(Rule):
             },
         ),
         Example(
-            "a name that pytest passes over",
+            "a name that pytest does not collect",
             {"setup.py": "", "test/talker_tests.py": "def test_talk():\n    pass\n"},
-            "test/talker_tests.py:1:1: test_talk() never runs: pytest collects test_*.py and "
-            "*_test.py only",
+            "test/talker_tests.py:1:1: test_talk() never runs: pytest only collects test_*.py and "
+            "*_test.py; rename the file",
         ),
     )
 
@@ -66,7 +66,10 @@ class TestFileNotCollected(Rule):
                 continue
             tests = [function for function in functions if function.startswith("test_")]
             if tests:
-                message = f"{tests[0]}() never runs: pytest collects test_*.py and *_test.py only"
+                message = (
+                    f"{tests[0]}() never runs: pytest only collects test_*.py and "
+                    f"*_test.py; rename the file"
+                )
                 yield self.report(package.start_of(path), message)
 
     def _is_used(self, package: Package, path: str) -> bool:

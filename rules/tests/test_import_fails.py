@@ -1,4 +1,4 @@
-"""TS050: tests find the helpers in their directory."""
+"""TS050: tests can import helpers in their directory."""
 
 from __future__ import annotations
 
@@ -14,14 +14,15 @@ _HELPER = {"test/helpers.py": "def make():\n    return 1\n"}
 
 
 class TestImportFails(Rule):
-    """A test imports a helper of its directory in a way that fails in pytest.
+    """A test imports a helper in its directory in a way that fails under pytest.
 
     **Why.** pytest stops with ``ImportError: attempted relative import with no known parent
-    package`` in a directory without ``__init__.py``, with ``No module named 'helpers'`` in one that
-    has it, and with ``No module named 'test.helpers'`` because ``test`` is a package of Python.
+    package`` in a directory without ``__init__.py``, with ``No module named 'helpers'`` in a
+    directory with one, and with ``No module named 'test.helpers'`` because ``test`` is a package of
+    the standard library.
 
-    **Fix.** ``from helpers import ...`` and no ``__init__.py`` in the directory, or
-    ``from .helpers import ...`` and an ``__init__.py``.
+    **Fix.** Write ``from helpers import ...`` without an ``__init__.py`` in the directory, or
+    ``from .helpers import ...`` with one.
 
     **Source.** pytest documentation, "pytest import mechanisms and sys.path/PYTHONPATH".
     """
@@ -34,16 +35,16 @@ class TestImportFails(Rule):
             {"setup.py": "", "test/test_a.py": _TEST.format("from helpers import make"), **_HELPER},
         ),
         Example(
-            "relative, and as a part of test",
+            "a relative import, and an import from test",
             {
                 "setup.py": "",
                 "test/test_a.py": _TEST.format("from .helpers import make"),
                 "test/test_b.py": _TEST.format("from test.helpers import make"),
                 **_HELPER,
             },
-            "test/test_a.py:1:1: a relative import fails: test/ has no __init__.py",
-            "test/test_b.py:1:1: test is a package of Python itself: write `from helpers import "
-            "...`",
+            "test/test_a.py:1:1: the relative import fails: test/ has no __init__.py",
+            "test/test_b.py:1:1: test is a package of the standard library: ModuleNotFoundError; "
+            "write `from helpers import ...`",
         ),
         Example(
             "the directory is a package",
@@ -53,7 +54,8 @@ class TestImportFails(Rule):
                 "test/test_a.py": _TEST.format("from helpers import make"),
                 **_HELPER,
             },
-            "test/test_a.py:1:1: test/ is a package: write `from .helpers import ...`",
+            "test/test_a.py:1:1: test/ is a package: ModuleNotFoundError; write `from .helpers "
+            "import ...`",
         ),
     )
 
@@ -72,14 +74,19 @@ class TestImportFails(Rule):
 def _problem(package: Package, module: PythonModule, directory: str, node: Import) -> str:
     is_package = package.has(f"{directory}/__init__.py")
     if node.level == 1 and not is_package:
-        return f"a relative import fails: {directory}/ has no __init__.py"
+        return f"the relative import fails: {directory}/ has no __init__.py"
     first, _, rest = node.module.partition(".")
     helper = rest.partition(".")[0] or (node.names[0].name if node.names else "")
     if node.level == 0 and first == "test" == directory and not is_package:
         if package.has(f"test/{helper}.py"):
-            return f"test is a package of Python itself: write `from {helper} import ...`"
+            return (
+                f"test is a package of the standard library: ModuleNotFoundError; write `from "
+                f"{helper} import ...`"
+            )
     elif node.level == 0 and is_package and package.has(f"{directory}/{first}.py"):
         is_elsewhere = package.has(f"{first}.py") or package.has(f"{first}/__init__.py")
         if not is_elsewhere and first != module.path.rpartition("/")[2][:-3]:
-            return f"{directory}/ is a package: write `from .{first} import ...`"
+            return (
+                f"{directory}/ is a package: ModuleNotFoundError; write `from .{first} import ...`"
+            )
     return ""

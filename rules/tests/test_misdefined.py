@@ -1,4 +1,4 @@
-"""TS042: pytest can call the tests with what it has."""
+"""TS042: pytest can run the tests."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ class TestMisdefined(Rule):
     """A test is defined in a way that pytest cannot run.
 
     **Why.** pytest ends with an error: a method without ``self`` ("takes 0 positional arguments but
-    1 was given"), a parameter of ``parametrize`` that the test does not take ("function uses no
+    1 was given"), a name in ``parametrize`` that the test does not accept ("function uses no
     argument"), a section ``[pytest]`` in setup.cfg ("no longer supported").
 
     **Fix.** Add ``self``; use the same names in both places; call the section ``[tool:pytest]``.
@@ -34,9 +34,9 @@ class TestMisdefined(Rule):
     code = "TS042"
     name = "test-misdefined"
     examples = (
-        Example("right", {"test/test_text.py": _TEST.format("count", "self, ")}),
+        Example("valid tests", {"test/test_text.py": _TEST.format("count", "self, ")}),
         Example(
-            "another name, no self",
+            "another name; no self",
             {
                 "test/test_text.py": _TEST.format("number", "self, ")
                 + "\n    def test_all():\n        assert True\n"
@@ -45,16 +45,16 @@ class TestMisdefined(Rule):
             "9:9: test_all is a method without self: TypeError",
         ),
         Example(
-            "a name that a fixture takes",
+            "a name that a fixture uses",
             {
                 "test/test_text.py": _TEST.format("number", "self, ")
                 + "\n\n@pytest.fixture\ndef count(number):\n    return number\n"
             },
         ),
         Example(
-            "the section of setup.cfg",
+            "the section in setup.cfg",
             {"setup.py": "", "setup.cfg": "[pytest]\nxfail_strict = true\n"},
-            "setup.cfg:1:2: pytest refuses the section [pytest] in setup.cfg: it is [tool:pytest]",
+            "setup.cfg:1:2: pytest rejects the section [pytest] in setup.cfg; write [tool:pytest]",
         ),
     )
 
@@ -85,7 +85,7 @@ class TestMisdefined(Rule):
             return
         for section in sections:
             if section.name == "pytest":
-                message = "pytest refuses the section [pytest] in setup.cfg: it is [tool:pytest]"
+                message = "pytest rejects the section [pytest] in setup.cfg; write [tool:pytest]"
                 yield self.report(section.name_location, message)
 
 

@@ -26,12 +26,12 @@ _TEST = (
 
 
 class TestNeverEnds(Rule):
-    """A test spins a node, or waits for a response, without an end.
+    """A test spins a node or waits for a response without a timeout.
 
-    **Why.** ``rclpy.spin`` returns only at shutdown, and ``client.call`` only when
-    another thread spins, so ``colcon test`` hangs.
+    **Why.** ``rclpy.spin`` only returns at shutdown, and ``client.call`` only if another thread
+    spins the node: ``colcon test`` hangs.
 
-    **Fix.** ``spin_once`` with ``timeout_sec`` until a deadline; ``call_async`` and
+    **Fix.** Use ``spin_once`` with ``timeout_sec`` until a deadline, or ``call_async`` and
     ``spin_until_future_complete`` with ``timeout_sec``.
 
     **Source.** rclpy, ``__init__.py``, ``executors.py``.
@@ -41,17 +41,17 @@ class TestNeverEnds(Rule):
     name = "test-never-ends"
     examples = (
         Example(
-            "once", {"test/test_node.py": _TEST.format("rclpy.spin_once(node, timeout_sec=1)")}
+            "spin_once", {"test/test_node.py": _TEST.format("rclpy.spin_once(node, timeout_sec=1)")}
         ),
         Example(
-            "a response that nothing spins for",
+            "a response without spinning",
             {
                 "test/test_node.py": _TEST.format(
                     "client = node.create_client(Trigger, 'a')\n    client.call(Trigger.Request())"
                 )
             },
-            "9:5: call() waits for a response while nothing spins: use call_async, and spin until "
-            "it is done",
+            "9:5: call() waits for a response while the node is not spun; use call_async, and "
+            "spin until the future is done",
         ),
         Example(
             "a callback that shuts down",
@@ -68,12 +68,12 @@ class TestNeverEnds(Rule):
                 "test/test_node.py": _TEST.format("rclpy.spin(node)\n    rclpy.shutdown()")
                 + "\n\ndef teardown_function():\n    rclpy.try_shutdown()\n"
             },
-            "8:5: nothing ends this: the test waits forever; use spin_once with timeout_sec",
+            "8:5: this never returns: the test hangs; use spin_once with timeout_sec",
         ),
         Example(
-            "for ever",
+            "spin without an end",
             {"test/test_node.py": _TEST.format("rclpy.spin(node)")},
-            "8:5: nothing ends this: the test waits forever; use spin_once with timeout_sec",
+            "8:5: this never returns: the test hangs; use spin_once with timeout_sec",
         ),
         Example(
             "a fixture that spins",
@@ -83,7 +83,7 @@ class TestNeverEnds(Rule):
                 "    rclpy.spin(node)\n    yield node\n    node.destroy_node()\n\n\n"
                 "def test_name(cam):\n    assert cam.get_name() == 'cam'\n"
             },
-            "9:5: nothing ends this: the test waits forever; use spin_once with timeout_sec",
+            "9:5: this never returns: the test hangs; use spin_once with timeout_sec",
         ),
     )
 
@@ -98,16 +98,16 @@ class TestNeverEnds(Rule):
                     if not isinstance(node, ast.Call):
                         continue
                     if _waits(module, node):
-                        message = "call() waits for a response while nothing spins"
+                        message = "call() waits for a response while the node is not spun"
                         at = module.location(node)
                         yield self.report(
-                            at, f"{message}: use call_async, and spin until it is done"
+                            at, f"{message}; use call_async, and spin until the future is done"
                         )
                     if not _spins(module, node):
                         continue
                     is_own = module.enclosing_function(node) is function
                     if is_own and not _is_shut_down(module):
-                        message = "nothing ends this: the test waits forever"
+                        message = "this never returns: the test hangs"
                         at = module.location(node)
                         yield self.report(at, f"{message}; use spin_once with timeout_sec")
 

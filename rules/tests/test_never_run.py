@@ -1,4 +1,4 @@
-"""TS047: what looks like a test is run, with its body."""
+"""TS047: functions and classes that look like tests are run."""
 
 from __future__ import annotations
 
@@ -28,13 +28,13 @@ _TEST_BODIES = "{}def test_text():\n    {}\n"
 
 
 class TestNeverRun(Rule):
-    """A test has a name or place that keeps pytest from running it, or is a coroutine or generator.
+    """A test has a name or place that pytest does not collect, or is a coroutine or generator.
 
-    **Why.** The file passes without it: pytest collects functions that begin with ``test`` and
-    classes that begin with ``Test``, and nothing inside of another test. It does not wait for a
-    coroutine, nor go through a generator: their bodies never run.
+    **Why.** The test run passes without it: pytest collects functions that start with ``test`` and
+    classes that start with ``Test``, but not those inside another test. It does not await
+    coroutines or iterate over generators: their bodies never run.
 
-    **Fix.** Rename it, or move it out of the test; ``asyncio.run(...)`` in a plain test;
+    **Fix.** Rename it, or move it out of the test; call ``asyncio.run(...)`` in a plain test; use
     ``parametrize`` instead of ``yield``.
 
     **Source.** pytest documentation, "Conventions for Python test discovery", "Deprecations and
@@ -52,21 +52,22 @@ class TestNeverRun(Rule):
         Example(
             "another name",
             {"test/test_text.py": _TEST.format(_CHECK)},
-            "5:5: pytest does not run check: its name does not begin with test",
+            "5:5: pytest does not run check: its name does not start with test",
         ),
         Example(
             "a class of another name",
             {"test/test_text.py": _TEST.format(_CLASS)},
-            "5:7: pytest does not run TextTests: its name does not begin with Test",
+            "5:7: pytest does not run TextTests: its name does not start with Test",
         ),
         Example(
-            "inside of a test: a class that the test runs",
+            "inside a test: a class that the test runs",
             {"test/test_text.py": _OUTER.format(_OWN)},
         ),
         Example(
-            "inside of a test: a function that nothing calls",
+            "inside a test: a function that is never called",
             {"test/test_text.py": _OUTER.format(_MORE)},
-            "8:5: test_more is inside test_text: pytest does not collect it",
+            "8:5: test_more is inside test_text: pytest does not collect it; move it to module "
+            "level",
         ),
         Example(
             "a method of another name, a fixture",
@@ -77,18 +78,19 @@ class TestNeverRun(Rule):
                 + _CLASS.replace("TextTests", "TestText")
                 + "\n    def check(self):\n        assert True\n"
             },
-            "5:5: test_data is a fixture, so pytest does not run it as a test",
-            "13:9: pytest does not run check: its name does not begin with test",
+            "5:5: test_data is a fixture: pytest does not run it as a test",
+            "13:9: pytest does not run check: its name does not start with test",
         ),
         Example(
             "a coroutine",
             {"test/test_text.py": _TEST_BODIES.format("async ", "assert True")},
-            "1:11: test_text is a coroutine: pytest does not run it by itself",
+            "1:11: test_text is a coroutine: pytest does not run it; call asyncio.run() in a "
+            "plain test",
         ),
         Example(
             "a generator",
             {"test/test_text.py": _TEST_BODIES.format("", "yield 1")},
-            "1:5: test_text yields: pytest does not run such a test",
+            "1:5: test_text is a generator: pytest does not run it; use parametrize",
         ),
     )
 
@@ -111,7 +113,7 @@ class TestNeverRun(Rule):
                 is_other = isinstance(node, ast.FunctionDef) and node is not test.node
                 if isinstance(node, ast.FunctionDef) and is_other and _is_lost(module, node):
                     place = f"{node.name} is inside {test.node.name}"
-                    message = f"{place}: pytest does not collect it"
+                    message = f"{place}: pytest does not collect it; move it to module level"
                     yield self.report(module.location(node), message)
 
     def _check_functions(self, package: Package, module: PythonModule) -> Iterator[Diagnostic]:
@@ -120,9 +122,9 @@ class TestNeverRun(Rule):
         for function in module.functions.values():
             decorators = function.node.decorator_list
             if function.name.startswith("test") and fixture_decorator(module, function.node):
-                message = f"{function.name} is a fixture, so pytest does not run it as a test"
+                message = f"{function.name} is a fixture: pytest does not run it as a test"
             elif has_tests and not decorators and _could_be_test(function.node, set(fixture_names)):
-                message = f"pytest does not run {function.name}: its name does not begin with test"
+                message = f"pytest does not run {function.name}: its name does not start with test"
             else:
                 continue
             if not is_named_elsewhere(package, module, function.name):
@@ -136,7 +138,7 @@ class TestNeverRun(Rule):
             tests = [item for item in own if item.name.startswith("test")]
             is_case = is_test_case(module, class_.node)
             if not (class_.name.startswith("Test") or class_.node.bases) and tests:
-                message = f"pytest does not run {class_.name}: its name does not begin with Test"
+                message = f"pytest does not run {class_.name}: its name does not start with Test"
                 yield self.report(class_, message)
             if not is_case and (class_.node.bases or not class_.name.startswith("Test")):
                 continue
@@ -146,7 +148,7 @@ class TestNeverRun(Rule):
                     and not suite.decorator_list
                     and not is_named_elsewhere(package, module, suite.name)
                 ):
-                    message = f"pytest does not run {suite.name}: its name does not begin with test"
+                    message = f"pytest does not run {suite.name}: its name does not start with test"
                     yield self.report(module.name_location(suite), message)
 
     def _check_bodies(self, package: Package) -> Iterator[Diagnostic]:
@@ -202,9 +204,12 @@ def _problem(module: PythonModule, test: FunctionNode) -> str:
     if test.decorator_list:
         return ""
     if isinstance(test, ast.AsyncFunctionDef):
-        return f"{test.name} is a coroutine: pytest does not run it by itself"
+        return (
+            f"{test.name} is a coroutine: pytest does not run it; call asyncio.run() in a "
+            f"plain test"
+        )
     for kind in (ast.Yield, ast.YieldFrom):
         for node in module.walk(kind):
             if module.enclosing_function(node) is test:
-                return f"{test.name} yields: pytest does not run such a test"
+                return f"{test.name} is a generator: pytest does not run it; use parametrize"
     return ""

@@ -1,4 +1,4 @@
-"""TS040: a file of tests has tests that pytest collects."""
+"""TS040: test files contain tests that pytest collects."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ _LAUNCH = ("generate_test_description", "launch_description", "pytest_generate_t
 
 
 class TestWithoutTests(TestRule):
-    """A test file has no test that pytest collects, or a test that never fails.
+    """A test file contains no test that pytest collects, or a test that cannot fail.
 
-    **Why.** pytest collects functions that begin with ``test`` and classes that begin with
-    ``Test`` and have no constructor: the file passes without having tested anything.
+    **Why.** pytest collects functions that start with ``test``, and classes that start with
+    ``Test`` and have no constructor: the file passes without testing anything.
 
-    **Fix.** Rename the function or class; assert instead of returning.
+    **Fix.** Rename the function or class; use ``assert`` instead of ``return``.
 
     **Source.** pytest documentation, "Conventions for Python test discovery".
     """
@@ -30,7 +30,7 @@ class TestWithoutTests(TestRule):
         Example(
             "another name",
             {"test/test_text.py": "def check_text():\n    assert True\n"},
-            "1:1: pytest collects no test here: names begin with test_ or Test",
+            "1:1: pytest collects no test here: names must start with test or Test",
         ),
         Example(
             "a class with a constructor",
@@ -39,7 +39,8 @@ class TestWithoutTests(TestRule):
                 "    def __init__(self):\n        self.n = 1\n\n"
                 "    def test_text(self):\n        assert self.n\n"
             },
-            "1:7: pytest does not collect TestText: it has a constructor",
+            "1:7: pytest does not collect TestText, because it has a constructor; use a fixture "
+            "or setup_method()",
         ),
         Example(
             "a comparison that is returned",
@@ -54,10 +55,13 @@ class TestWithoutTests(TestRule):
             return
         yield from self._check_returns(module)
         for class_ in _skipped_classes(module):
-            message = f"pytest does not collect {class_.name}: it has a constructor"
+            message = (
+                f"pytest does not collect {class_.name}, because it has a constructor; use "
+                f"a fixture or setup_method()"
+            )
             yield self.report(module.name_location(class_), message)
         if not _has_tests(module) and _asserts(module):
-            message = "pytest collects no test here: names begin with test_ or Test"
+            message = "pytest collects no test here: names must start with test or Test"
             yield self.report(Location.start_of(module.path), message)
 
     def _check_returns(self, module: PythonModule) -> Iterator[Diagnostic]:

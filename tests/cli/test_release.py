@@ -79,4 +79,4 @@ def test_releasable_package_has_no_findings(
 def test_rule_page_explains_the_release_severity(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["rules", PIP]) == 0
     page = capsys.readouterr().out
-    assert "error with `--release`: a released package cannot depend on what pip installs" in page
+    assert "error with `--release`: a released package cannot depend on pip packages" in page

@@ -18,7 +18,7 @@ from tests.oracles import REQUIRE_ALL
 ROOT = Path(__file__).resolve().parents[2]
 PERSON = ("--maintainer-name", "Ada", "--maintainer-email", "ada@example.com")
 CONFIG = ".pre-commit-config.yaml"
-FINDING = "imports 'std_msgs', which no dependency in package.xml provides"
+FINDING = "imports 'std_msgs', which package.xml does not declare"
 
 
 class Repository:
