@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator, Mapping, Sequence
 
-from scaffold.api import Diagnostic, Effect, Example, Package, RclpyRule, Report, Severity
+from scaffold.api import Diagnostic, Effect, Example, Package, RclpyRule
 from scaffold.api.rclpy import (
     NodeClass,
     NodeDefinition,
@@ -44,7 +44,6 @@ class NodeNeverSpun(RclpyRule):
     code = "ND014"
     name = "node-never-spun"
     effect = Effect.WRONG_BEHAVIOR
-    other_severities = {Severity.WARNING: "its only callback is that of a timer, run once"}
     examples = (
         Example("spun", {"talker.py": _NODE.format("    rclpy.spin(node)\n")}),
         Example(
@@ -83,24 +82,9 @@ class NodeNeverSpun(RclpyRule):
             },
         ),
         Example(
-            "spun once, for one timer",
-            {"talker.py": _NODE.format("    rclpy.spin_once(node)\n")},
-            Report(
-                "17:5",
-                "spin_once() outside a loop runs at most one callback; use spin()",
-                severity=Severity.WARNING,
-            ),
-        ),
-        Example(
             "spun once",
-            {
-                "talker.py": _NODE.replace(
-                    "        self.create_timer(1",
-                    "        self.create_service(Empty, 'stop', self.stop)\n"
-                    "        self.create_timer(1",
-                ).format("    rclpy.spin_once(node)\n")
-            },
-            "18:5: spin_once() outside a loop runs at most one callback; use spin()",
+            {"talker.py": _NODE.format("    rclpy.spin_once(node)\n")},
+            "17:5: spin_once() outside a loop runs at most one callback; use spin()",
         ),
     )
 
@@ -116,8 +100,7 @@ class NodeNeverSpun(RclpyRule):
         lasts = any(node.timers or node.services for node in waiting.values())
         if lasts and len(file.spin_calls) == 1 and _is_once(file, file.spin_calls[0]):
             message = "spin_once() outside a loop runs at most one callback; use spin()"
-            severity = Severity.WARNING if _has_one_timer(waiting) else None
-            yield self.report(file.spin_calls[0], message, severity=severity)
+            yield self.report(file.spin_calls[0], message)
         if file.spin_calls or self._may_run(file):
             return
         for call in file.module.walk(ast.Call):
@@ -197,14 +180,6 @@ def _is_once(file: RclpyFile, spin: RclpyCall) -> bool:
     return (
         is_program and not in_loop and spin.function in {init.function for init in file.init_calls}
     )
-
-
-def _has_one_timer(waiting: Mapping[str, NodeClass]) -> bool:
-    """Tell whether all callbacks are one timer, so that one call may be intended."""
-    nodes = [*waiting.values()]
-    others = [item for node in nodes for item in (*node.subscriptions, *node.services)]
-    others += [item for node in nodes for item in node.action_servers]
-    return not others and sum(len(node.timers) for node in nodes) == 1
 
 
 def _waits(node: NodeDefinition) -> bool:
