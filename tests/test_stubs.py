@@ -24,7 +24,6 @@ from scaffold.types.stubs.libraries import (
     interface_stub_files,
     library_stubs,
     stub_files,
-    write_stubs,
 )
 
 MANIFEST = """<?xml version="1.0"?>
@@ -46,11 +45,18 @@ ament_package()
 """
 
 
+def write_stubs(directory: Path, files: dict[str, str]) -> None:
+    for name, text in files.items():
+        path = directory / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+
+
 @pytest.fixture(scope="module")
 def bundled(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Return a directory with the stubs of the distribution and of the bundle."""
     directory = tmp_path_factory.mktemp("stubs")
-    write_stubs(str(directory), stub_files(JAZZY, Definitions.around(prefixes=[])))
+    write_stubs(directory, stub_files(JAZZY, Definitions.around(prefixes=[])))
     return directory
 
 
@@ -467,5 +473,5 @@ def test_fields_and_messages_with_odd_names_have_types(
     (tmp_path / "workspace").mkdir()
     definitions = definitions_of(tmp_path / "workspace", ODD)
     stubs = package_stubs(definitions, "robot_interfaces")
-    write_stubs(str(bundled), stubs)
+    write_stubs(bundled, stubs)
     assert errors(ODD_PROGRAM) == wrong_lines(ODD_PROGRAM)

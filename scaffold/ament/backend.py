@@ -116,7 +116,7 @@ class StyleCheck:
         self._run: ruff.Run | None = None
         self._cache = Cache.of_user(_identity)
         self._files = {id(package): self._read(package) for package in packages}
-        self._keep = list(packages)
+        self._packages = list(packages)  # keeps their ids from being reused
         wanted = [file for files in self._files.values() for file in files if file.findings is None]
         if wanted:
             self._run = ruff.Run([item.on_disk for item in wanted])

@@ -10,7 +10,7 @@ from scaffold.changes import (
     removed_name,
     removed_package,
 )
-from scaffold.distributions import ENDED, NAMES, Distribution, refusal, target
+from scaffold.distributions import ENDED, NAMES, Distribution, target
 
 __all__ = [
     "ENDED",
@@ -19,7 +19,6 @@ __all__ = [
     "Distribution",
     "of_kind",
     "of_program",
-    "refusal",
     "removed_interface",
     "removed_name",
     "removed_package",

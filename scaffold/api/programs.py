@@ -19,7 +19,7 @@ from scaffold.model.programs.blocking import (
     waits_in,
 )
 from scaffold.model.programs.entry_points import Execution, paths_of, run_of, starts_of
-from scaffold.model.programs.executables import nodes_of, programs_of
+from scaffold.model.programs.executables import programs_of
 from scaffold.model.programs.executors import Shutdowns, used_of_executor
 from scaffold.model.programs.initialization import calls_others, late_init, may_init
 from scaffold.model.programs.known_nodes import KnownNode
@@ -65,7 +65,6 @@ __all__ = [
     "may_run_meanwhile",
     "named_endpoints",
     "names_other_executor",
-    "nodes_of",
     "one_sided",
     "paths_of",
     "phases_of",

@@ -135,12 +135,3 @@ def interface_stub_files(package: Package) -> dict[str, str]:
     if package.name not in definitions.packages():
         return {}
     return package_stubs(definitions, package.name, others=True)
-
-
-def write_stubs(directory: str, files: dict[str, str]) -> None:
-    """Write stubs below a directory, which is created if necessary."""
-    for path, text in files.items():
-        target = os.path.join(directory, path)
-        os.makedirs(os.path.dirname(target), exist_ok=True)
-        with open(target, "w", encoding="utf-8") as file:
-            file.write(text)
