@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable
+from collections.abc import Callable, Collection, Iterable
 from itertools import pairwise
-from typing import TYPE_CHECKING
-
-if TYPE_CHECKING:
-    from scaffold.model.package import Package
+from typing import Protocol, TypeVar
 
 MOST_COMPARED = 50_000
 """The maximum number of compared pairs per package; one takes some microseconds."""
@@ -21,12 +18,22 @@ CANDIDATES = 3
 """The number of closest names that are compared in lower case."""
 
 
+View = TypeVar("View")
+
+
+class Memory(Protocol):
+    """What keeps values as long as a package is checked: the package itself."""
+
+    def remember(self, key: object, build: Callable[[], View]) -> View:
+        """Return the result of ``build``, which is called once per key."""
+
+
 class _Budget:
     def __init__(self) -> None:
         self.left = MOST_COMPARED
 
 
-def closest_name(package: Package, word: str, names: Collection[str], cutoff: float) -> str:
+def closest_name(package: Memory, word: str, names: Collection[str], cutoff: float) -> str:
     """Return the name closest to a word.
 
     Args:

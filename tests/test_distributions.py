@@ -18,10 +18,10 @@ from scaffold.cli.main import main
 from scaffold.diagnostic import Diagnostic, Severity
 from scaffold.distributions import NAMES, ORDER, named, nearest
 from scaffold.edits import Edit, Fix
-from scaffold.model.interfaces.definitions import Definitions
 from scaffold.model.manifest import conditions
 from scaffold.model.package import Package
 from scaffold.model.rclpy.api import names_of
+from scaffold.model.workspace.definitions import definitions_for
 from scaffold.source import Location
 from scaffold.types.stubs.libraries import library_stubs
 from scripts import bundle_distribution
@@ -395,7 +395,7 @@ def test_each_distribution_has_its_data(name: str) -> None:
     assert "create_publisher()" in names_of(item)["rclpy.node.Node"]
     assert "rclpy/node.pyi" in library_stubs(item)
     with distributions.targeting(item):
-        definition = Definitions.around(prefixes=()).find("std_msgs/msg/Header")
+        definition = definitions_for(prefixes=()).find("std_msgs/msg/Header")
     assert definition is not None
 
 

@@ -18,6 +18,7 @@ from scaffold.cli.main import main
 from scaffold.distributions import JAZZY
 from scaffold.model.discovery import targets as discovery
 from scaffold.model.interfaces.definitions import Definitions
+from scaffold.model.workspace.definitions import definitions_for
 from scaffold.model.workspace.workspace import Workspace
 from scaffold.types.stubs.interface_stubs import package_stubs
 from scaffold.types.stubs.libraries import (
@@ -56,7 +57,7 @@ def write_stubs(directory: Path, files: dict[str, str]) -> None:
 def bundled(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Return a directory with the stubs of the distribution and of the bundle."""
     directory = tmp_path_factory.mktemp("stubs")
-    write_stubs(directory, stub_files(JAZZY, Definitions.around(prefixes=[])))
+    write_stubs(directory, stub_files(JAZZY, definitions_for(prefixes=[])))
     return directory
 
 
@@ -73,7 +74,7 @@ def definitions_of(directory: Path, files: dict[str, str]) -> Definitions:
         target.parent.mkdir(parents=True, exist_ok=True)
         target.write_text(text)
     workspace = Workspace(target.package for target in discovery.find([str(directory)]))
-    return Definitions.around(workspace, [])
+    return definitions_for(workspace, [])
 
 
 CHECKERS = {

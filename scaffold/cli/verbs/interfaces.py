@@ -59,7 +59,7 @@ def run(options: argparse.Namespace) -> int:
 def _definitions(directory: str) -> Definitions:
     from scaffold.errors import InputError
     from scaffold.model.discovery import targets as discovery
-    from scaffold.model.interfaces.definitions import Definitions
+    from scaffold.model.workspace.definitions import definitions_for
     from scaffold.model.workspace.workspace import Workspace
 
     if not os.path.isdir(directory):
@@ -68,7 +68,7 @@ def _definitions(directory: str) -> Definitions:
         targets = discovery.find([directory])
     except InputError:  # a directory without packages is fine: there are other interfaces
         targets = []
-    return Definitions.around(Workspace(target.package for target in targets))
+    return definitions_for(Workspace(target.package for target in targets))
 
 
 def _as_text(interface: Interface) -> str:

@@ -50,7 +50,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Write the stubs; return the exit code."""
     from scaffold.cli.exit_codes import CLEAN
-    from scaffold.model.interfaces.definitions import Definitions
+    from scaffold.model.workspace.definitions import definitions_for
     from scaffold.types.stubs import typings
     from scaffold.types.stubs.libraries import stub_files
 
@@ -60,7 +60,7 @@ def run(options: argparse.Namespace) -> int:
     else:
         distribution = (distro.recorded(".") or [distributions.JAZZY])[0]
     with distributions.targeting(distribution):
-        stubs = stub_files(distribution, Definitions.around(workspace))
+        stubs = stub_files(distribution, definitions_for(workspace))
     plan = typings.plan(options.output, stubs, force=options.force)
     if options.diff:
         terminal.show_patch(plan.diff())

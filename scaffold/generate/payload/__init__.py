@@ -17,6 +17,7 @@ from scaffold.generate.payload.payloads import (
     ServicePayload,
 )
 from scaffold.model.interfaces.definitions import KINDS, Definitions
+from scaffold.model.workspace.definitions import definitions_for
 
 __all__ = [
     "ActionPayload",
@@ -97,7 +98,7 @@ def _definitions(real: str) -> Definitions:
     for package_directory in colcon.packages_around(Disk(), real, most=MOST_DIRECTORIES):
         if _has_interfaces(package_directory):
             workspace.add(Package.at(package_directory, workspace))
-    return Definitions.around(workspace)
+    return definitions_for(workspace)
 
 
 def _has_interfaces(directory: str) -> bool:

@@ -2,19 +2,13 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING
 
-from scaffold import distributions
 from scaffold.errors import InputError
 from scaffold.model.interfaces.sources import (
-    BundleSource,
     DefinitionSource,
     KnownPackage,
-    PrefixSource,
     Text,
-    WorkspaceSource,
 )
 from scaffold.model.interfaces.syntax import (
     SECTIONS,
@@ -27,9 +21,6 @@ from scaffold.model.interfaces.syntax import (
 )
 from scaffold.model.interfaces.types import TEXTS, Value
 from scaffold.record import NamedTuple
-
-if TYPE_CHECKING:
-    from scaffold.model.workspace.workspace import Workspace
 
 KINDS = tuple(SECTIONS)
 
@@ -106,12 +97,6 @@ class Spelling(NamedTuple):
     name: str
 
 
-def _is_of_another(prefix: str) -> bool:
-    """Tell whether a prefix is an installation of a distribution other than the target."""
-    name = os.path.basename(prefix.rstrip(os.sep))
-    return name in distributions.NAMES and name != distributions.target().name
-
-
 class Definitions:
     """Looks up interfaces; the first source that has a package provides all of it."""
 
@@ -119,26 +104,6 @@ class Definitions:
         self._sources = sources
         self._packages: dict[str, KnownPackage | None] = {}
         self._interfaces: dict[str, Interface | None] = {}
-
-    @classmethod
-    def around(
-        cls, workspace: Workspace | None = None, prefixes: Sequence[str] | None = None
-    ) -> Definitions:
-        """Return the definitions of a workspace, of installed packages and of the bundle.
-
-        Args:
-            workspace: The packages that are checked or generated together.
-            prefixes: The install prefixes; ``None``: those of ``AMENT_PREFIX_PATH``.
-        """
-        if prefixes is None:
-            listed = os.environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep)
-            prefixes = [path for path in listed if path and not _is_of_another(path)]
-        sources: list[DefinitionSource] = []
-        if workspace is not None:
-            sources.append(WorkspaceSource(workspace))
-        if prefixes:
-            sources.append(PrefixSource(prefixes, workspace.disk if workspace else None))
-        return cls([*sources, BundleSource()])
 
     def find(self, full_name: str) -> Interface | None:
         """Return an interface by ``package/kind/Name``.

@@ -5,19 +5,13 @@ from __future__ import annotations
 import os
 from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
-from typing import TYPE_CHECKING, Protocol
+from typing import Protocol
 
 from scaffold import distributions
 from scaffold.files.disk import Disk
-from scaffold.model.cmake.rosidl import generations
 from scaffold.model.interfaces.syntax import SECTIONS
 from scaffold.record import NamedTuple
-from scaffold.source import Source, ViewError
-
-if TYPE_CHECKING:
-    from scaffold.model.package import Package
-    from scaffold.model.workspace.workspace import Workspace
-
+from scaffold.source import Source
 
 MAX_BYTES = 500_000
 """The size limit of a definition; the largest released one has 20 kB."""
@@ -49,78 +43,6 @@ class DefinitionSource(Protocol):
 
     def packages(self) -> Sequence[str]:
         """Return the sorted names of the packages."""
-
-
-# -- the workspace
-
-
-class WorkspaceSource:
-    """The packages that are checked together."""
-
-    def __init__(self, workspace: Workspace) -> None:
-        self._workspace = workspace
-        self._by_name: dict[str, _WorkspacePackage | None] = {}
-
-    def package(self, name: str) -> KnownPackage | None:
-        """Return a package that defines interfaces."""
-        if name not in self._by_name:
-            package = self._workspace.get(name)
-            self._by_name[name] = _WorkspacePackage.of(package) if package is not None else None
-        return self._by_name[name]
-
-    def packages(self) -> Sequence[str]:
-        """Return the sorted names of the packages."""
-        return sorted(name for name in self._workspace.by_name if self.package(name) is not None)
-
-
-class _WorkspacePackage:
-    def __init__(self, package: Package, paths: Mapping[str, Mapping[str, list[str]]]) -> None:
-        self._package = package
-        self._paths = paths
-
-    @classmethod
-    def of(cls, package: Package) -> _WorkspacePackage | None:
-        """Return the interfaces of a package; ``None`` if it has none."""
-        paths: dict[str, dict[str, list[str]]] = {kind: {} for kind in SECTIONS}
-        for path in package.files:
-            stem, dot, ending = path.rpartition("/")[2].rpartition(".")
-            kind = path.split("/")[-2] if ending == "idl" and "/" in path else ending
-            if dot and kind in SECTIONS and not is_test_data(path):
-                paths[kind].setdefault(stem, []).append(path)
-        return cls(package, paths) if any(paths.values()) else None
-
-    def names(self, kind: str) -> Sequence[str] | None:
-        """Return the names; a package with interfaces from elsewhere may have more."""
-        return sorted(self._paths[kind]) if self._is_complete else None
-
-    @cached_property
-    def _is_complete(self) -> bool:
-        """Whether all interfaces are from files in the package, and not shadowed in Python."""
-        package = self._package
-        if any(package.has_directory(f"{package.name}/{kind}") for kind in SECTIONS):
-            return False
-        try:
-            calls = generations(package)
-        except ViewError:
-            return False
-        return bool(calls) and all(
-            call.is_complete and all(package.has(file.path) for file in call.files)
-            for call in calls
-        )
-
-    def text(self, kind: str, name: str) -> Text | None:
-        """Return a definition, unless it is IDL or there are several."""
-        paths = self._paths[kind].get(name, [])
-        standard = f"{kind}/{name}.{kind}"
-        path = standard if standard in paths else paths[0] if len(paths) == 1 else ""
-        if not path.endswith(f".{kind}"):
-            return None
-        try:
-            source = self._package.source(path)
-        except ViewError:
-            return None
-        directory = self._package.directory
-        return Text(source, os.path.join(directory, path) if directory not in {"", "."} else path)
 
 
 def is_test_data(path: str) -> bool:

@@ -84,9 +84,9 @@ class Workspace:
     @cached_property
     def interfaces(self) -> Definitions:
         """The interfaces that these packages can use; their own come first."""
-        from scaffold.model.interfaces.definitions import Definitions
+        from scaffold.model.workspace.definitions import definitions_for
 
-        return Definitions.around(self)
+        return definitions_for(self)
 
     @cached_property
     def rosdep(self) -> RosdepKeys | None:

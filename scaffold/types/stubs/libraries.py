@@ -97,12 +97,12 @@ def stub_files(
         definitions: The interfaces: those of the workspace, of installed packages, of the bundle;
             ``None`` for the bundle alone.
     """
-    from scaffold.model.interfaces.definitions import Definitions
+    from scaffold.model.workspace.definitions import definitions_for
 
     files = library_stubs(distribution)
     if definitions is None:
         with distributions.targeting(distribution):
-            definitions = Definitions.around(prefixes=())
+            definitions = definitions_for(prefixes=())
     for package in definitions.packages():
         for path, text in package_stubs(definitions, package).items():
             files.setdefault(path, text)
@@ -111,10 +111,10 @@ def stub_files(
 
 def stubs_of(distribution: Distribution, name: str) -> dict[str, str]:
     """Return the `stub_files` of one importable package."""
-    from scaffold.model.interfaces.definitions import Definitions
+    from scaffold.model.workspace.definitions import definitions_for
 
     with distributions.targeting(distribution):
-        definitions = Definitions.around(prefixes=())
+        definitions = definitions_for(prefixes=())
     is_known = name in definitions.packages()
     made = package_stubs(definitions, name) if is_known else {}
     own = {path: text for path, text in made.items() if path.startswith(f"{name}/")}
@@ -128,7 +128,7 @@ def interface_stub_files(package: Package) -> dict[str, str]:
     imported from the stubs of those.
     """
     from scaffold.model.interfaces.definitions import Definitions
-    from scaffold.model.interfaces.sources import WorkspaceSource
+    from scaffold.model.workspace.definitions import WorkspaceSource
     from scaffold.model.workspace.workspace import Workspace
 
     definitions = Definitions([WorkspaceSource(Workspace([package]))])

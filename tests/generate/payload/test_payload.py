@@ -33,6 +33,7 @@ from scaffold.generate.templates import loading
 from scaffold.model.discovery import targets as discovery
 from scaffold.model.interfaces.definitions import Definitions
 from scaffold.model.interfaces.sources import PrefixSource
+from scaffold.model.workspace.definitions import definitions_for
 from scaffold.model.workspace.workspace import Workspace
 from scaffold.smoke import environment
 from scaffold.smoke.isolation import domain
@@ -43,7 +44,7 @@ from tests.generate.payload.publishing import Publisher, receive
 ROOTS = content.roots("templates")
 TEMPLATES = loading.load(ROOTS)
 INSTALLED = Definitions([PrefixSource([sys.prefix])])
-BUNDLED = Definitions.around(prefixes=[])
+BUNDLED = definitions_for(prefixes=[])
 
 
 def importable(kind: str) -> list[str]:
@@ -267,7 +268,7 @@ def packages(tmp_path_factory: pytest.TempPathFactory) -> Path:
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("AMENT_PREFIX_PATH", sys.prefix)
         # A package that is installed counts, and may be older than the bundle.
-        known = Definitions.around(prefixes=[sys.prefix]).all_names()
+        known = definitions_for(prefixes=[sys.prefix]).all_names()
         for name in sorted({*MESSAGES, *(name for name in known if "/msg/" in name)}):
             write(root, package=package(name), message_type=name, node_name="talker")
     return root
@@ -341,7 +342,7 @@ def own(tmp_path: Path) -> Fill:
             (directory / "msg" / f"{item}.msg").write_text(lines)
         targets = discovery.find([str(tmp_path)])
         workspace = Workspace([target.package for target in targets])
-        return payload.payload(f"robot_msgs/{name}", Definitions.around(workspace, prefixes=[]))
+        return payload.payload(f"robot_msgs/{name}", definitions_for(workspace, prefixes=[]))
 
     return fill
 

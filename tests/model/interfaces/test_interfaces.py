@@ -28,6 +28,7 @@ from scaffold.model.interfaces.syntax import (
 )
 from scaffold.model.interfaces.types import FieldType, is_constant_name, is_field_name, is_type_name
 from scaffold.model.package import Package
+from scaffold.model.workspace.definitions import definitions_for
 from scaffold.model.workspace.workspace import Workspace
 from scaffold.source import Source
 
@@ -415,7 +416,7 @@ def test_prefix_takes_precedence_over_the_bundle(
         index.mkdir(parents=True, exist_ok=True)
         (index / name).touch()
     monkeypatch.setenv("AMENT_PREFIX_PATH", f"{tmp_path / 'missing'}:{tmp_path}")
-    definitions = Definitions.around()
+    definitions = definitions_for()
     assert definitions.names("std_msgs", "msg") == ["Other", "Text"]
     assert definitions.find("std_msgs/msg/Other") is None
     text = definitions.find("new_msgs/msg/Text")
