@@ -23,7 +23,6 @@ from scaffold.model.manifest.structure import (
     Structure,
     Unknown,
     collapse,
-    structure,
 )
 from scaffold.model.manifest.values import (
     CONDITION,
@@ -62,12 +61,17 @@ def diagnostics(package: Package, code: str) -> Iterator[Diagnostic]:
         yield from _names(package, code)
         return
     else:
-        problems = _PROBLEMS[code](package, structure(package))
+        problems = _PROBLEMS[code](package, _structure(package))
     is_harmless = code == "PX065" and _is_for_linter_alone(package)
     for problem in problems:
         reported = diagnostic(code, *problem)
         is_harmless = is_harmless or (code == "PX050" and _is_unused_file(package, reported))
         yield reported._replace(severity=Severity.WARNING) if is_harmless else reported
+
+
+def _structure(package: Package) -> Structure:
+    """Return the structure of the manifest; raises ViewError without a manifest."""
+    return package.remember("manifest_structure", lambda: Structure(package.manifest))
 
 
 def _is_unused_file(package: Package, unreadable: Diagnostic) -> bool:
@@ -258,7 +262,7 @@ def _texts(_: Package, structure: Structure) -> Iterator[_Problem]:
 
 
 def _names(package: Package, code: str) -> Iterator[Diagnostic]:
-    for element, name in structure(package).values("name"):
+    for element, name in _structure(package).values("name"):
         if not fits(NAME, name):
             is_plain = fits(NAME, name.replace("-", "_")) and not package.glob("msg/*.msg")
             severity = Severity.WARNING if is_plain else Severity.ERROR

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from scaffold.formats.ini import IniFile, IniOption
+from scaffold.model.install.console_scripts import node_scripts
+from scaffold.model.install.package_data import installed_data, matches, package_data
 from scaffold.model.setup_py import edit as setup_edit
-from scaffold.model.setup_py.console_scripts import node_scripts
 from scaffold.model.setup_py.data_files import DataFile
 from scaffold.model.setup_py.entry_points import EntryPoint
-from scaffold.model.setup_py.package_data import installed_data, matches, package_data
 from scaffold.model.setup_py.setup_py import FindPackages, SetupPy
 
 __all__ = [

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from scaffold.model.workspace.gitignore import is_untracked
+from scaffold.model.discovery.gitignore import is_untracked
 
 __all__ = [
     "is_untracked",

@@ -11,9 +11,9 @@ from typing import TypeVar
 from scaffold.ament import copyright as notices
 from scaffold.ament.copyright import Header
 from scaffold.generate import repository
+from scaffold.model.discovery.gitignore import is_untracked
 from scaffold.model.launch.files import ENDINGS
 from scaffold.model.package import Package
-from scaffold.model.workspace.gitignore import is_untracked
 
 _T = TypeVar("_T", bound=Hashable)
 

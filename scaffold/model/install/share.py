@@ -8,9 +8,9 @@ from fnmatch import fnmatchcase
 from typing import TYPE_CHECKING
 
 from scaffold.model.cmake.ament import has_unknown_commands
+from scaffold.model.discovery.gitignore import is_untracked
+from scaffold.model.install.package_data import matches
 from scaffold.model.python.values import Glob
-from scaffold.model.setup_py.package_data import matches
-from scaffold.model.workspace.gitignore import is_untracked
 from scaffold.record import NamedTuple
 from scaffold.source import ViewError
 

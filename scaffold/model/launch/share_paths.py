@@ -10,12 +10,12 @@ from contextlib import suppress
 from difflib import get_close_matches
 from typing import TYPE_CHECKING
 
+from scaffold.model.discovery.gitignore import is_untracked
 from scaffold.model.facts import fact
 from scaffold.model.install.share import share_of
 from scaffold.model.launch.files import DATA_DIRECTORIES
 from scaffold.model.launch.markup_file import markup_files
 from scaffold.model.launch.python_file import LaunchFile, SharePath, launch_paths
-from scaffold.model.workspace.gitignore import is_untracked
 from scaffold.record import NamedTuple
 from scaffold.source import ViewError
 

@@ -11,15 +11,11 @@ from bisect import bisect_right
 from collections.abc import Iterator
 from functools import cached_property
 from itertools import groupby
-from typing import TYPE_CHECKING
 
 from scaffold.formats.xml import BLANK, Attribute, Element, Text
 from scaffold.model.manifest.manifest import Manifest
 from scaffold.record import NamedTuple
 from scaffold.source import Location
-
-if TYPE_CHECKING:
-    from scaffold.model.package import Package
 
 _MAX_UNKNOWN = 1000  # reported elements; each is compared with all known ones
 FORMATS = (1, 2, 3)
@@ -201,11 +197,6 @@ class Structure:
             if child.tag == tag and not child.children:
                 text = "".join(item.text for item in child.content if isinstance(item, Text))
                 yield child, collapse(text)
-
-
-def structure(package: Package) -> Structure:
-    """Return the structure of the manifest of a package; raises ViewError without a manifest."""
-    return package.remember("manifest_structure", lambda: Structure(package.manifest))
 
 
 def collapse(text: str) -> str:

@@ -10,11 +10,11 @@ from typing import TYPE_CHECKING
 from scaffold.formats.hash_comments import without_comments
 from scaffold.model.cmake.ament import programs
 from scaffold.model.facts import fact
+from scaffold.model.install.console_scripts import has_program_files
+from scaffold.model.install.package_data import installed_data
 from scaffold.model.install.unused import TEXTS, is_in_python_package, is_named, names_file
 from scaffold.model.python.module import is_in_tests
 from scaffold.model.rclpy.api import NODE, has
-from scaffold.model.setup_py.console_scripts import has_program_files
-from scaffold.model.setup_py.package_data import installed_data
 from scaffold.record import NamedTuple
 from scaffold.source import ViewError
 

@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 from scaffold.files.tree import DiskTree
+from scaffold.model.discovery.gitignore import is_untracked
 from scaffold.model.package import Package
-from scaffold.model.workspace.gitignore import is_untracked
 from scaffold.model.workspace.workspace import Workspace
 
 
