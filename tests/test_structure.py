@@ -18,12 +18,13 @@ CIRCLES_OF_TYPES = {
             *("parameters.declarations", "parameters.descriptors"),
         )
     ),
-    # Packages know their workspace, which knows its packages and the interfaces they define.
+    # Packages know their workspace, which knows its packages and the interfaces that CMake
+    # generates in them.
     "scaffold.model.package": frozenset(
         f"{MODEL}.{name}"
         for name in (
-            *("cmake.ament", "cmake.rosidl", "discovery.unchecked", "interfaces.definitions"),
-            *("interfaces.sources", "workspace.workspace"),
+            *("cmake.ament", "cmake.rosidl", "discovery.unchecked"),
+            *("workspace.definitions", "workspace.workspace"),
         )
     ),
 }
