@@ -9,9 +9,8 @@ from scaffold.diagnostic import Diagnostic, Severity
 from scaffold.record import NamedTuple
 
 if TYPE_CHECKING:
-    from scaffold.check.cache.facts import Settled
     from scaffold.model.package import Package
-    from scaffold.model.reads import FactId, StoredFact
+    from scaffold.model.reads import FactId, Settled, StoredFact
 
 
 class Part(NamedTuple):

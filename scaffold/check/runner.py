@@ -27,7 +27,7 @@ from scaffold.source import (
 )
 
 if TYPE_CHECKING:
-    from scaffold.check.cache.facts import Settled
+    from scaffold.model.reads import Settled
 
 MOST_REFUSED = 100
 """The maximum number of files of a package that exhaust a rule."""

@@ -134,6 +134,11 @@ class StoredFact(NamedTuple):
         return isinstance(self.encoded, tuple) and self.encoded[0] == _FAILED
 
 
+Settled = dict[FactId, StoredFact | Fact | None]
+"""The facts that somebody asked about in this run: as stored, or made again with the same value;
+``None`` for others."""
+
+
 class recorded:  # noqa: N801  used like a function; a generator would take twice the time
     """Record accesses in the block in ``reads``, and only there."""
 

@@ -8,16 +8,12 @@ from typing import TYPE_CHECKING
 
 from scaffold import time_limit
 from scaffold.model.facts import ask_again
-from scaffold.model.reads import Fact, FactId, Key, StoredFact
+from scaffold.model.reads import Fact, FactId, Key, Settled, StoredFact
 from scaffold.source import ViewError
 
 if TYPE_CHECKING:
     from scaffold.check.result import Earlier
     from scaffold.model.package import Package
-
-    Settled = dict[FactId, StoredFact | Fact | None]
-    """The facts that somebody asked about in this run: as stored, or made again with the same
-    value; ``None`` for others."""
 
 
 class EarlierFacts:

@@ -16,7 +16,7 @@ from scaffold.model.reads import Fact, FactId, StoredFact
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from scaffold.check.cache.facts import Settled
+    from scaffold.model.reads import Settled
 
 OLD = "import os\n"
 
