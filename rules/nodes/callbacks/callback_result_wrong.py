@@ -12,7 +12,8 @@ from scaffold.api.messages import MessageTypes
 from scaffold.api.python import FunctionNode, is_generator, may_end, returned, value_set_before
 from scaffold.api.rclpy import ActionServer, Service, is_overridden, worker
 
-_ANSWERS = {"goal_callback": "GoalResponse", "cancel_callback": "CancelResponse"}
+from ._returned_values import ANSWERS, wrong_for_action, wrong_response
+
 _REJECTED = "it is treated as a rejection"
 """The effect of a missing answer, which may be intended on some paths."""
 _NODE = (
@@ -253,11 +254,11 @@ class CallbackResultWrong(MessageRule):
     def _check_actions(self, types: MessageTypes) -> Iterator[Diagnostic]:
         seen: set[tuple[str, FunctionNode]] = set()
         for server in types.file.action_servers:
-            for name in ("execute_callback", *_ANSWERS):
+            for name in ("execute_callback", *ANSWERS):
                 function = _function(types, server, name)
                 if function is not None and (name, function) not in seen:
                     seen.add((name, function))
-                    expected = _expected_by_action(types, server, function, _ANSWERS.get(name, ""))
+                    expected = _expected_by_action(types, server, function, ANSWERS.get(name, ""))
                     yield from self._check(types, function, expected)
 
     def _check_services(self, package: Package, types: MessageTypes) -> Iterator[Diagnostic]:
@@ -326,7 +327,7 @@ def _expected_by_action(
         f"a {answer}" if answer else "the result",
         f"for the action server of line {server.location.line}: {happens}",
         f"what {types.module.path}:{function.lineno} returns",
-        lambda statement: _wrong(types, server, statement.value, answer),
+        lambda statement: wrong_for_action(types, server, statement.value, answer),
     )
 
 
@@ -337,7 +338,7 @@ def _expected_by_service(
         "the response",
         f"(service of line {service.location.line}): TypeError",
         f"what {types.module.path}:{function.lineno} returns",
-        lambda statement: _wrong_response(
+        lambda statement: wrong_response(
             types, service, value_set_before(function, statement) or statement.value
         ),
     )
@@ -358,32 +359,6 @@ def _function(types: MessageTypes, server: ActionServer, name: str) -> FunctionN
         return None
     is_plain = not callback.is_called and not callback.is_partial and not function.decorator_list
     return function if is_plain and not is_generator(function) else None
-
-
-def _wrong(types: MessageTypes, server: ActionServer, value: ast.expr | None, answer: str) -> str:
-    """Describe a returned value that is certainly wrong; empty for others."""
-    if value is None:
-        return "nothing"
-    if isinstance(value, ast.Constant):
-        return repr(value.value)
-    if answer:
-        return _wrong_answer(types, value, answer)
-    if isinstance(value, ast.Attribute) and types.class_of(value) is not None:
-        return f"the class {types.module.text(value)}"
-    message = types.type_of(value)
-    if message is None or types.definitions.find(server.interface or "") is None:
-        return ""
-    return "" if message.name == f"{server.interface}.Result" else message.name
-
-
-def _wrong_answer(types: MessageTypes, value: ast.expr, answer: str) -> str:
-    """Describe a returned value that is certainly not an answer to a goal."""
-    match value:
-        case ast.Compare() | ast.UnaryOp(op=ast.Not()):
-            return "a bool"
-    name = types.module.qualified_name(value) or ""
-    other = next((x for x in _ANSWERS.values() if f".{x}." in name), answer)
-    return "" if other == answer else f"a {other}"
 
 
 def _is_new(types: MessageTypes, function: FunctionNode, value: ast.expr | None) -> bool:
@@ -425,43 +400,3 @@ def _is_untouched(types: MessageTypes, function: FunctionNode, value: ast.expr |
     given = function.args.args[-1].arg if function.args.args else ""
     uses = [x for x in types.module.below(function, ast.Name) if x.id == given]
     return bool(given) and uses == [value]
-
-
-def _returns_nothing(function: ast.FunctionDef) -> bool:
-    """Tell whether a function returns nothing, and is neither empty nor raises."""
-    is_plain = not function.decorator_list and not is_generator(function)
-    does_something = any(
-        isinstance(node, ast.Assign | ast.Attribute) for node in ast.walk(function)
-    )
-    return is_plain and does_something and may_end(function) and not returned(function)
-
-
-def _not_a_message(types: MessageTypes, value: ast.expr) -> str:
-    """Describe a returned value that is certainly not a message; empty for others."""
-    match value:
-        case ast.Constant(value=constant):
-            return "None" if constant is None else f"a {type(constant).__name__}"
-        case ast.Dict() | ast.List() | ast.Tuple() | ast.Set():
-            return f"a {type(value).__name__.lower()}"
-        case ast.Call(func=func):
-            called = types.file.callback(func).function
-            if isinstance(called, ast.FunctionDef) and _returns_nothing(called):
-                return f"nothing from {called.name}()"
-    return ""
-
-
-def _wrong_response(types: MessageTypes, service: Service, value: ast.expr | None) -> str:
-    """Describe a returned value that is certainly not the response; empty for others."""
-    if value is None:
-        return "nothing"
-    plain = _not_a_message(types, value)
-    if plain:
-        return plain
-    field = types.field_type_of(value)
-    if field is not None and (field.is_primitive or field.is_array):
-        return f"the field {types.module.text(value)}"
-    owner = types.type_of(value)
-    if owner is not None and service.interface and owner.name != f"{service.interface}.Response":
-        return owner.name
-    class_ = types.class_of(value) if isinstance(value, ast.Name | ast.Attribute) else None
-    return f"the class {class_.name}" if class_ else ""
