@@ -26,6 +26,7 @@ from scaffold.smoke.isolation import shared_memory
 from scaffold.smoke.options import Options
 from scaffold.smoke.processes import marks, output, process, supervisor, table
 from scaffold.smoke.processes.process import Origin
+from scaffold.smoke.processes.uninterrupted import uninterrupted
 from scaffold.smoke.session import smoke
 from tests import PATIENCE
 from tests.smoke.smoke_packages import python_package, talker
@@ -113,17 +114,25 @@ def test_detached_process_is_killed(tmp_path: Path) -> None:
     assert run_supervised(DETACHED, tmp_path, use) == ["sleep 612"]
 
 
-def test_cancellation_does_not_cut_the_end_of_a_process_short(tmp_path: Path) -> None:
-    async def use(running: process.Running) -> int | None:
-        closing = asyncio.create_task(running.close())
+def test_cancellation_does_not_cut_a_cleanup_short() -> None:
+    async def run() -> list[str]:
+        may_end, said = asyncio.Event(), list[str]()
+
+        async def cleanup() -> None:
+            said.append("begun")
+            await may_end.wait()
+            said.append("ended")
+
+        task = asyncio.create_task(uninterrupted(cleanup()))
         for _ in range(3):
             await asyncio.sleep(0.01)
-            closing.cancel()
+            task.cancel()
+        may_end.set()
         with pytest.raises(asyncio.CancelledError):
-            await closing
-        return running.exit_code
+            await task
+        return said
 
-    assert run_supervised(STUBBORN, tmp_path, use) == -signal.SIGKILL
+    assert asyncio.run(run()) == ["begun", "ended"]
 
 
 def test_fork_bomb_is_killed(tmp_path: Path) -> None:
