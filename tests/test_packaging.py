@@ -152,6 +152,15 @@ def test_pre_commit_accepts_the_hook() -> None:
         assert verb in VERBS
 
 
+def test_hooks_run_on_every_file_that_a_rule_reports() -> None:
+    hooks = yaml_file.read(str(ROOT / ".pre-commit-hooks.yaml"))
+    pattern = re.compile(hooks[0]["files"])
+    rules = registry.load(content.roots("rules"))
+    examples = [example for rule in rules for example in rule.examples]
+    reported = {report.at.split(":")[0] for example in examples for report in example.reports}
+    assert {path for path in reported if not pattern.search(path)} == set()
+
+
 ADVISORIES = {
     "jinja2": ("CVE-2025-27516", "3.1.6"),
     "lxml": ("CVE-2026-41066", "6.1"),
