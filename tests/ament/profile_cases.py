@@ -63,6 +63,11 @@ CASES = (
     Case("E741", "f(lambda l: 1)\n", (J, K, L)),
     Case("E741", "def f(a=l):\n    pass\n", (H,)),
     Case("F811", "a = 1\n\n\ndef a():\n    pass\n", (J, K, L)),
+    Case(
+        "F811",
+        "match 1:\n    case 1:\n        import a\n    case 2:\n        import a\na\n",
+        (H,),
+    ),
     Case("F824", "def f():\n    global x\n    print(x)\n", (L,)),
     Case("F824", "def f():\n    global x\n    x = 1\n", ()),
     Case("F842", "def f():\n    x: int\n", (J, K, L)),

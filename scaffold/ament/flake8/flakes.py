@@ -85,7 +85,7 @@ def check(
     # From Python 3.14 on, annotations are evaluated lazily, which ruff handles for the target.
     is_deferred = distributions.target().python >= (3, 14)
     ends = {(item.code, item.line, item.column): item for item in diagnostics}
-    for message in messages(text.index, text.path, builtins):
+    for message in messages(text.index, text.path, builtins, splits_match=not is_before_3):
         code = CODES.get(type(message).__name__, "")
         if not code or (is_before_3 and _is_of_3(text, code, message.message_args)):
             continue

@@ -49,13 +49,21 @@ _SILENT = frozenset({"ctx", "op", "ops", "arg", "attr", "conversion", "kind", "t
 """Fields without nodes, or whose nodes pyflakes visits and ignores."""
 
 
-def messages(index: ScopeIndex, path: str, builtins: Collection[str]) -> list[Message]:
+def messages(
+    index: ScopeIndex, path: str, builtins: Collection[str], *, splits_match: bool = True
+) -> list[Message]:
     """Return the findings of pyflakes.
 
     Reference cycles of nodes and scopes are broken: otherwise the syntax tree would stay in memory
     until garbage collection, which takes longer than this.
+
+    Args:
+        index: The file.
+        path: Its path.
+        builtins: The additional builtins in the configuration.
+        splits_match: Whether the cases of a ``match`` are branches, as from pyflakes 3 on.
     """
-    checker = QuickChecker(index.tree, path, builtins)
+    checker = QuickChecker(index.tree, path, builtins, splits_match=splits_match)
     checker.let_go()
     for node in index.nodes:
         vars(node).pop("_pyflakes_parent", None)
@@ -68,7 +76,10 @@ class QuickChecker(Checker):
     _in_annotation: int
     _nodeHandlers: dict[type[ast.AST], Callable[[ast.AST], None]]  # noqa: N815
 
-    def __init__(self, tree: ast.Module, path: str, builtins: Collection[str]) -> None:
+    def __init__(
+        self, tree: ast.Module, path: str, builtins: Collection[str], *, splits_match: bool = True
+    ) -> None:
+        self._splits_match = splits_match
         self._handlers: dict[type[ast.AST], Callable[[ast.AST], None]] = {}
         super().__init__(tree, path, {*builtins}, withDoctest=False)
 
@@ -119,6 +130,13 @@ class QuickChecker(Checker):
             handler = self.handleChildren
         self._handlers[node_class] = handler
         return handler
+
+    def differentForks(self, lnode: ast.AST, rnode: ast.AST) -> bool:  # noqa: N802
+        """Tell whether only one of two nodes is executed."""
+        ancestor = self.getCommonAncestor(lnode, rnode, self.root)
+        if isinstance(ancestor, ast.Match) and not self._splits_match:
+            return False
+        return bool(super().differentForks(lnode, rnode))
 
     def addBinding(self, node: ast.AST | None, value: Binding) -> None:  # noqa: N802
         """Bind a name; builtins, which no node binds, shadow nothing."""
