@@ -68,6 +68,7 @@ CASES = (
         "match 1:\n    case 1:\n        import a\n    case 2:\n        import a\na\n",
         (H,),
     ),
+    Case("F821", "def f(a: 'Foo'):\n    pass\n", (H, J, K, L)),
     Case("F824", "def f():\n    global x\n    print(x)\n", (L,)),
     Case("F824", "def f():\n    global x\n    x = 1\n", ()),
     Case("F842", "def f():\n    x: int\n", (J, K, L)),

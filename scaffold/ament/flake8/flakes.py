@@ -8,12 +8,16 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Collection, Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING
 
 from scaffold import distributions
 from scaffold.ament import linters
 from scaffold.ament.finding import Finding
 from scaffold.ament.python_text.text import PythonText
 from scaffold.ament.ruff import RuffDiagnostic
+
+if TYPE_CHECKING:
+    from pyflakes.messages import Message
 
 CODES: Mapping[str, str] = {
     "UnusedImport": "F401",
@@ -91,7 +95,7 @@ def check(
             continue
         column = text.column(message.lineno, message.col)
         end = ends.get((code, message.lineno, column))
-        if code == "F821" and is_deferred and end is None:
+        if is_deferred and code == "F821" and not _is_undefined(message, diagnostics):
             continue
         yield Finding(
             code,
@@ -102,6 +106,15 @@ def check(
             end.end_column if end else 0,
             is_doubtful=_is_made_when_run(text, code, message.message_args),
         )
+
+
+def _is_undefined(message: Message, diagnostics: Sequence[RuffDiagnostic]) -> bool:
+    """Tell whether ruff reports a name as well; in a quoted annotation, at another column."""
+    name = f"`{message.message_args[0]}`"
+    return any(
+        item.code == "F821" and item.line == message.lineno and name in item.message
+        for item in diagnostics
+    )
 
 
 def _is_of_3(text: PythonText, code: str, arguments: Sequence[object]) -> bool:
