@@ -27,7 +27,13 @@ def flaws(types: MessageTypes) -> Iterator[Flaw]:
             types, item.holder, item.value
         ):
             text = types.module.text(item.value)
-            yield item.value, f"angular velocities are in radians: {text} is far too fast"
+            yield (
+                item.value,
+                (
+                    f"angular velocities are in radians per second: {text} is "
+                    f"implausibly fast; use math.radians()"
+                ),
+            )
     for assigned in types.module.walk(ast.Assign):
         match assigned:
             case ast.Assign(targets=[ast.Name() | ast.Attribute() as name], value=value) if (
@@ -50,11 +56,13 @@ def _written_problem(types: MessageTypes, holder: ast.expr, z: ast.expr) -> str:
     if _is_angle(z):
         text = types.module.text(z)
         return (
-            f"z of a quaternion is not an angle: write z=sin({text} / 2.0) and w=cos({text} / 2.0)"
+            f"z of a quaternion is not an angle; write z=sin({text} / 2.0) and w=cos({text} / 2.0)"
         )
     angle = _whole_angle(types, holder, z)
     if angle:
-        return f"a quaternion takes half the angle: write sin({angle} / 2.0) and cos({angle} / 2.0)"
+        return (
+            f"a quaternion uses half of the angle; write sin({angle} / 2.0) and cos({angle} / 2.0)"
+        )
     return ""
 
 
@@ -102,7 +110,7 @@ def _read_problem(types: MessageTypes, value: ast.expr) -> str:
                 return ""
             text = types.module.text(holder)
             return (
-                "z of a quaternion is not an angle: write "
+                "z of a quaternion is not an angle; write "
                 f"2.0 * math.atan2({text}.z, {text}.w), or euler_from_quaternion()"
             )
         case ast.Call(
@@ -110,7 +118,7 @@ def _read_problem(types: MessageTypes, value: ast.expr) -> str:
         ) if types.module.text(first) == types.module.text(second):
             name = types.module.qualified_name(value.func)
             is_half = name in {"math.atan2", "numpy.arctan2"} and _is_quaternion(types, first)
-            return "this is half of the angle: multiply by 2.0" if is_half else ""
+            return "this is half of the angle; multiply by 2.0" if is_half else ""
     return ""
 
 

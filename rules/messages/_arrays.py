@@ -75,18 +75,27 @@ def _fields_in_arithmetic(types: MessageTypes) -> Iterator[tuple[ast.expr, str]]
                 text = module.text(field)
                 yield (
                     node,
-                    f"{text} is a number, and is not joined to text: TypeError; use an f-string",
+                    (
+                        f"{text} is a number, which cannot be added to a str: TypeError; use an "
+                        f"f-string"
+                    ),
                 )
             is_float = isinstance(value, float) or (
                 isinstance(value, int) and not isinstance(node.op, ast.Mult)
             )
             if is_float and _is_plain_array(type_):
                 text = module.text(field)
-                yield node, f"{text} is an array, not of numpy: TypeError; use numpy.array({text})"
+                yield (
+                    node,
+                    (
+                        f"{text} is an array.array, not a NumPy array: TypeError; use "
+                        f"numpy.array({text})"
+                    ),
+                )
     for attribute in module.walk(ast.Attribute):
         if attribute.attr in _OF_NUMPY and _is_plain_array(types.field_type_of(attribute.value)):
             text = module.text(attribute.value)
-            message = f"{text} is an array, not of numpy: it has no {attribute.attr!r}"
+            message = f"{text} is an array.array, not a NumPy array: it has no {attribute.attr!r}"
             yield attribute, f"{message}: AttributeError; use numpy.array({text})"
 
 
@@ -106,7 +115,7 @@ def _arrays_given(types: MessageTypes) -> Iterator[tuple[ast.expr, str]]:
         advice = _TAKING_OTHERS[types.module.qualified_name(call.func) or ""]
         if call.args and _is_plain_array(types.field_type_of(call.args[0])):
             text, name = types.module.text(call.args[0]), types.module.text(call.func)
-            yield call, f"{name}() does not take {text}, an array.array: {advice.format(text)}"
+            yield call, f"{name}() does not accept {text}, an array.array: {advice.format(text)}"
 
 
 def _columns_of_clouds(types: MessageTypes) -> Iterator[tuple[ast.expr, str]]:
@@ -211,4 +220,4 @@ def _shapes_swapped(types: MessageTypes) -> Iterator[tuple[ast.expr, str]]:
                 message = types.module.text(first).removesuffix(".info")
                 if f"{message}.data" in types.module.text(made):
                     text = types.module.text(first)
-                    yield call, f"rows come first: write {text}.height, {text}.width"
+                    yield call, f"the shape is (rows, columns); write {text}.height, {text}.width"

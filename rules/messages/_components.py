@@ -88,7 +88,10 @@ def _without_w(types: MessageTypes, parts: _Parts) -> Iterator[Flaw]:
         )
         is_copied = _source(types, value, "xyzw")[1] == letter and len(parts) == _DIRECTIONS
         if is_sine or is_copied:
-            yield value, "w of this quaternion stays 1.0: it is another rotation; set it as well"
+            yield (
+                value,
+                ("w of this quaternion is still 1.0, which is another rotation; set it as well"),
+            )
             return
 
 
@@ -97,4 +100,4 @@ def _of_zeros(types: MessageTypes, parts: _Parts) -> Iterator[Flaw]:
     values = [types.file.evaluator.evaluate(value) for value in parts.values()]
     is_zero = all(value == 0 and isinstance(value, int | float) for value in values)
     if "w" in parts and is_zero and not types.module.mentions("orientation_covariance"):
-        yield parts["w"], "a quaternion of zeros is not a rotation: write w=1.0 for none"
+        yield parts["w"], "a quaternion of zeros is not a rotation; write w=1.0 for the identity"

@@ -26,7 +26,7 @@ def flaws(types: MessageTypes) -> Iterator[Flaw]:
                     is_number = isinstance(number, int | float) and number != _IN_A_SECOND
                     if is_number and _is_fraction(types, fraction):
                         text = types.module.text(factor)
-                        yield factor, f"a second has 1e9 nanoseconds, this multiplies by {text}"
+                        yield factor, f"a second has 1e9 nanoseconds, but this multiplies by {text}"
 
 
 def _unwrapped(types: MessageTypes, node: ast.expr) -> ast.expr:

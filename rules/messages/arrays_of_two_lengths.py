@@ -1,4 +1,4 @@
-"""MS028: the arrays of a joint state have one length."""
+"""MS028: the arrays of a joint state have the same length."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ class ArraysOfTwoLengths(MessageRule):
     **Why.** robot_state_publisher ignores it: ``Robot state publisher ignored an invalid
     JointState message``; others read past the end of the shorter array.
 
-    **Fix.** Give one value for each name, in the same order, or leave the array empty.
+    **Fix.** Set one value for each name, in the same order, or leave the array empty.
 
     **Source.** ``sensor_msgs/msg/JointState``; robot_state_publisher, ``callbackJointState``.
     """
@@ -42,7 +42,7 @@ class ArraysOfTwoLengths(MessageRule):
     other_severities = {Severity.WARNING: "they are velocities or efforts of a joint state"}
     effect = Effect.WRONG_BEHAVIOR
     examples = (
-        Example("one length, or empty", {"a.py": _NODE.format("[0.0, 1.0]", "[]")}),
+        Example("the same length, or empty", {"a.py": _NODE.format("[0.0, 1.0]", "[]")}),
         Example(
             "a product",
             {"a.py": _NODE.format("[0.0] * 3", "[*range(3)]")},
@@ -68,7 +68,7 @@ class ArraysOfTwoLengths(MessageRule):
             "18:60: position has 2 values for 3 names: the message is ignored; give one for each",
         ),
         Example(
-            "two lengths",
+            "different lengths",
             {"a.py": _NODE.format("[0.0]", "[1.0, 2.0]")},
             "7:20: position has 1 values for 2 names: the message is ignored; give one for each",
             Report(

@@ -1,4 +1,4 @@
-"""MS031: images are converted from the order of colors that they have."""
+"""MS031: images are converted from their actual color order."""
 
 from __future__ import annotations
 
@@ -34,12 +34,12 @@ _CONVERTED = re.compile(r"COLOR_(?:BGR2(?=RGB)|RGB2(?=BGR)|(?:GRAY|HSV|HLS|YUV|L
 
 
 class ColorOrderSwapped(MessageRule):
-    """An image with red first is treated as one with blue first, or the other way round.
+    """An RGB image is treated as BGR, or the reverse.
 
-    **Why.** Red and blue are swapped, and nothing complains: thresholds in HSV find nothing, or
-    the wrong object. cv_bridge refuses a gray image that is sent as one with colors.
+    **Why.** Red and blue are swapped, without an error: thresholds in HSV match nothing, or the
+    wrong object. cv_bridge rejects a gray image with a color encoding.
 
-    **Fix.** Request ``bgr8`` from cv_bridge, which OpenCV works with, or use ``COLOR_RGB2...``.
+    **Fix.** Request ``bgr8``, the order of OpenCV, from cv_bridge, or use ``COLOR_RGB2...``.
 
     **Source.** OpenCV, ``cvtColor``; cv_bridge tutorial: "bgr8" is what OpenCV expects.
     """
@@ -48,13 +48,14 @@ class ColorOrderSwapped(MessageRule):
     name = "color-order-swapped"
     effect = Effect.WRONG_BEHAVIOR
     examples = (
-        Example("as OpenCV expects it", {"a.py": _NODE.format("'bgr8'", *["COLOR_BGR2HSV"] * 2)}),
-        Example("swapped on purpose", {"a.py": _NODE.format("'rgb8'", *["COLOR_BGR2RGB"] * 2)}),
         Example(
-            "an order that is not known", {"a.py": _NODE.format("ORDER", *["COLOR_BGR2HSV"] * 2)}
+            "the order that OpenCV expects",
+            {"a.py": _NODE.format("'bgr8'", *["COLOR_BGR2HSV"] * 2)},
         ),
+        Example("swapped on purpose", {"a.py": _NODE.format("'rgb8'", *["COLOR_BGR2RGB"] * 2)}),
+        Example("an unknown order", {"a.py": _NODE.format("ORDER", *["COLOR_BGR2HSV"] * 2)}),
         Example(
-            "an order that is not known, swapped twice",
+            "an unknown order, swapped twice",
             {
                 "a.py": _FILE.format("rgb8").replace(
                     "cv2.imread(path)",

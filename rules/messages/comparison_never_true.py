@@ -33,11 +33,11 @@ _NODE = (
 class ComparisonNeverTrue(MessageRule):
     """A message or field is compared with a value that it never has, or anything with NaN.
 
-    **Why.** ``==`` is false whatever arrives, and nothing complains: ``'1'`` is not ``1``, a cell
-    of a map is an int8 and never 255, the level of a diagnostic status is ``bytes``, the result
-    of an action is not its status, and NaN equals nothing, itself included.
+    **Why.** ``==`` is always false, without an error: ``'1'`` is not ``1``, a cell of a map is an
+    int8 and never 255, the level of a diagnostic status is ``bytes``, the result of an action is
+    not its status, and NaN equals nothing, not even itself.
 
-    **Fix.** Compare with a value of the type, best with a constant of the message:
+    **Fix.** Compare with a value of the field type, preferably a constant of the message:
     ``DiagnosticStatus.OK``; use ``math.isnan(distance)``.
 
     **Source.** ``ros2 interface show``; https://github.com/ros2/rcl_interfaces/issues/158.
@@ -76,7 +76,7 @@ class ComparisonNeverTrue(MessageRule):
                 + "\n\nNAN = float('nan')\n"
             },
             "16:38: msg.header is a std_msgs/msg/Header, which never equals 'map'",
-            "25:49: NaN equals nothing, itself included: use math.isnan(msg.data)",
+            "25:49: never true: NaN equals nothing, not even itself; use math.isnan(msg.data)",
         ),
     )
 
@@ -110,7 +110,7 @@ def _nan_problem(types: MessageTypes, node: ast.Compare) -> str:
                 is_named = text.strip().lstrip("+-").lower() == "nan"
         if is_named:
             text = types.module.text(other)
-            return f"NaN equals nothing, itself included: use math.isnan({text})"
+            return f"never true: NaN equals nothing, not even itself; use math.isnan({text})"
     return ""
 
 

@@ -1,4 +1,4 @@
-"""MS013: a transform leads from one frame to another, which is below it."""
+"""MS013: a transform connects two frames, the parent and its child."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ _NODE = (
 
 
 class FrameOfItself(RclpyRule):
-    """A transform connects a frame to itself, or has the robot as the parent of the ground.
+    """A transform connects a frame to itself, or has parent and child in the wrong order.
 
     **Why.** tf2 ignores it: ``TF_SELF_TRANSFORM: Ignoring transform ... with frame_id and
     child_frame_id "odom" because they are the same``. A lookup gives the identity, whatever moves.
@@ -51,7 +51,7 @@ class FrameOfItself(RclpyRule):
             "16:36: the child frame is the parent frame: tf2 ignores the transform",
         ),
         Example(
-            "the robot as the parent of the ground",
+            "base_link as the parent of odom",
             {"odometry.py": _NODE.format("'base_footprint'", "'odom'")},
             Report(
                 "16:36",

@@ -88,7 +88,7 @@ class HeaderIncomplete(MessageRule):
             "frame; set header.stamp and header.frame_id",
         ),
         Example(
-            "a pose that is nowhere",
+            "a pose without a frame",
             {
                 "talker.py": _NODE.format("")
                 .replace("frame_id = 'base_link'", "stamp = self.get_clock().now().to_msg()")
@@ -101,7 +101,7 @@ class HeaderIncomplete(MessageRule):
             "header.frame_id",
         ),
         Example(
-            "odometry of no child",
+            "odometry without a child frame",
             {
                 "odom.py": "from nav_msgs.msg import Odometry\nfrom rclpy.node import Node\n\n\n"
                 "class Wheels(Node):\n"
@@ -119,7 +119,7 @@ class HeaderIncomplete(MessageRule):
             "child_frame_id",
         ),
         Example(
-            "a scan that reaches nowhere, odometry of nowhere; a scan that a driver completes",
+            "a scan without a range, odometry without a frame; a scan that a driver completes",
             {
                 "scan.py": "from nav_msgs.msg import Odometry\nfrom rclpy.node import Node\n"
                 "from sensor_msgs.msg import LaserScan\n\n\n"
@@ -168,8 +168,8 @@ class HeaderIncomplete(MessageRule):
                 "        self.publisher = self.create_publisher(JointState, 'state', 10)\n"
                 "        self.now = JointTrajectoryPoint(positions=[0.0])\n",
             },
-            "arm.py:11:17: nothing sets time_from_start of the points: the trajectory has no "
-            "duration, and controllers refuse it",
+            "arm.py:11:17: time_from_start of the points is never set: the trajectory has no "
+            "duration, and controllers reject it",
         ),
         Example(
             "possibly set elsewhere", {"talker.py": _NODE.format("        self.stamp(reading)\n")}
@@ -226,8 +226,8 @@ class HeaderIncomplete(MessageRule):
                 )
                 yield self.report(types.module.location(unset.made), message)
         for made in _points_without_time(types):
-            message = "nothing sets time_from_start of the points: the trajectory has no duration"
-            yield self.report(types.module.location(made), f"{message}, and controllers refuse it")
+            message = "time_from_start of the points is never set: the trajectory has no duration"
+            yield self.report(types.module.location(made), f"{message}, and controllers reject it")
 
 
 _POINT = "trajectory_msgs/msg/JointTrajectoryPoint"

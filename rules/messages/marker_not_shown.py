@@ -1,4 +1,4 @@
-"""MS030: markers have a color that can be seen, a size, and an id of their own."""
+"""MS030: markers have a visible color, a size, and a unique id."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ class MarkerNotShown(MessageRule):
     """A marker has no alpha or no size, or all markers of a loop have the same id.
 
     **Why.** ``color.a`` and ``scale`` are 0 unless they are set: RViz draws nothing. A marker
-    replaces the one of the same ``ns`` and ``id``: of a whole array, the last one is left.
+    replaces the marker with the same ``ns`` and ``id``: of an array, only the last one is shown.
 
     **Fix.** ``marker.color.a = 1.0``; ``marker.scale.x = 0.1``; ``marker.id = number`` of
     ``enumerate(...)``.
@@ -72,8 +72,9 @@ class MarkerNotShown(MessageRule):
                 "    for place in places:\n"
                 "        array.markers.append(shown(place))\n"
             },
-            "5:14: all markers of this loop have the id 1: RViz shows the last one; count them",
-            "5:14: nothing sets color.a, which is 0 then: RViz does not show this marker",
+            "5:14: all markers of this loop have the id 1: RViz only shows the last one; use a "
+            "unique id",
+            "5:14: color.a is never set, so it is 0: RViz does not show this marker; set it to 1.0",
         ),
         Example(
             "made by a function for a list: one id",
@@ -88,7 +89,8 @@ class MarkerNotShown(MessageRule):
                 "def all_of(places):\n"
                 "    return MarkerArray(markers=[shown(place) for place in places])\n"
             },
-            "5:14: all markers of this loop have the id 0: RViz shows the last one; count them",
+            "5:14: all markers of this loop have the id 0: RViz only shows the last one; use a "
+            "unique id",
         ),
         Example(
             "a color without alpha",
@@ -98,7 +100,7 @@ class MarkerNotShown(MessageRule):
                 "RED = ColorRGBA(r=1.0)\nBLUE = ColorRGBA(b=1.0, a=1.0)\n"
                 "MARKERS = [Marker(color=RED), Marker(color=BLUE)]\n"
             },
-            "4:7: this color has no a, which is 0 then: RViz does not show it; add a=1.0",
+            "4:7: alpha of this color is 0 by default: RViz does not show it; add a=1.0",
         ),
         Example(
             "made by a function whose result is changed later",
@@ -161,13 +163,15 @@ class MarkerNotShown(MessageRule):
                     "marker.lifetime.sec = 1",
                 )
             },
-            "13:22: nothing sets scale, which is 0 then: RViz does not show this marker",
+            "13:22: scale is never set, so it is 0: RViz does not show this marker; set it",
         ),
         Example(
             "no alpha, one id",
             {"show.py": _NODE.format("7", "r", "marker.action = Marker.ADD")},
-            "13:22: all markers of this loop have the id 7: RViz shows the last one; count them",
-            "13:22: nothing sets color.a, which is 0 then: RViz does not show this marker",
+            "13:22: all markers of this loop have the id 7: RViz only shows the last one; use a "
+            "unique id",
+            "13:22: color.a is never set, so it is 0: RViz does not show this marker; set it to "
+            "1.0",
         ),
     )
 
@@ -181,7 +185,7 @@ class MarkerNotShown(MessageRule):
                         for problem in _problems(types, assignment, name):
                             yield self.report(types.module.location(made), problem)
         for color in _transparent(types):
-            message = "this color has no a, which is 0 then: RViz does not show it; add a=1.0"
+            message = "alpha of this color is 0 by default: RViz does not show it; add a=1.0"
             yield self.report(types.module.location(color), message)
 
 
@@ -206,9 +210,9 @@ def _problems(types: MessageTypes, made: ast.Assign, name: ast.Name) -> Iterator
     actions = {types.module.text(value) for value in _field_values(types, uses, words, "action")}
     fields = {types.module.text(use).partition(".")[2] for use in uses} | words.keys()
     if actions <= _ADDING and fields.isdisjoint(_COLORS):
-        yield "nothing sets color.a, which is 0 then: RViz does not show this marker"
+        yield "color.a is never set, so it is 0: RViz does not show this marker; set it to 1.0"
     if actions <= _ADDING and not any(field.startswith("scale") for field in fields):
-        yield "nothing sets scale, which is 0 then: RViz does not show this marker"
+        yield "scale is never set, so it is 0: RViz does not show this marker; set it"
     loop = _loop_around(types, made)
     if loop is None or not actions <= _ADDING or _ends_early(loop):
         return
@@ -218,7 +222,9 @@ def _problems(types: MessageTypes, made: ast.Assign, name: ast.Name) -> Iterator
     values = [types.file.evaluator.evaluate(value) for value in (*ids, *spaces)]
     if len(ids) <= 1 and len(spaces) <= 1 and all(map(is_known, values)):
         shown = f"the id {values[0]}" if ids else "the id 0"
-        yield f"all markers of this loop have {shown}: RViz shows the last one; count them"
+        yield (
+            f"all markers of this loop have {shown}: RViz only shows the last one; use a unique id"
+        )
 
 
 _COLORS = frozenset({"color", "color.a", "colors", "mesh_use_embedded_materials"})

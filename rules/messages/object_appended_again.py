@@ -33,10 +33,9 @@ _LOOP = (
 class ObjectAppendedAgain(MessageRule):
     """One message object is changed and appended again and again.
 
-    **Why.** A list holds references: all poses of the path are the newest one, and nothing
-    complains.
+    **Why.** A list contains references: all poses of the path are the newest one, without an error.
 
-    **Fix.** Make a new message for each element, inside of the callback or the loop.
+    **Fix.** Create a new message for each element, inside the callback or loop.
 
     **Source.** Python documentation, "Programming FAQ": names refer to objects.
     """
@@ -100,8 +99,8 @@ class ObjectAppendedAgain(MessageRule):
                     "self.pose.pose = msg.pose.pose\n        self.path.poses.append(self.pose)"
                 )
             },
-            "15:32: the same object each time, made in line 10: all elements are the last "
-            "self.pose; make a new one before it is filled",
+            "15:32: the same object from line 10 is appended each time: all elements are the last "
+            "self.pose; create a new object for each element",
         ),
         Example(
             "in a loop",
@@ -112,8 +111,8 @@ class ObjectAppendedAgain(MessageRule):
                     "        array.poses.append(pose)\n"
                 )
             },
-            "9:28: the same object each time, made in line 6: all elements are the last pose; "
-            "make a new one before it is filled",
+            "9:28: the same object from line 6 is appended each time: all elements are the last "
+            "pose; create a new object for each element",
         ),
     )
 
@@ -128,8 +127,8 @@ class ObjectAppendedAgain(MessageRule):
                     if made is not None:
                         text = types.module.text(item)
                         message = (
-                            f"the same object each time, made in line {made.lineno}: all elements "
-                            f"are the last {text}; make a new one before it is filled"
+                            f"the same object from line {made.lineno} is appended each time: all "
+                            f"elements are the last {text}; create a new object for each element"
                         )
                         yield self.report(types.module.location(item), message)
         for assigned in types.module.walk(ast.Assign):

@@ -1,4 +1,4 @@
-"""MS033: the parts of a quaternion are in the order that its library has."""
+"""MS033: the components of a quaternion are in the order of the library."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ _HEAD = (
 class QuaternionOrderSwapped(MessageRule):
     """A quaternion is unpacked or built in the order of another library.
 
-    **Why.** Nothing complains: the robot looks in another direction. Messages, tf_transformations
+    **Why.** There is no error, but the robot faces another direction. Messages, tf_transformations
     and SciPy have x first, transforms3d has w first.
 
     **Fix.** ``x, y, z, w = quaternion_from_euler(...)``; ``w, x, y, z = euler2quat(...)``.
@@ -57,7 +57,7 @@ class QuaternionOrderSwapped(MessageRule):
     effect = Effect.WRONG_BEHAVIOR
     examples = (
         Example(
-            "as the libraries have it",
+            "the order of the libraries",
             {
                 "a.py": _HEAD + "def turn(q: Quaternion, yaw) -> Quaternion:\n"
                 "    euler_from_quaternion([q.x, q.y, q.z, q.w])\n"
@@ -69,7 +69,7 @@ class QuaternionOrderSwapped(MessageRule):
             },
         ),
         Example(
-            "the other way round",
+            "the reverse order",
             {
                 "a.py": _HEAD + "def turn(q: Quaternion, yaw) -> Quaternion:\n"
                 "    euler_from_quaternion([q.w, q.x, q.y, q.z])\n"
@@ -79,16 +79,16 @@ class QuaternionOrderSwapped(MessageRule):
                 "    p = quaternion_from_euler(0.0, 0.0, yaw)\n"
                 "    return Quaternion(x=p[1], y=p[2], z=p[3], w=p[0])\n"
             },
-            "7:27: euler_from_quaternion() has the order x, y, z, w, this is w, x, y, z: it is "
-            "another rotation",
-            "8:16: quat2euler() has the order w, x, y, z, this is x, y, z, w: it is another "
+            "7:27: euler_from_quaternion() uses the order x, y, z, w, but this is w, x, y, z: it "
+            "is another rotation",
+            "8:16: quat2euler() uses the order w, x, y, z, but this is x, y, z, w: it is another "
             "rotation",
-            "9:5: euler2quat() has the order w, x, y, z, this is x, y, z, w: it is another "
+            "9:5: euler2quat() uses the order w, x, y, z, but this is x, y, z, w: it is another "
             "rotation",
-            "10:11: euler2quat() has the order w, x, y, z, this is x, y, z, w: it is another "
+            "10:11: euler2quat() uses the order w, x, y, z, but this is x, y, z, w: it is another "
             "rotation",
-            "12:49: quaternion_from_euler() has the order x, y, z, w, this is w, x, y, z: it is "
-            "another rotation",
+            "12:49: quaternion_from_euler() uses the order x, y, z, w, but this is w, x, y, z: it "
+            "is another rotation",
         ),
     )
 
@@ -121,7 +121,7 @@ class QuaternionOrderSwapped(MessageRule):
         if order and order != right:
             function = name.rpartition(".")[2]
             message = (
-                f"{function}() has the order {', '.join(right)}, this is {', '.join(order)}: "
+                f"{function}() uses the order {', '.join(right)}, but this is {', '.join(order)}: "
                 "it is another rotation"
             )
             yield self.report(types.module.location(at), message)

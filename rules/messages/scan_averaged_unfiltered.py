@@ -32,8 +32,8 @@ _FILTERS = frozenset(
 class ScanAveragedUnfiltered(MessageRule):
     """The distances of a laser scan are added up or averaged without filtering.
 
-    **Why.** A beam that hits nothing is ``inf``, or ``nan``: the sum and the mean are too, and
-    no comparison with them says that something is near.
+    **Why.** A beam without a return is ``inf`` or ``nan``, and so are the sum and the mean: a
+    comparison with them never detects an obstacle.
 
     **Fix.** ``ranges = np.array(msg.ranges)``, then ``ranges[np.isfinite(ranges)].mean()``.
 
@@ -56,8 +56,10 @@ class ScanAveragedUnfiltered(MessageRule):
         Example(
             "means",
             {"guard.py": _NODE.format("np.mean(msg.ranges[:30]), sum(msg.ranges)")},
-            "14:16: beams that hit nothing are inf: so is this result; filter them with isfinite()",
-            "14:42: beams that hit nothing are inf: so is this result; filter them with isfinite()",
+            "14:16: beams without a return are inf, and so is this result; filter them with "
+            "isfinite()",
+            "14:42: beams without a return are inf, and so is this result; filter them with "
+            "isfinite()",
         ),
         Example(
             "an array that is replaced in part, one of which a part is filtered",
@@ -72,13 +74,14 @@ class ScanAveragedUnfiltered(MessageRule):
                     "        near = values.mean() - values[np.isfinite(values)].mean()"
                 ),
             },
-            "b.py:16:16: beams that hit nothing are inf: so is this result; filter them with "
+            "b.py:16:16: beams without a return are inf, and so is this result; filter them with "
             "isfinite()",
         ),
         Example(
             "an array",
             {"guard.py": _NODE.format("np.array(msg.ranges).mean()")},
-            "14:16: beams that hit nothing are inf: so is this result; filter them with isfinite()",
+            "14:16: beams without a return are inf, and so is this result; filter them with "
+            "isfinite()",
         ),
     )
 
@@ -91,7 +94,8 @@ class ScanAveragedUnfiltered(MessageRule):
                 and not _is_filtered(types, call, summed)
             ):
                 message = (
-                    "beams that hit nothing are inf: so is this result; filter them with isfinite()"
+                    "beams without a return are inf, and so is this result; filter them with "
+                    "isfinite()"
                 )
                 yield self.report(types.module.location(call), message)
 

@@ -1,4 +1,4 @@
-"""MS012: stamps are made when messages are."""
+"""MS012: stamps are set when messages are published."""
 
 from __future__ import annotations
 
@@ -27,10 +27,10 @@ _NODE = (
 class StampMadeOnce(RclpyRule):
     """A callback stamps its messages with a time that was read once in the constructor.
 
-    **Why.** All messages have the time when the node was started: tf2 has no transforms for them
-    any more, ``message_filters`` matches them with nothing, RViz drops them.
+    **Why.** All messages have the start time of the node: tf2 no longer has transforms for that
+    time, ``message_filters`` finds no match, and RViz drops them.
 
-    **Fix.** ``msg.header.stamp = self.get_clock().now().to_msg()`` where the message is made.
+    **Fix.** ``msg.header.stamp = self.get_clock().now().to_msg()`` where the message is created.
 
     **Source.** ``std_msgs/msg/Header``.
     """
@@ -47,8 +47,8 @@ class StampMadeOnce(RclpyRule):
         Example(
             "the time of the start",
             {"sensor.py": _NODE.format("10", "self.stamp")},
-            "14:37: self.stamp is only set in the constructor: all messages have the time of the "
-            "start; use self.get_clock().now().to_msg()",
+            "14:37: self.stamp is only set in the constructor: all messages have the start time "
+            "of the node; use self.get_clock().now().to_msg()",
         ),
         Example(
             "renewed",
@@ -69,13 +69,13 @@ class StampMadeOnce(RclpyRule):
             },
             Report(
                 "11:9",
-                "this stamp is never renewed: all messages have the time of the "
-                "start; set header.stamp where the message is published",
+                "this stamp is never updated: all messages have the start time of the "
+                "node; set header.stamp where the message is published",
                 severity=Severity.WARNING,
             ),
         ),
         Example(
-            "for who comes late",
+            "for late subscribers",
             {
                 "sensor.py": "from rclpy.qos import QoSProfile\n"
                 + _NODE.format("QoSProfile(depth=1, durability='TRANSIENT_LOCAL')", "self.stamp")
@@ -93,8 +93,8 @@ class StampMadeOnce(RclpyRule):
             function = file.function_of(node)
             if function in phases.running and _is_made_once(file, phases, value):
                 message = (
-                    f"{file.module.text(value)} is only set in the constructor: all messages "
-                    "have the time of the start; use self.get_clock().now().to_msg()"
+                    f"{file.module.text(value)} is only set in the constructor: all messages have "
+                    f"the start time of the node; use self.get_clock().now().to_msg()"
                 )
                 yield self.report(file.module.location(value), message)
             elif (
@@ -103,7 +103,7 @@ class StampMadeOnce(RclpyRule):
                 and _is_sent_again(file, phases, node)
             ):
                 message = (
-                    "this stamp is never renewed: all messages have the time of the start; "
+                    "this stamp is never updated: all messages have the start time of the node; "
                     "set header.stamp where the message is published"
                 )
                 at = file.module.location(node)

@@ -1,4 +1,4 @@
-"""MS034: values are in the units of the fields that they are assigned to."""
+"""MS034: values have the units of the fields that they are assigned to."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ _HINTS: Mapping[str, Mapping[str, str]] = {
         "kelvins": "subtract 273.15",
         "degrees Fahrenheit": "subtract 32 and divide by 1.8",
     },
-    "shares from 0 to 1": {"percent": "divide by 100"},
+    "fractions from 0 to 1": {"percent": "divide by 100"},
     "volts": {"millivolts": "divide by 1000"},
     "teslas": {"microteslas": "multiply by 1e-6", "gauss": "multiply by 1e-4"},
 }
@@ -102,10 +102,10 @@ _FIELDS: Mapping[tuple[str, str], str] = {
     ("sensor_msgs/msg/NavSatFix", "longitude"): "degrees",
     ("sensor_msgs/msg/NavSatFix", "altitude"): "meters",
     ("sensor_msgs/msg/FluidPressure", "fluid_pressure"): "pascals",
-    ("sensor_msgs/msg/RelativeHumidity", "relative_humidity"): "shares from 0 to 1",
+    ("sensor_msgs/msg/RelativeHumidity", "relative_humidity"): "fractions from 0 to 1",
     ("sensor_msgs/msg/Temperature", "temperature"): "degrees Celsius",
     ("sensor_msgs/msg/BatteryState", "temperature"): "degrees Celsius",
-    ("sensor_msgs/msg/BatteryState", "percentage"): "shares from 0 to 1",
+    ("sensor_msgs/msg/BatteryState", "percentage"): "fractions from 0 to 1",
     ("sensor_msgs/msg/BatteryState", "voltage"): "volts",
 }
 """From the comments of the definitions."""
@@ -135,10 +135,10 @@ _PER = re.compile(r"_(?:per|p)_?(?:s|sec|second)$|_s$")
 
 
 class UnitDiffers(MessageRule):
-    """A message field, or a sine, gets a value in another unit than its definition names.
+    """A message field or a trigonometric function gets a value in the wrong unit.
 
-    **Why.** Nothing complains: the number is sent as it is. A robot turns 57 times as far, or
-    stops a kilometer before the wall.
+    **Why.** The number is sent unchanged, without an error: a robot turns 57 times as far, or stops
+    a kilometer before the wall.
 
     **Fix.** Convert the value where the message is filled. Lengths are in meters, angles in
     radians, times in seconds.
@@ -149,7 +149,7 @@ class UnitDiffers(MessageRule):
 
     code = "MS034"
     name = "unit-differs"
-    other_severities = {Severity.WARNING: "only the name of the value says its unit"}
+    other_severities = {Severity.WARNING: "the unit is only known from the name of the value"}
     effect = Effect.WRONG_BEHAVIOR
     examples = (
         Example(
@@ -164,7 +164,7 @@ class UnitDiffers(MessageRule):
                 "        rotation(yaw)\n        converted(math.degrees(yaw))\n"
                 "        return Pose(), rotation(math.degrees(yaw))\n",
             },
-            "20:33: 'yaw' of rotation() is in radians, this is in degrees; use math.radians()",
+            "20:33: 'yaw' of rotation() is in radians, but this is in degrees; use math.radians()",
         ),
         Example("converted", {"board.py": _NODE.format(*_RIGHT)}),
         Example(
@@ -179,19 +179,19 @@ class UnitDiffers(MessageRule):
             },
             Report(
                 "8:40",
-                "fluid_pressure is in pascals, this is in hectopascals; multiply by 100",
+                "fluid_pressure is in pascals, but this is in hectopascals; multiply by 100",
                 severity=Severity.WARNING,
             ),
             Report(
                 "10:30",
-                "angular_velocity.z is in radians per second, this is in degrees "
+                "angular_velocity.z is in radians per second, but this is in degrees "
                 "per second; use math.radians()",
                 severity=Severity.WARNING,
             ),
-            "12:24: position is in radians, this is in degrees; use math.radians()",
+            "12:24: position is in radians, but this is in degrees; use math.radians()",
             Report(
                 "13:42",
-                "range is in meters, this is in millimeters; divide by 1000",
+                "range is in meters, but this is in millimeters; divide by 1000",
                 severity=Severity.WARNING,
             ),
         ),
@@ -217,12 +217,14 @@ class UnitDiffers(MessageRule):
             },
             Report(
                 "9:41",
-                "the argument of math.cos() is in radians, this is in degrees; use math.radians()",
+                "the argument of math.cos() is in radians, but this is in degrees; use "
+                "math.radians()",
                 severity=Severity.WARNING,
             ),
             Report(
                 "10:22",
-                "linear.y is in meters per second, this is in kilometers per hour; divide by 3.6",
+                "linear.y is in meters per second, but this is in kilometers per hour; "
+                "divide by 3.6",
                 severity=Severity.WARNING,
             ),
         ),
@@ -249,7 +251,7 @@ class UnitDiffers(MessageRule):
                 "    def wind(self):\n"
                 "        return Vector3(x=math.cos(self.course))\n"
             },
-            "16:35: the argument of math.cos() is in radians, this is in degrees; use "
+            "16:35: the argument of math.cos() is in radians, but this is in degrees; use "
             "math.radians()",
         ),
     )
@@ -281,7 +283,7 @@ class UnitDiffers(MessageRule):
             unit, is_by_name = _unit(types, node)
             hint = _HINTS[wanted].get(unit, "")
             if hint:
-                message = f"{shown} is in {wanted}, this is in {unit}; {hint}"
+                message = f"{shown} is in {wanted}, but this is in {unit}; {hint}"
                 severity = Severity.WARNING if is_by_name else None
                 yield self.report(types.module.location(node), message, severity=severity)
 

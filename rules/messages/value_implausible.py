@@ -1,4 +1,4 @@
-"""MS026: values of messages are in the unit and the range that their definitions name."""
+"""MS026: values of messages have the unit and range in their definitions."""
 
 from __future__ import annotations
 
@@ -52,9 +52,8 @@ _PERCENT = 100
 class ValueImplausible(MessageRule):
     """A message field gets a value that contradicts its unit or definition.
 
-    **Why.** Nothing complains where it is sent: a battery of 8000 %, a robot that spins, colors
-    that are white. cv_bridge refuses encodings it does not know: ``Unrecognized image encoding
-    [BGR8]``.
+    **Why.** There is no error when it is published, but a battery shows 8000 %, a robot spins, or
+    colors are white. cv_bridge rejects unknown encodings: ``Unrecognized image encoding [BGR8]``.
 
     **Fix.** The comments of the definition give the unit: ``ros2 interface show
     sensor_msgs/msg/BatteryState``; a yaw is ``z=sin(yaw / 2)``, ``w=cos(yaw / 2)``.
@@ -108,7 +107,7 @@ class ValueImplausible(MessageRule):
             ),
             "16:26: unknown encoding 'BGR8': cv_bridge raises an error; write 'bgr8'",
             "17:22: step is in bytes: a row of 'bgr8' has 3 * width",
-            "18:45: z of a quaternion is not an angle: write z=sin(self.yaw / 2.0) and "
+            "18:45: z of a quaternion is not an angle; write z=sin(self.yaw / 2.0) and "
             "w=cos(self.yaw / 2.0)",
         ),
         Example(
@@ -153,9 +152,9 @@ class ValueImplausible(MessageRule):
                 "    half = math.atan2(pose.orientation.z, pose.orientation.w)\n"
                 "    return yaw, half\n"
             },
-            "10:24: a quaternion takes half the angle: write sin(yaw / 2.0) and cos(yaw / 2.0)",
-            "15:11: this is half of the angle: multiply by 2.0",
-            "16:11: z of a quaternion is not an angle: write 2.0 * math.atan2(pose.orientation.z, "
+            "10:24: a quaternion uses half of the angle; write sin(yaw / 2.0) and cos(yaw / 2.0)",
+            "15:11: this is half of the angle; multiply by 2.0",
+            "16:11: z of a quaternion is not an angle; write 2.0 * math.atan2(pose.orientation.z, "
             "pose.orientation.w), or euler_from_quaternion()",
         ),
         Example(
@@ -271,8 +270,9 @@ class ValueImplausible(MessageRule):
                 "    return imu\n",
             },
             "copy_pose.py:8:27: z is copied from pose.position.y, which is for y",
-            "grow.py:12:25: w of this quaternion stays 1.0: it is another rotation; set it as well",
-            "zero.py:7:31: a quaternion of zeros is not a rotation: write w=1.0 for none",
+            "grow.py:12:25: w of this quaternion is still 1.0, which is another rotation; set it "
+            "as well",
+            "zero.py:7:31: a quaternion of zeros is not a rotation; write w=1.0 for the identity",
         ),
         Example(
             "one stamp for an image and its camera info, and two",
@@ -303,7 +303,8 @@ class ValueImplausible(MessageRule):
                 "    slow.angular.z = 1.57\n    slow.linear.x = 90.0\n"
                 "    fast.angular.z = -DEGREES\n    return slow, fast\n"
             },
-            "10:22: angular velocities are in radians: -DEGREES is far too fast",
+            "10:22: angular velocities are in radians per second: -DEGREES is implausibly fast; "
+            "use math.radians()",
         ),
         Example(
             "fractions of a second",
@@ -318,8 +319,8 @@ class ValueImplausible(MessageRule):
                 "    stamp.nanosec = int(now % 1000 * 1000000)\n"
                 "    yield stamp\n"
             },
-            "7:55: a second has 1e9 nanoseconds, this multiplies by 1e6",
-            "9:35: a second has 1e9 nanoseconds, this multiplies by 1000",
+            "7:55: a second has 1e9 nanoseconds, but this multiplies by 1e6",
+            "9:35: a second has 1e9 nanoseconds, but this multiplies by 1000",
         ),
         Example(
             "rows for columns",

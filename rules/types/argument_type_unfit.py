@@ -1,4 +1,4 @@
-"""TY005: arguments have the types that functions of ROS take."""
+"""TY005: arguments have the types that ROS functions expect."""
 
 from __future__ import annotations
 
@@ -92,7 +92,7 @@ _HUB = (
 
 
 class ArgumentTypeUnfit(TypeRule):
-    """An argument of a ROS function has a type that the function cannot use.
+    """An argument of a ROS function has the wrong type.
 
     **Why.** The function raises ``TypeError`` or ``AttributeError``, at this line or when it uses
     the value.
@@ -105,7 +105,7 @@ class ArgumentTypeUnfit(TypeRule):
 
     code = "TY005"
     name = "argument-type-unfit"
-    other_severities = {Severity.WARNING: "it is logged only where debugging is switched on"}
+    other_severities = {Severity.WARNING: "it is only logged at debug level"}
     kinds = frozenset({"invalid-argument-type", "no-matching-overload"})
     examples = (
         Example(

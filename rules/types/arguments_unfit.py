@@ -1,4 +1,4 @@
-"""TY004: calls have the arguments that functions of ROS, and one's own, take."""
+"""TY004: calls pass the arguments that functions of ROS and of the workspace expect."""
 
 from __future__ import annotations
 
@@ -50,10 +50,10 @@ class ArgumentsUnfit(TypeRule):
 
     The function belongs to ROS or to another module of the workspace.
 
-    **Why.** ``TypeError: create_timer() missing 1 required positional argument: 'callback'`` as
-    soon as the line runs.
+    **Why.** ``TypeError: create_timer() missing 1 required positional argument: 'callback'`` when
+    the line is executed.
 
-    **Fix.** Write the arguments that the function of ROS 2 Jazzy takes.
+    **Fix.** Pass the arguments that the function expects in ROS 2 Jazzy.
 
     **Source.** The signatures of the packages of ROS 2 Jazzy.
     """

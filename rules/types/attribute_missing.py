@@ -1,4 +1,4 @@
-"""TY003: attributes of the objects of ROS, and of one's own classes, exist."""
+"""TY003: attributes of ROS objects, and of classes in the workspace, exist."""
 
 from __future__ import annotations
 
@@ -129,7 +129,7 @@ class AttributeMissing(TypeRule):
 
     The class belongs to ROS or to another module of the workspace.
 
-    **Why.** ``AttributeError`` as soon as the line runs.
+    **Why.** ``AttributeError`` when the line is executed.
 
     **Fix.** Use a name that the class defines.
 
@@ -138,7 +138,7 @@ class AttributeMissing(TypeRule):
 
     code = "TY003"
     name = "attribute-missing"
-    other_severities = {Severity.WARNING: "it only shows while the node is being stopped"}
+    other_severities = {Severity.WARNING: "it only fails while the node shuts down"}
     kinds = frozenset({"missing-attribute"})
     examples = (
         Example(
@@ -421,8 +421,8 @@ class AttributeMissing(TypeRule):
                 "    def on_goal(self, future):\n"
                 "        return future.accepted\n"
             },
-            "19:16: rclpy.task.Future has no 'accepted': AttributeError; what the future brings "
-            "is in result()",
+            "19:16: rclpy.task.Future has no 'accepted': AttributeError; call result() of the "
+            "future",
         ),
         Example(
             "callbacks that objects have, of the same file and of another module",
@@ -497,8 +497,7 @@ class AttributeMissing(TypeRule):
                 "        response.success = answer.success\n"
                 "        return response\n"
             },
-            "9:28: rclpy.task.Future has no 'success': AttributeError; what the future brings is "
-            "in result()",
+            "9:28: rclpy.task.Future has no 'success': AttributeError; call result() of the future",
         ),
         Example(
             "a method taken for what it returns",
@@ -801,7 +800,7 @@ def _replacement(shown: str, name: str, method: str) -> str:
     if shown in _TO_DO:
         return f"; {_TO_DO[shown]}"
     if shown == "rclpy.task.Future":
-        return "; what the future brings is in result()"
+        return "; call result() of the future"
     if shown in _TIMES and name in _SECONDS:
         return "; write .nanoseconds / 1e9"
     return "; write .nanoseconds" if shown in _TIMES and name in _NANOSECONDS else ""

@@ -1,4 +1,4 @@
-"""TY009: methods of ROS are called where their result decides."""
+"""TY009: methods in conditions are called."""
 
 from __future__ import annotations
 
@@ -25,9 +25,9 @@ _CLIENTS = (
 
 
 class MethodAsCondition(TypeRule):
-    """A condition is a method of an object of ROS, which is not called.
+    """A condition is a method of a ROS object that is not called.
 
-    **Why.** A method is always true: what depends on it is done always.
+    **Why.** A method is always true, so the condition is, too.
 
     **Fix.** Add the parentheses.
 
@@ -40,7 +40,7 @@ class MethodAsCondition(TypeRule):
     examples = (
         Example("called", {"chooser.py": _CLIENTS.format("()")}),
         Example(
-            "clients in a list, and futures that are kept",
+            "clients in a list, and futures that are stored",
             {"chooser.py": _CLIENTS.format("")},
             "13:16: 'service_is_ready' is a method: always true; write service_is_ready()",
             "17:51: 'done' is a method: always true; write done()",

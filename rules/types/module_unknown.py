@@ -49,7 +49,7 @@ _NODE = "import rclpy\nimport {}\n\nrclpy.init()\nmessage = std_msgs.msg.String(
 class ModuleUnknown(TypeRule):
     """Code imports a module that Python or a package of ROS 2 does not have.
 
-    **Why.** The program ends at start: ``ModuleNotFoundError: No module named 'imp'``.
+    **Why.** The program fails at start: ``ModuleNotFoundError: No module named 'imp'``.
 
     **Fix.** Import the module that has what you need; classes of messages are imported from
     ``std_msgs.msg``.
@@ -59,7 +59,7 @@ class ModuleUnknown(TypeRule):
 
     code = "TY001"
     name = "module-unknown"
-    other_severities = {Severity.WARNING: "setuptools may lend the module"}
+    other_severities = {Severity.WARNING: "setuptools may provide the module"}
     is_removal = True
     kinds = frozenset({"import-not-found"})
     examples = (

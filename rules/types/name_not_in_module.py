@@ -22,7 +22,7 @@ _FEW = 3
 class NameNotInModule(TypeRule):
     """Code imports a name from a module that does not have it.
 
-    **Why.** The program ends at start: ``ImportError: cannot import name 'Iterable' from
+    **Why.** The program fails at start: ``ImportError: cannot import name 'Iterable' from
     'collections'``.
 
     **Fix.** Import a name that the module of ROS 2 Jazzy, or of Python 3.12, defines.

@@ -1,4 +1,4 @@
-"""TY008: objects of ROS are called, indexed and looped over only where they can be."""
+"""TY008: ROS objects are only called, indexed and iterated over if they support it."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ class ObjectMisused(TypeRule):
     The object comes from ROS, or a function of the workspace returns it.
 
     **Why.** ``TypeError: 'Point' object is not subscriptable``, or ``ValueError: too many values to
-    unpack``, as soon as the line runs.
+    unpack``, when the line is executed.
 
     **Fix.** Use the attributes and methods that the class has; unpack as many values as there are.
 

@@ -1,4 +1,4 @@
-"""TY006: operators work on the objects of ROS that they get."""
+"""TY006: operators support their operands."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ _PORT = (
 
 
 class OperatorUnsupported(TypeRule):
-    """An operator does not support an object of ROS, or joins a text and a number.
+    """An operator does not support a ROS object, or combines a str and a number.
 
     **Why.** ``TypeError: '>' not supported between instances of 'Duration' and 'float'``, or
     ``can only concatenate str (not "float") to str``.

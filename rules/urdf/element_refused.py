@@ -1,4 +1,4 @@
-"""UR010: the elements of URDF and xacro have what their readers demand, and values they take."""
+"""UR010: elements of URDF and xacro have their required parts and valid values."""
 
 from __future__ import annotations
 
@@ -83,7 +83,7 @@ _COUNTS: Mapping[tuple[str, str], int] = {
 class ElementRefused(Rule):
     """An element of URDF or xacro lacks an attribute or a child, or has an invalid value.
 
-    **Why.** The URDF parser rejects the whole file, and xacro stops: robot_state_publisher ends
+    **Why.** The URDF parser rejects the whole file, and xacro stops: robot_state_publisher exits
     with ``Failed to parse robot description``, for a joint with ``Joint [axis] is of type REVOLUTE
     but it does not specify limits`` or ``has no known type [continous]``.
 
@@ -107,7 +107,7 @@ class ElementRefused(Rule):
         ),
         Example("complete", {"robot.urdf": _ROBOT.format("value")}),
         Example(
-            "of a program for browsers, which npm builds",
+            "a web application, which npm builds",
             {"web/package.json": "{}\n", "web/public/robot.urdf": "<robot>\n</robot>\n"},
         ),
         Example(
@@ -130,9 +130,9 @@ class ElementRefused(Rule):
             },
         ),
         Example(
-            "another name for an attribute",
+            "a wrong attribute name",
             {"robot.urdf": _ROBOT.format("val")},
-            "4:8: <mass> has no 'value': urdfdom rejects the whole file; 'val' is not read",
+            "4:8: <mass> has no 'value': urdfdom rejects the whole file; 'val' is ignored",
         ),
         Example(
             "a matrix without its zeros",
@@ -168,7 +168,8 @@ class ElementRefused(Rule):
             "a joint with limits", {"robot.urdf": _ROBOT_JOINTS.format("revolute", _CHILD + _LIMIT)}
         ),
         Example(
-            "a wheel without limits", {"robot.urdf": _ROBOT_JOINTS.format("continuous", _CHILD)}
+            "a continuous joint without limits",
+            {"robot.urdf": _ROBOT_JOINTS.format("continuous", _CHILD)},
         ),
         Example(
             "a joint without limits",
@@ -201,7 +202,7 @@ class ElementRefused(Rule):
             "revolute, continuous, prismatic, fixed, floating, planar",
         ),
         Example(
-            "a shape of its own; commas; too few",
+            "an unknown shape; commas; too few values",
             {
                 "a.urdf": _ROBOT_VALUES.format('cube size="1 1 1"', "fixed", "0, 0, 0"),
                 "b.urdf": _ROBOT_VALUES.format('box size="1 1"', "fixed", "0 0 0"),
@@ -235,7 +236,7 @@ class ElementRefused(Rule):
             if missing:
                 others = [name for name in part.attributes if name not in names]
                 suggestions = [closest_name(package, name, others, 0.6) for name in missing]
-                hint = "".join(f"; {closest!r} is not read" for closest in suggestions if closest)
+                hint = "".join(f"; {closest!r} is ignored" for closest in suggestions if closest)
                 which = f"<{part.tag}> has no {_or_list(missing)}"
                 yield self.report(part, f"{which}: urdfdom rejects the whole file{hint}")
         for path in robot_paths(package):

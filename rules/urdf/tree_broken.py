@@ -72,8 +72,8 @@ class TreeBroken(Rule):
 
     **Why.** ``Two root links found: [base_link] and [camera]``, ``link 'wheel' is not unique``,
     ``parent link [base] of joint [axis] not found``: the URDF parser rejects the whole file, and
-    robot_state_publisher ends. Gazebo silently ignores the sensors, plugins and friction of missing
-    links.
+    robot_state_publisher exits. Gazebo silently ignores the sensors, plugins and friction of
+    missing links.
 
     **Fix.** Connect each link but the first to its parent, by one joint; give each a unique name,
     in a macro derived from a parameter: ``${name}_link``.
@@ -87,7 +87,7 @@ class TreeBroken(Rule):
     examples = (
         Example("a tree", {"robot.urdf": _ROBOT.format("base_link", "camera")}),
         Example(
-            "two parents, and so two roots",
+            "two parents, and therefore two roots",
             {"robot.urdf": _ROBOT.format("camera", "wheel")},
             "4:15: no joint connects 'camera': urdfdom finds two roots, it and 'base_link', and "
             "rejects the whole file",
@@ -97,7 +97,7 @@ class TreeBroken(Rule):
             "a link without a joint",
             {"robot.urdf": _ROBOT.format("wheel", "wheel2")},
             "11:18: child 'wheel2' of joint 'mount' is not a link of this robot: "
-            "robot_state_publisher ends; closest: 'wheel'",
+            "robot_state_publisher exits; closest: 'wheel'",
         ),
         Example(
             "a loop",
@@ -114,7 +114,7 @@ class TreeBroken(Rule):
             "4:15: a link 'wheel' is already defined in robot.urdf:3: urdfdom rejects the whole "
             "file",
             "11:18: child 'arm' of joint 'shoulder' is not a link of this robot: "
-            "robot_state_publisher ends",
+            "robot_state_publisher exits",
         ),
         Example(
             "a joint twice",
@@ -140,16 +140,16 @@ class TreeBroken(Rule):
             },
         ),
         Example(
-            "a link that is not there",
+            "an unknown link",
             {"robot.urdf": _ROBOT_LINKS.format("base", "wheel")},
             "5:19: parent 'base' of joint 'axis' is not a link of this robot: "
-            "robot_state_publisher ends; closest: 'base_link'",
+            "robot_state_publisher exits; closest: 'base_link'",
         ),
         Example(
-            "a link with a name like no other",
+            "an unknown link without a similar name",
             {"robot.urdf": _ROBOT_LINKS.format("base_link", "camera")},
             "6:18: child 'camera' of joint 'axis' is not a link of this robot: "
-            "robot_state_publisher ends",
+            "robot_state_publisher exits",
         ),
         Example(
             "a sensor on an unknown link",
@@ -286,7 +286,7 @@ class TreeBroken(Rule):
                 hint = _hint(package, link, links)
                 message = (
                     f"{tag} {link!r} of joint {name!r} is not a link of this robot: "
-                    f"robot_state_publisher ends{hint}"
+                    f"robot_state_publisher exits{hint}"
                 )
                 if _is_here(package, end):
                     yield self.report(end.at("link"), message)

@@ -1,4 +1,4 @@
-"""UR014: angles, limits, masses and axes are such as a joint and a body can have."""
+"""UR014: angles, limits, masses and axes are physically possible."""
 
 from __future__ import annotations
 
@@ -66,7 +66,7 @@ class ValueImpossible(Rule):
                 )
             },
             "4:20: a mass of 0: Gazebo ignores the link and its joint",
-            "15:35: colors are from 0 to 1, alpha as well: all above is 1; divide by 255",
+            "15:35: colors and alpha are from 0 to 1, larger values count as 1; divide by 255",
         ),
         Example(
             "no moments of inertia",
@@ -76,14 +76,14 @@ class ValueImpossible(Rule):
                 .replace('iyy="1"', 'iyy="0.0"')
                 .replace('izz="1"', 'izz="0"')
             },
-            "5:21: all moments of inertia are 0: in Gazebo nothing resists a turn of the link",
+            "5:21: all moments of inertia are 0: in Gazebo, the link has no rotational inertia",
         ),
         Example(
             "impossible",
             {"robot.urdf": _ROBOT.format("-2", "0 0 0", "1", "-1")},
-            "4:20: a mass is not negative: Gazebo rejects the link",
+            "4:20: a mass must not be negative: Gazebo rejects the link",
             "12:16: the axis has no direction: the joint cannot move; write 0 0 1",
-            "13:19: lower is 1 and upper is -1: no position is within these limits; exchange them",
+            "13:19: lower is 1 and upper is -1: no position is within these limits; swap them",
         ),
         Example(
             "radians; a winch; the height of a lift",
@@ -105,9 +105,9 @@ class ValueImpossible(Rule):
         Example(
             "degrees",
             {"robot.urdf": _ROBOT_ANGLES.format("revolute", "90", "-45", "180")},
-            "7:30: rpy is in radians, 90 looks like degrees; write 1.5708",
-            "8:19: lower is in radians, -45 looks like degrees; write -0.7854",
-            "8:31: upper is in radians, 180 looks like degrees; write 3.1416",
+            "7:30: rpy is in radians, but 90 looks like degrees; write 1.5708",
+            "8:19: lower is in radians, but -45 looks like degrees; write -0.7854",
+            "8:31: upper is in radians, but 180 looks like degrees; write 3.1416",
         ),
     )
 
@@ -120,13 +120,15 @@ class ValueImpossible(Rule):
             joint = part.holder
             moves = joint is not None and joint.get("type") in _MOVING
             if part.tag == "mass" and any(value < 0 for value in _numbers(part, "value")):
-                message = "a mass is not negative: Gazebo rejects the link"
+                message = "a mass must not be negative: Gazebo rejects the link"
                 yield self.report(part.at("value"), message)
             elif part.tag == "mass" and _numbers(part, "value") == [0] and _is_moved(part):
                 message = "a mass of 0: Gazebo ignores the link and its joint"
                 yield self.report(part.at("value"), message)
             elif part.tag == "color" and any(value > 1 for value in _numbers(part, "rgba")):
-                message = "colors are from 0 to 1, alpha as well: all above is 1; divide by 255"
+                message = (
+                    "colors and alpha are from 0 to 1, larger values count as 1; divide by 255"
+                )
                 yield self.report(part.at("rgba"), message)
             elif part.tag == "axis" and moves and _numbers(part, "xyz") == [0, 0, 0]:
                 message = "the axis has no direction: the joint cannot move; write 0 0 1"
@@ -136,12 +138,12 @@ class ValueImpossible(Rule):
                 if lower and upper and lower > upper:
                     message = (
                         f"lower is {lower[0]:g} and upper is {upper[0]:g}: no position is within "
-                        "these limits; exchange them"
+                        f"these limits; swap them"
                     )
                     yield self.report(part.at("lower"), message)
             elif part.tag == "inertia" and _has_no_moment(part) and _is_moved(part):
                 message = (
-                    "all moments of inertia are 0: in Gazebo nothing resists a turn of the link"
+                    "all moments of inertia are 0: in Gazebo, the link has no rotational inertia"
                 )
                 yield self.report(part.at("ixx"), message)
 
@@ -151,8 +153,8 @@ class ValueImpossible(Rule):
                 number = _degrees(value)
                 if number is not None:
                     message = (
-                        f"{name} is in radians, {number:g} looks like degrees; "
-                        f"write {number * _RADIAN:.4f}"
+                        f"{name} is in radians, but {number:g} looks like degrees; write "
+                        f"{number * _RADIAN:.4f}"
                     )
                     yield self.report(part.at(name), message)
 

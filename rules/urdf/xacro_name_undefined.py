@@ -69,7 +69,7 @@ class XacroNameUndefined(Rule):
 
     **Why.** xacro stops, ``unknown macro name: xacro:weel``, ``name 'radus' is not defined``,
     ``Undefined parameters [y]`` or ``Invalid parameter "z"``, so the robot has no description. A
-    macro without its prefix stays as it is, unread.
+    macro without its prefix is not expanded.
 
     **Fix.** Use a name that the file or one that it includes defines, above its use; give each
     parameter of a macro without a default, and no others.
@@ -128,7 +128,7 @@ class XacroNameUndefined(Rule):
                 "c.xacro": _robot(1, "${height}"),
             },
             "a.xacro:8:35: property 'radus' is not defined here: xacro stops; closest: 'radius'",
-            "b.xacro:8:35: ${radius *} is not an expression of Python: xacro stops",
+            "b.xacro:8:35: ${radius *} is not a valid Python expression: xacro stops",
             "c.xacro:8:35: property 'height' is not defined here: xacro stops",
         ),
         Example(
@@ -165,7 +165,7 @@ class XacroNameUndefined(Rule):
         Example(
             "a macro without its prefix",
             {"robot.xacro": _ROBOT.format(*_GOOD[:2], "", "left", "")},
-            "12:4: <wheel> is not expanded without its prefix: write <xacro:wheel>",
+            "12:4: <wheel> is not expanded without its prefix; write <xacro:wheel>",
         ),
         Example(
             "a call as the macro is defined",
@@ -176,7 +176,7 @@ class XacroNameUndefined(Rule):
             {"robot.xacro": _ROBOT_CALLS.format('name="left"', _ORIGIN)},
         ),
         Example(
-            "a default with a quote too many, which xacro reads",
+            "a default with an extra quote, which xacro accepts",
             {
                 "robot.xacro": _ROBOT_CALLS.format('name="left" y="1"', _ORIGIN).replace(
                     "y:=0", "y:='''"
@@ -199,12 +199,12 @@ class XacroNameUndefined(Rule):
             "10:4: macro 'wheel' needs an element for its block 'origin': xacro stops",
         ),
         Example(
-            "a block too many",
+            "an extra block",
             {"robot.xacro": _ROBOT_CALLS.format('name="left"', f"{_ORIGIN}<limit/>")},
             "10:50: macro 'wheel' has no block for <limit>: xacro stops with 'Unused block'",
         ),
         Example(
-            "a condition that is no truth",
+            "a condition that is not a bool",
             {
                 "robot.xacro": '<robot name="a" xmlns:xacro="http://www.ros.org/wiki/xacro">\n'
                 '  <link name="a"/>\n  <xacro:if value="yes"/>\n</robot>\n'
@@ -212,7 +212,7 @@ class XacroNameUndefined(Rule):
             "3:20: 'yes' is not a condition: xacro stops; write true, false, 0, 1 or ${...}",
         ),
         Example(
-            "a file of URDF that nobody gives to xacro",
+            "a URDF file that is not processed by xacro",
             {"robot.urdf": _PLAIN},
             Report(
                 "4:33",
@@ -222,7 +222,7 @@ class XacroNameUndefined(Rule):
             ),
         ),
         Example(
-            "a file of URDF that a launch file gives to xacro",
+            "a URDF file that a launch file passes to xacro",
             {
                 "robot.urdf": _PLAIN,
                 "launch/a.launch.py": "import xacro\n\n\n"
@@ -284,8 +284,8 @@ def _message(package: Package, undefined: Undefined, *, is_used_here: bool) -> s
         "macro": f"macro {name!r} is not defined here: xacro stops{hint}",
         "block": f"block {name!r} is not a parameter of this macro: xacro stops; add '*{name}'",
         "command": f"xacro has no $({name} ...): it stops; known: {', '.join(names[:5])}",
-        "expression": f"${{{name}}} is not an expression of Python: xacro stops",
-        "tag": f"<{name}> is not expanded without its prefix: write <xacro:{name}>",
+        "expression": f"${{{name}}} is not a valid Python expression: xacro stops",
+        "tag": f"<{name}> is not expanded without its prefix; write <xacro:{name}>",
     }
     if kind == "stop":  # in a condition, where an undefined macro serves as an error message
         return messages["macro"] if closest else ""
