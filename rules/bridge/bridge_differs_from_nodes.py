@@ -37,7 +37,7 @@ _NODE_DIRECTION = (
 )
 _CLOCK = re.compile(r"\bclock\b")
 _SIM_TIME = re.compile(
-    r"use_sim_time['\"]?\s*[:,]?\s*(?:default_value|default|value)?\s*=?\s*['\"]?[Tt]rue"
+    r"use_sim_time['\"]?[\s:,]{0,20}(?:(?:default_value|default|value)=)?['\"]?[Tt]rue"
 )
 """Matches how launch files and parameter files switch to the time of the simulation."""
 _TIMED = (
