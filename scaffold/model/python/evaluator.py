@@ -62,6 +62,10 @@ MOST_STEPS = 300_000
 FEW_STEPS = 100
 
 
+_NO_NOTES = frozenset[str]()
+"""Shared, as most values have none, and Python makes a new empty set each time."""
+
+
 class Evaluator:
     """Evaluates the expressions of one module.
 
@@ -79,7 +83,7 @@ class Evaluator:
         self._running: set[ast.AST] = set()
         self._memo: dict[ast.AST, tuple[object, frozenset[str]]] = {}
         self._local: dict[tuple[ast.AST, str], object] = {}
-        self._notes: frozenset[str] = frozenset()
+        self._notes = _NO_NOTES
         self._methods: Mapping[type[ast.expr], Callable[..., object]] = {
             ast.Name: self._name,
             ast.Attribute: self._attribute,
@@ -110,7 +114,8 @@ class Evaluator:
             return UNKNOWN if node.value is ... else node.value
         if not self._local and node in self._memo:
             value, notes = self._memo[node]
-            self._notes |= notes
+            if notes:
+                self._notes |= notes
             return value
         method = self._methods.get(type(node))
         if method is None:
@@ -133,13 +138,14 @@ class Evaluator:
         """Evaluate a node, and remember its value unless it was cut short or depends on names."""
         self._running.add(node)
         self._depth += 1
-        outer, self._notes = self._notes, frozenset()
+        outer, self._notes = self._notes, _NO_NOTES
         try:
             value = held_small(method(node))
         finally:
             self._depth -= 1
             self._running.discard(node)
-            notes, self._notes = self._notes, outer | self._notes
+            notes = self._notes
+            self._notes = outer | notes if outer and notes else outer or notes
         if not self._local and not self._is_cut:
             self._memo[node] = value, notes
         if self._depth == 0:
@@ -172,7 +178,7 @@ class Evaluator:
 
     def trace(self, node: ast.expr | None) -> tuple[object, frozenset[str]]:
         """Return a value, and the notes by subclasses about its origin."""
-        outer, self._notes = self._notes, frozenset()
+        outer, self._notes = self._notes, _NO_NOTES
         value = self.evaluate(node)
         notes, self._notes = self._notes, outer
         return value, notes
