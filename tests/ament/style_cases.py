@@ -940,7 +940,6 @@ BUILTINS: tuple[str, ...] = (
     "aiter = 1\n",
     "unicode = 1\n",
     "reveal_type = 1\n",
-    "PythonFinalizationError = 1\n",
     "EncodingWarning = 1\n",
     "x = id = 1\n",
     "x = (id, y) = z\n",

@@ -25,6 +25,10 @@ MAX_DEPTH = 300
 """The depth limit of syntax trees; real modules stay below 50, and visitors recurse."""
 
 
+_NO_NAMES = frozenset[str]()
+"""Shared, as most expressions have none, and Python makes a new empty set each time."""
+
+
 class SyntaxTree:
     """A parsed Python file: its nodes, their locations, and their qualified names."""
 
@@ -249,9 +253,9 @@ class SyntaxTree:
             parts = f".{node.attr}{parts}"
             node = node.value
         if not isinstance(node, ast.Name):
-            return frozenset()
+            return _NO_NAMES
         if node.id not in self._imported_names and not hasattr(builtins, node.id):
-            return frozenset()
+            return _NO_NAMES
         key = node.id, self.index.scope_of(node)
         if key not in self._roots:
             self._roots[key] = self._imported_as(node)
@@ -277,9 +281,9 @@ class SyntaxTree:
             # A star import may bind open or sum, but not KeyboardInterrupt.
             is_star = "*" in self.index.bindings(self.tree) and node.id.islower()
             is_builtin = hasattr(builtins, node.id) and not is_star
-            return frozenset({node.id} if is_builtin else ())
+            return frozenset({node.id}) if is_builtin else _NO_NAMES
         if any(binding.kind != "import" for binding in lookup[1]):
-            return frozenset()
+            return _NO_NAMES
         return frozenset(binding.target for binding in lookup[1])
 
     @property
