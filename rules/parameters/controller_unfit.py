@@ -151,6 +151,10 @@ class ControllerUnfit(Rule):
             "controller fails; closest: 'right_joint'",
         ),
         Example(
+            "an interface that another controller exports to a chained one",
+            _files(joint="base_controller/right_joint/velocity"),
+        ),
+        Example(
             "parameters of a controller in the section of the manager",
             {
                 "config/controllers.yaml": "controller_manager:\n  ros__parameters:\n"
@@ -267,6 +271,9 @@ class ControllerUnfit(Rule):
             if not any(item.text in joints for item in named):
                 continue
             for item in named:
+                exporter = item.text.partition("/")[0]
+                if exporter in types and exporter != item.text:
+                    continue  # a reference interface of a controller, for a chained one
                 if item.text not in joints and "$(" not in item.text:
                     closest = closest_name(package, item.text, joints, 0.6)
                     hint = f"; closest: {closest!r}" if closest else ""
