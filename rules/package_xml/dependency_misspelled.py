@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, Severity
+from scaffold.api import Diagnostic, Edit, Effect, Example, Fix, Package, Report, Rule, Severity
 from scaffold.api.catalog import (
     OTHER_NAMES,
     ROS_PACKAGES,
@@ -33,6 +33,7 @@ class DependencyMisspelled(Rule):
         Severity.WARNING: "the name follows the pattern of other packages, such as rclpy_action, "
         "or is a Python key",
     }
+    effect = Effect.SPOILS_INSTALL
     release_refused = "bloom finds no rosdep rule for the name"
     examples = (
         Example(

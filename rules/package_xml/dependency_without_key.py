@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, ViewError
+from scaffold.api import Diagnostic, Edit, Effect, Example, Fix, Package, Report, Rule, ViewError
 from scaffold.api.catalog import keys_of_module, module_of_key
 
 from ._debian import key_of_debian
@@ -37,6 +37,7 @@ class DependencyWithoutKey(Rule):
 
     code = "PX081"
     name = "dependency-without-key"
+    effect = Effect.SPOILS_INSTALL
     examples = (
         Example("a package", {"package.xml": _MANIFEST.format("std_msgs")}),
         Example(

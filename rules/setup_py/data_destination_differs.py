@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Effect, Example, Package, Rule
 from scaffold.api.launch import DATA_DIRECTORIES
 from scaffold.api.python import Glob
 from scaffold.api.setup_py import DataFile
@@ -37,6 +37,7 @@ class DataDestinationDiffers(Rule):
 
     code = "SP052"
     name = "data-destination-differs"
+    effect = Effect.SPOILS_INSTALL
     examples = (
         Example(
             "the share directory",

@@ -4,7 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import CreateFile, Diagnostic, Edit, Example, Fix, Package, Report, Rule, Severity
+from scaffold.api import (
+    CreateFile,
+    Diagnostic,
+    Edit,
+    Effect,
+    Example,
+    Fix,
+    Package,
+    Report,
+    Rule,
+    Severity,
+)
 from scaffold.api.manifest import name_used_elsewhere
 
 INDEX = "share/ament_index/resource_index/packages"
@@ -42,6 +53,7 @@ class MarkerOrManifestMissing(Rule):
         Severity.WARNING: "setup.py does not install it, but colcon does, or setup.py installs "
         "another one"
     }
+    effect = Effect.STOPS_BUILD
     release_refused = "`ros2` does not find the released package"
     examples = (
         Example(

@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 from fnmatch import fnmatchcase
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Effect, Example, Package, Rule
 from scaffold.api.python import Glob
 from scaffold.api.setup_py import matches
 
@@ -35,6 +35,7 @@ class SetupFileMissing(Rule):
 
     code = "SP011"
     name = "setup-file-missing"
+    effect = Effect.STOPS_BUILD
     examples = (
         Example(
             "data files; an empty directory may have no files yet",
