@@ -94,10 +94,10 @@ _HUB = (
 class ArgumentTypeUnfit(TypeRule):
     """An argument of a ROS function has the wrong type.
 
-    **Why.** The function raises ``TypeError`` or ``AttributeError``, at this line or when it uses
-    the value.
+    **Why.** The call fails, at once or when the function uses the argument: ``TypeError: Expected
+    <class 'std_msgs.msg._string.String'>, got <class 'str'>``.
 
-    **Fix.** Pass an object of the type that the parameter has in ROS 2 Jazzy.
+    **Fix.** Pass an object of the parameter's type: ``publish(String(data='hello'))``.
 
     **Source.** The annotations of the packages of ROS 2 Jazzy; what pyserial and tf_transformations
     do with their arguments.
@@ -105,26 +105,26 @@ class ArgumentTypeUnfit(TypeRule):
 
     code = "TY005"
     name = "argument-type-unfit"
-    other_severities = {Severity.WARNING: "it is only logged at debug level"}
+    other_severities = {Severity.WARNING: "the call only logs at debug level"}
     kinds = frozenset({"invalid-argument-type", "no-matching-overload"})
     examples = (
         Example(
-            "bytes for a serial port, and numbers for an angle",
+            "bytes written to a serial port, a list passed to euler_from_quaternion()",
             {"driver.py": _DRIVER.format("b'go'", "[q.x, q.y, q.z, q.w]")},
         ),
         Example(
-            "a text for a serial port, and a message for numbers",
+            "str written to a serial port, Quaternion message passed to euler_from_quaternion()",
             {"driver.py": _DRIVER.format("'go'", "q")},
             "8:41: 'b' of write() must be bytes, not a str: write() fails",
             "9:34: 'quaternion' of euler_from_quaternion() must be a sequence of numbers, not a "
             "geometry_msgs.msg.Quaternion: euler_from_quaternion() fails",
         ),
         Example(
-            "numbers for a quaternion, which are too many arguments",
+            "too many arguments: not reported by this rule",
             {"driver.py": _DRIVER.format("b'go'", "0.0, 0.0, q.z")},
         ),
         Example(
-            "a number that may be whole, for a range of whole numbers",
+            "Union[int, float] passed to an integer field",
             {
                 "limits.py": "from typing import Optional, Union\n\n"
                 "from rcl_interfaces.msg import IntegerRange\n\n\n"
@@ -135,7 +135,7 @@ class ArgumentTypeUnfit(TypeRule):
             },
         ),
         Example(
-            "a class that comes from a table with other things in it",
+            "message type from a dictionary with values of different types",
             {
                 "listener.py": "from rclpy.node import Node\n"
                 "from std_msgs.msg import Int32, String\n\n"
@@ -148,7 +148,7 @@ class ArgumentTypeUnfit(TypeRule):
             },
         ),
         Example(
-            "a whole number for a truth",
+            "int passed to a bool parameter",
             {
                 "both.py": "from message_filters import ApproximateTimeSynchronizer\n\n\n"
                 "def join(first, second):\n"
@@ -156,7 +156,7 @@ class ArgumentTypeUnfit(TypeRule):
             },
         ),
         Example(
-            "what is logged",
+            "list passed to the logger",
             {
                 "talker.py": "from rclpy.node import Node\n\n\nclass Talker(Node):\n"
                 "    def show(self, name):\n        words = ['-n', f'{name}']\n"
@@ -170,16 +170,16 @@ class ArgumentTypeUnfit(TypeRule):
             ),
             "10:32: 'message' of info() must be a str, not a list: info() fails",
         ),
-        Example("the types that it takes", {"ticker.py": _NODE.format(*_RIGHT)}),
+        Example("correct argument types", {"ticker.py": _NODE.format(*_RIGHT)}),
         Example(
-            "a description in several parts",
+            "launch argument description as a tuple of strings",
             {
                 "demo.launch.py": "from launch.actions import DeclareLaunchArgument\n\n"
                 "MODE = DeclareLaunchArgument('mode', description=('fast,', 'or slow'))\n"
             },
         ),
         Example(
-            "a goal handle of one of two action servers",
+            "goal handle attribute shared by two action servers",
             {
                 "mover.py": "from example_interfaces.action import Fibonacci\n"
                 "from rclpy.action import ActionServer\nfrom rclpy.node import Node\n"
@@ -197,13 +197,13 @@ class ArgumentTypeUnfit(TypeRule):
             },
         ),
         Example(
-            "what a method is called with",
+            "wrong type passed through a method of the node",
             {"speaker.py": _SPEAKER.format("String(data='hello')", "'hello'")},
             "15:29: 'msg' of publish() must be a std_msgs.msg.String or bytes, not a str: "
             "publish() fails ('text' comes from line 19)",
         ),
         Example(
-            "what a method is called with, whatever its annotation says",
+            "wrong type passed through a method with an incorrect annotation",
             {
                 "speaker.py": _SPEAKER.format("String(data='hello')", "'hello'").replace(
                     "def show(self, text)", "def show(self, text: String)"
@@ -213,7 +213,7 @@ class ArgumentTypeUnfit(TypeRule):
             "publish() fails ('text' comes from line 19)",
         ),
         Example(
-            "a default that nobody replaces",
+            "str as the default of a parameter that no caller sets",
             {
                 "beat.py": "from rclpy.node import Node\n\n\n"
                 "class Beat(Node):\n"
@@ -226,11 +226,11 @@ class ArgumentTypeUnfit(TypeRule):
             "create_timer() fails ('period' comes from line 5)",
         ),
         Example(
-            "what other methods are called with: messages, or what is not known",
+            "method called with messages and values of unknown type",
             {"speaker.py": _SPEAKER.format("String(data='hello')", "self.greeting")},
         ),
         Example(
-            "a method that checks the type of its argument",
+            "isinstance() check before the call",
             {
                 "speaker.py": _SPEAKER.format("'hello'", "'hello'").replace(
                     "        self.talker.publish(text)\n",
@@ -240,7 +240,7 @@ class ArgumentTypeUnfit(TypeRule):
             },
         ),
         Example(
-            "the header of a message for the stamp in it",
+            "header passed instead of its stamp",
             {
                 "age.py": "from rclpy.node import Node\nfrom rclpy.time import Time\n"
                 "from sensor_msgs.msg import Imu\n\n\n"
@@ -258,7 +258,7 @@ class ArgumentTypeUnfit(TypeRule):
             "std_msgs.msg.Header: from_msg() fails ('stamp' comes from line 16)",
         ),
         Example(
-            "a number and a result for the feedback",
+            "float and Result published as action feedback",
             {
                 "mover.py": "from example_interfaces.action import Fibonacci\n"
                 "from rclpy.action import ActionServer\nfrom rclpy.node import Node\n\n\n"
@@ -280,7 +280,7 @@ class ArgumentTypeUnfit(TypeRule):
             "example_interfaces.action.Fibonacci.Result: publish_feedback() fails",
         ),
         Example(
-            "what is sent through a publisher, a client of a service or of an action",
+            "wrong message types passed to publishers, service clients and action clients",
             {
                 "talker.py": "from example_interfaces.action import Fibonacci\n"
                 "from rclpy.action import ActionClient\n"
@@ -322,7 +322,7 @@ class ArgumentTypeUnfit(TypeRule):
             "example_interfaces.action.Fibonacci.Goal, not an int: send_goal_async() fails",
         ),
         Example(
-            "what is no list of parameters",
+            "set_parameters() without a list of Parameter objects",
             {
                 "talker.py": "from rclpy.node import Node\n"
                 "from rclpy.parameter import Parameter\n\n\n"
@@ -345,14 +345,14 @@ class ArgumentTypeUnfit(TypeRule):
             "float: Node() fails",
         ),
         Example(
-            "what launch only tests for truth",
+            "str for a launch option that is only tested for truth",
             {
                 "demo.launch.py": "from launch_ros.actions import Node\n\n"
                 "NODE = Node(package='demo', executable='talk', emulate_tty='True')\n"
             },
         ),
         Example(
-            "a handler that returns a list of None, which launch skips",
+            "launch event handler that returns a list of None",
             {
                 "demo.launch.py": "import os\n\nfrom launch.event_handlers import OnShutdown\n\n"
                 "FILES = ['a.sdf', 'b.sdf']\n"
@@ -360,7 +360,7 @@ class ArgumentTypeUnfit(TypeRule):
             },
         ),
         Example(
-            "arguments of launch",
+            "wrong argument types in a launch file",
             {
                 "talk.launch.py": "from launch import LaunchDescription\n"
                 "from launch.actions import RegisterEventHandler, TimerAction\n"
@@ -380,7 +380,7 @@ class ArgumentTypeUnfit(TypeRule):
             "launch.event_handler.BaseEventHandler, not a list: RegisterEventHandler() fails",
         ),
         Example(
-            "what a declared parameter does not need",
+            "get_parameter_or() with a plain default for a declared parameter",
             {
                 "port.py": "from rclpy.node import Node\n\n"
                 "node = Node('port')\nnode.declare_parameter('port', 1)\n"
@@ -388,7 +388,7 @@ class ArgumentTypeUnfit(TypeRule):
             },
         ),
         Example(
-            "elements of a list of messages",
+            "wrong message type appended to an array field",
             {
                 "way.py": "from geometry_msgs.msg import Pose, PoseStamped\n"
                 "from nav_msgs.msg import Path\n\n\n"
@@ -406,7 +406,7 @@ class ArgumentTypeUnfit(TypeRule):
             "geometry_msgs.msg.Pose: it cannot be published",
         ),
         Example(
-            "a list of elements of another type",
+            "list with wrong message types passed to a constructor",
             {
                 "way.py": "from geometry_msgs.msg import Pose\n"
                 "from nav_msgs.msg import Path\n\n\n"
@@ -418,7 +418,7 @@ class ArgumentTypeUnfit(TypeRule):
             "geometry_msgs.msg.Pose: it cannot be published",
         ),
         Example(
-            "a name for a class, an object for a function",
+            "str instead of a message class, action instead of a matcher function",
             {
                 "read.py": "from launch_ros.actions import LifecycleNode\n"
                 "from launch_ros.events.lifecycle import ChangeState\n"
@@ -440,7 +440,7 @@ class ArgumentTypeUnfit(TypeRule):
             "deserialize_message() fails",
         ),
         Example(
-            "the messages that a synchronizer brings",
+            "synchronized callback that passes CompressedImage to imgmsg_to_cv2()",
             {
                 "pair.py": "from cv_bridge import CvBridge\n"
                 "from message_filters import Subscriber, TimeSynchronizer\n"
@@ -462,7 +462,7 @@ class ArgumentTypeUnfit(TypeRule):
             "sensor_msgs.msg.CompressedImage: imgmsg_to_cv2() fails",
         ),
         Example(
-            "a message for the text in it",
+            "message passed to json.loads() instead of its data field",
             {
                 "orders.py": "import json\n\nfrom rclpy.node import Node\n"
                 "from std_msgs.msg import String\n\n\n"
@@ -478,7 +478,7 @@ class ArgumentTypeUnfit(TypeRule):
             "'data'",
         ),
         Example(
-            "a callback with annotations of its own",
+            "parameter callback with a different annotation",
             {
                 "speaker.py": "from rcl_interfaces.msg import Parameter, SetParametersResult\n"
                 "from rclpy.node import Node\n\n\n"
@@ -491,7 +491,7 @@ class ArgumentTypeUnfit(TypeRule):
             },
         ),
         Example(
-            "a float, which is made an int",
+            "float nanoseconds, which Duration converts to int",
             {
                 "period.py": "import rclpy.time\nfrom rclpy.duration import Duration\n\n\n"
                 "PERIOD = Duration(seconds=0, nanoseconds=1e9 / 30)\n"
@@ -499,7 +499,7 @@ class ArgumentTypeUnfit(TypeRule):
             },
         ),
         Example(
-            "values that are unpacked, each for a field of its own",
+            "keyword arguments unpacked from a dictionary comprehension",
             {
                 "read.py": "from sensor_msgs.msg import JoyFeedback\n\n"
                 "FIELDS = {'type': int, 'id': int, 'intensity': float}\n\n\n"
@@ -508,7 +508,7 @@ class ArgumentTypeUnfit(TypeRule):
             },
         ),
         Example(
-            "clients of two services in a dictionary",
+            "service clients of different types in a dictionary",
             {
                 "reset.py": "from rclpy.node import Node\n"
                 "from std_srvs.srv import SetBool, Trigger\n\n\n"
@@ -525,7 +525,7 @@ class ArgumentTypeUnfit(TypeRule):
             },
         ),
         Example(
-            "the nodes of a list, and the list",
+            "list of nodes passed to add_node()",
             {
                 "run.py": "from rclpy.executors import SingleThreadedExecutor\n"
                 "from rclpy.node import Node\n\n\n"
@@ -539,17 +539,17 @@ class ArgumentTypeUnfit(TypeRule):
             "14:23: 'node' of add_node() must be an rclpy.node.Node, not a list: add_node() fails",
         ),
         Example(
-            "a publisher and messages in containers",
+            "correct message for a publisher in a dictionary",
             {"fleet.py": _FLEET.format("msg")},
         ),
         Example(
-            "a part of a message for the message, in containers",
+            "field of a message published by a publisher in a dictionary",
             {"fleet.py": _FLEET.format("msg.linear")},
             "14:37: 'msg' of publish() must be a geometry_msgs.msg.Twist or bytes, not a "
             "geometry_msgs.msg.Vector3: publish() fails",
         ),
         Example(
-            "a str for a number, a class for an object, a number for a duration",
+            "str as a timer period, class as a callback group, float as a Duration",
             {"ticker.py": _NODE.format("'0.1'", "ReentrantCallbackGroup", "1.0")},
             "10:40: 'timer_period_sec' of create_timer() must be a float, not a str: "
             "create_timer() fails",
@@ -560,7 +560,7 @@ class ArgumentTypeUnfit(TypeRule):
             "sleep_for() fails; write Duration(seconds=...)",
         ),
         Example(
-            "a number as the timeout of a transformation",
+            "float as the timeout of transform()",
             {
                 "look.py": "import tf2_geometry_msgs\nfrom geometry_msgs.msg import PointStamped\n"
                 "from tf2_ros import Buffer\n\n\n"
@@ -572,7 +572,7 @@ class ArgumentTypeUnfit(TypeRule):
             "transform() fails; write Duration(seconds=...)",
         ),
         Example(
-            "times of two kinds",
+            "rclpy.time.Time and builtin_interfaces.msg.Time mixed up",
             {"age.py": _TIMES},
             "8:25: 'until' of sleep_until() must be an rclpy.time.Time, not a "
             "builtin_interfaces.msg.Time: sleep_until() fails; write "
@@ -581,7 +581,7 @@ class ArgumentTypeUnfit(TypeRule):
             "rclpy.time.Time: it cannot be published; write .to_msg()",
         ),
         Example(
-            "a publisher whose type depends on where the node runs",
+            "publisher whose message type depends on a condition",
             {
                 "shooter.py": "from rclpy.node import Node\n"
                 "from std_msgs.msg import Empty, Float32\n"
@@ -601,7 +601,7 @@ class ArgumentTypeUnfit(TypeRule):
             },
         ),
         Example(
-            "publishers in a table, swapped and not",
+            "wrong message for one of the publishers in a dictionary",
             {
                 "state.py": "from rclpy.node import Node\n"
                 "from std_msgs.msg import Bool, String\n\n\n"
@@ -618,7 +618,7 @@ class ArgumentTypeUnfit(TypeRule):
             "std_msgs.msg.Bool: publish() fails",
         ),
         Example(
-            "an object that has a node, for the node",
+            "object that is not a node passed to TransformListener; a mixin of a node",
             {
                 "frames.py": "from rclpy.node import Node\n"
                 "from tf2_ros import Buffer, TransformListener\n\n\n"
@@ -637,7 +637,7 @@ class ArgumentTypeUnfit(TypeRule):
             "TransformListener() fails",
         ),
         Example(
-            "a duration for the default of a parameter",
+            "Duration as the default of a parameter",
             {
                 "pacer.py": "from rclpy.duration import Duration\nfrom rclpy.node import Node\n\n\n"
                 "class Pacer(Node):\n"
@@ -649,7 +649,7 @@ class ArgumentTypeUnfit(TypeRule):
             "declare_parameter() fails",
         ),
         Example(
-            "a callback of another module that takes nothing",
+            "callback from another module without a parameter",
             {
                 "package.xml": "<package><name>rover</name></package>\n",
                 "rover/__init__.py": "",
@@ -666,7 +666,7 @@ class ArgumentTypeUnfit(TypeRule):
             "arguments, but it takes 0: TypeError",
         ),
         Example(
-            "a duration for the number in it",
+            "Duration passed to time.sleep()",
             {
                 "pacer.py": "import time\n\nfrom rclpy.duration import Duration\n\n\n"
                 "class Pacer:\n"
@@ -680,7 +680,7 @@ class ArgumentTypeUnfit(TypeRule):
             ".nanoseconds / 1e9",
         ),
         Example(
-            "functions with a parameter too few, for a diagnostic updater",
+            "diagnostic task without the status parameter",
             {
                 "wheels.py": "from diagnostic_updater import Updater\n"
                 "from rclpy.node import Node\n\n\n"
@@ -698,7 +698,7 @@ class ArgumentTypeUnfit(TypeRule):
             "10:35: add() calls the function 'look' with 1 argument, but it takes 0: TypeError",
         ),
         Example(
-            "a text for a method of bytes",
+            "str separator for bytes.split()",
             {
                 "port.py": "import serial\nfrom rclpy.node import Node\n\n\n"
                 "class Port(Node):\n"
@@ -709,7 +709,7 @@ class ArgumentTypeUnfit(TypeRule):
             "8:27: split() of bytes cannot use a str: TypeError; decode() the bytes first",
         ),
         Example(
-            "a transform that a dataclass sends, and an image that is none",
+            "PoseStamped sent as a transform, Image passed to cv2_to_imgmsg()",
             {
                 "odom.py": "from dataclasses import dataclass\n\n"
                 "from geometry_msgs.msg import PoseStamped\n"
@@ -731,7 +731,7 @@ class ArgumentTypeUnfit(TypeRule):
             "sendTransform() fails",
         ),
         Example(
-            "a dictionary for a list of pairs, bytes that are asked for, and numbers of a table",
+            "dict passed to declare_parameters(), bytes in a str field",
             {
                 "lines.py": "import serial\nfrom rclpy.node import Node\n"
                 "from std_msgs.msg import Int32, String\n\nDEFAULTS = {'a': 1, 'b': 'c'}\n\n\n"
@@ -750,15 +750,17 @@ class ArgumentTypeUnfit(TypeRule):
             "declare_parameters() fails",
             "18:23: 'data' of std_msgs.msg.String is a str, not bytes: it cannot be published",
         ),
-        Example("callbacks in a table", {"arm.py": _TABLE.format("request, response")}),
         Example(
-            "one of the callbacks in a table takes too little",
+            "service callbacks from a dictionary", {"arm.py": _TABLE.format("request, response")}
+        ),
+        Example(
+            "service callback from a dictionary without the request parameter",
             {"arm.py": _TABLE.format("response")},
             "12:48: the callback of create_service() gets 2; one of these functions takes 1: "
             "TypeError when it is called",
         ),
         Example(
-            "an exception for the text of a log message",
+            "exception object passed to the logger",
             {
                 "driver.py": "from rclpy.node import Node\n\n\n"
                 "class Driver(Node):\n"
@@ -772,7 +774,7 @@ class ArgumentTypeUnfit(TypeRule):
             "11:37: 'message' of error() must be a str, not an Exception: error() fails",
         ),
         Example(
-            "a variable of another module that is None at first",
+            "module variable that is initially None",
             {
                 "package.xml": "<package><name>rover</name></package>\n",
                 "rover/__init__.py": "",
@@ -782,7 +784,7 @@ class ArgumentTypeUnfit(TypeRule):
             },
         ),
         Example(
-            "text sent by a method that another module inherits",
+            "str passed to an inherited method that publishes it",
             {
                 "package.xml": "<package><name>rover</name></package>\n",
                 "rover/__init__.py": "",

@@ -50,10 +50,10 @@ class ArgumentsUnfit(TypeRule):
 
     The function belongs to ROS or to another module of the workspace.
 
-    **Why.** ``TypeError: create_timer() missing 1 required positional argument: 'callback'`` when
-    the line is executed.
+    **Why.** The call fails: ``TypeError: create_timer() missing 1 required positional argument:
+    'callback'``.
 
-    **Fix.** Pass the arguments that the function expects in ROS 2 Jazzy.
+    **Fix.** Pass the arguments that the function takes in ROS 2 Jazzy.
 
     **Source.** The signatures of the packages of ROS 2 Jazzy.
     """
@@ -72,7 +72,7 @@ class ArgumentsUnfit(TypeRule):
     )
     examples = (
         Example(
-            "a method that a test replaces",
+            "method replaced by a mock in a test",
             {
                 "test/test_asker.py": "from unittest.mock import patch\n\n"
                 "from rclpy.node import Node\n\n\n"
@@ -86,16 +86,16 @@ class ArgumentsUnfit(TypeRule):
             },
         ),
         Example(
-            "a method of a logger with another name",
+            "logger called with an f-string",
             {"battery.py": _LOG.format("f'voltage {message.voltage}'")},
         ),
         Example(
-            "the same called like print",
+            "logger called with several arguments, like print()",
             {"battery.py": _LOG.format("'voltage', message.voltage")},
             "12:29: info() of a logger takes 1 positional argument, not 2: TypeError",
         ),
         Example(
-            "a function with several signatures",
+            "overloaded can_transform()",
             {
                 "look.py": "from rclpy.time import Time\nfrom tf2_ros.buffer import Buffer\n\n\n"
                 "def look(buffer: Buffer):\n"
@@ -109,7 +109,7 @@ class ArgumentsUnfit(TypeRule):
             "10:5: can_transform() has no argument 'wait': TypeError",
         ),
         Example(
-            "a name that is imported anew",
+            "imported name replaced by a later import",
             {
                 "spawn.py": "from rclpy.node import Node\n"
                 "from gz.transport14 import Node\n\n\n"
@@ -117,7 +117,7 @@ class ArgumentsUnfit(TypeRule):
             },
         ),
         Example(
-            "a method that the constructor replaces",
+            "method replaced by an attribute of the same name",
             {
                 "microphone.py": "from rclpy.node import Node\n\n\n"
                 "class Microphone(Node):\n"
@@ -129,7 +129,7 @@ class ArgumentsUnfit(TypeRule):
             },
         ),
         Example(
-            "a function that is defined again",
+            "function that is redefined with other parameters",
             {
                 "spawn.py": "import rclpy\n\n\n"
                 "def spawn(name):\n    return rclpy.create_node(name)\n\n\n"
@@ -137,9 +137,9 @@ class ArgumentsUnfit(TypeRule):
                 "def main():\n    return spawn('talker', 2)\n"
             },
         ),
-        Example("the arguments it takes", {"ticker.py": _NODE.format("0.1, self.tick")}),
+        Example("correct arguments", {"ticker.py": _NODE.format("0.1, self.tick")}),
         Example(
-            "a variable that is a class by default only",
+            "class as the default of a parameter",
             {
                 "sensor.py": "from rclpy.node import Node\n\n\n"
                 "class Sensor:\n"
@@ -150,7 +150,7 @@ class ArgumentsUnfit(TypeRule):
             },
         ),
         Example(
-            "an entry of a dictionary with classes and functions",
+            "function from a dictionary that also contains classes",
             {
                 "sensors.py": "from sensor_msgs.msg import Image, Imu\n\n\n"
                 "class Sensors:\n"
@@ -164,14 +164,14 @@ class ArgumentsUnfit(TypeRule):
             },
         ),
         Example(
-            "keywords of an old release, which LF017 reports",
+            "removed launch_ros keywords, which LF017 reports",
             {
                 "launch/a.launch.py": "from launch_ros.actions import LifecycleNode\n\n"
                 "driver = LifecycleNode(package='a', executable='b', node_name='c', namespace='')\n"
             },
         ),
         Example(
-            "a method of a class",
+            "instance method called on the class",
             {
                 "name.py": "from rclpy.node import Node\n\nprint(Node.get_name())\n"
                 "Node.get_logger().info('late')\n"
@@ -180,7 +180,7 @@ class ArgumentsUnfit(TypeRule):
             "4:1: get_logger() lacks 'self': TypeError",
         ),
         Example(
-            "a function and a class of another module",
+            "method and constructor from another module",
             {
                 "package.xml": "<package><name>rover</name></package>\n",
                 "rover/__init__.py": "",
@@ -195,7 +195,7 @@ class ArgumentsUnfit(TypeRule):
             "rover/plan.py:8:8: Path() lacks 'width': TypeError",
         ),
         Example(
-            "a class whose base makes other objects, in a module of its own",
+            "class whose base class defines __new__()",
             {
                 "package.xml": "<package><name>rover</name></package>\n",
                 "rover/__init__.py": "",
@@ -208,22 +208,22 @@ class ArgumentsUnfit(TypeRule):
             },
         ),
         Example(
-            "one missing",
+            "missing argument",
             {"ticker.py": _NODE.format("0.1")},
             "7:22: create_timer() lacks 'callback': TypeError",
         ),
         Example(
-            "one too many",
+            "too many positional arguments",
             {"ticker.py": _NODE.format("0.1, self.tick, None, None, True, False")},
             "7:74: create_timer() takes 5 positional arguments at most, not 6: TypeError",
         ),
         Example(
-            "one given twice",
+            "argument passed both by position and by keyword",
             {"ticker.py": _NODE.format("0.1, self.tick, timer_period_sec=0.2")},
             "7:56: create_timer() gets 'timer_period_sec' twice: TypeError",
         ),
         Example(
-            "arguments of rclpy without their names",
+            "keyword-only arguments of rclpy passed by position",
             {"server.py": _SERVER.format("", ", 0.1")},
             Report(
                 "8:16",
@@ -240,7 +240,7 @@ class ArgumentsUnfit(TypeRule):
             fixed={"server.py": _SERVER.format("args=", ", timeout_sec=0.1")},
         ),
         Example(
-            "a mixin for nodes, and a class that has a node",
+            "mixin for nodes without a QoS profile; a wrapper of an unknown object",
             {
                 "mixins.py": "from std_msgs.msg import Bool\n\n\n"
                 "class Stopping:\n"
@@ -255,7 +255,7 @@ class ArgumentsUnfit(TypeRule):
             "6:9: create_subscription() lacks 'qos_profile': TypeError",
         ),
         Example(
-            "a synchronizer without its slop",
+            "ApproximateTimeSynchronizer without slop",
             {
                 "pairs.py": "import message_filters\n\n\n"
                 "def pairs(left: message_filters.Subscriber):\n"
@@ -264,7 +264,7 @@ class ArgumentsUnfit(TypeRule):
             "5:12: ApproximateTimeSynchronizer() lacks 'slop': TypeError",
         ),
         Example(
-            "the depth as ROS 1 names it",
+            "queue_size, the ROS 1 name of the QoS depth",
             {"talker.py": _TALKER.format("queue_size")},
             Report(
                 "7:61",
@@ -275,7 +275,7 @@ class ArgumentsUnfit(TypeRule):
             fixed={"talker.py": _TALKER.format("qos_profile")},
         ),
         Example(
-            "tried, and asked for: an older distribution is kept",
+            "fallbacks for older distributions: except TypeError, inspect.signature()",
             {
                 "server.py": "import inspect\n\nfrom rclpy.node import Node\n"
                 "from std_srvs.srv import Trigger\n\n\n"
@@ -294,7 +294,7 @@ class ArgumentsUnfit(TypeRule):
             },
         ),
         Example(
-            "a failure that a handler of anything hides",
+            "unknown keyword in a try block with except Exception",
             {
                 "server.py": "from rclpy.node import Node\n"
                 "from std_srvs.srv import Trigger\n\n\n"
@@ -308,7 +308,7 @@ class ArgumentsUnfit(TypeRule):
             "8:54: create_service() has no argument 'lazy': TypeError",
         ),
         Example(
-            "a field that a message does not have",
+            "misspelled field in a message constructor",
             {
                 "say.py": "from std_msgs.msg import String\n\n\n"
                 "def said(text):\n    return String(dta=text)\n"
@@ -317,12 +317,12 @@ class ArgumentsUnfit(TypeRule):
             "dropped",
         ),
         Example(
-            "an unknown one",
+            "unknown keyword argument",
             {"ticker.py": _NODE.format("0.1, self.tick, oneshot=True")},
             "7:56: create_timer() has no argument 'oneshot': TypeError",
         ),
         Example(
-            "a task of diagnostics, a function and a class",
+            "wrong number of arguments for stat.add() in diagnostic tasks",
             {
                 "battery.py": "from diagnostic_updater import DiagnosticTask, Updater\n\n\n"
                 "class Battery(DiagnosticTask):\n"

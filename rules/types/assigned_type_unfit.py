@@ -48,11 +48,11 @@ _TRAIL = (
 class AssignedTypeUnfit(TypeRule):
     """A field of a message is set to a value of another type.
 
-    **Why.** ROS 2 Jazzy does not check the value when it is set: publishing the message raises
-    an error that does not name the field, or sends something else.
+    **Why.** ROS 2 Jazzy does not check types on assignment: publishing the message raises an
+    error that does not name the field, or sends another value.
 
-    **Fix.** Set it to a value of the type that ``ros2-scaffold interfaces`` shows. With
-    ``ROS_PYTHON_CHECK_FIELDS=1`` the line itself raises an ``AssertionError``.
+    **Fix.** Assign a value of the field's type, which ``ros2-scaffold interfaces`` shows. With
+    ``ROS_PYTHON_CHECK_FIELDS=1``, the assignment itself raises an ``AssertionError``.
 
     **Source.** ``rosidl_generator_py``, ``resource/_msg.py.em``.
     """
@@ -60,13 +60,13 @@ class AssignedTypeUnfit(TypeRule):
     code = "TY007"
     name = "assigned-type-unfit"
     other_severities = {
-        Severity.WARNING: "it is a time of rclpy in a file that uses tf2, or a message with the "
-        "same fields: it is sent"
+        Severity.WARNING: "the value is an rclpy Time in a file that uses tf2, or another message "
+        "with the same fields, which is sent correctly"
     }
     kinds = frozenset({"invalid-assignment"})
     examples = (
         Example(
-            "an array of numpy for a quaternion",
+            "NumPy array as an orientation",
             {
                 "turn.py": "from geometry_msgs.msg import Pose\n"
                 "from scipy.spatial.transform import Rotation\n\n"
@@ -76,15 +76,17 @@ class AssignedTypeUnfit(TypeRule):
             "5:20: 'orientation' of geometry_msgs.msg.Pose is a geometry_msgs.msg.Quaternion, not "
             "a numpy.ndarray: it cannot be published",
         ),
-        Example("a value of its type", {"dots.py": _NODE.format("Vector3(x=0.1, y=0.1, z=0.1)")}),
         Example(
-            "a number for a vector",
+            "value of the correct type", {"dots.py": _NODE.format("Vector3(x=0.1, y=0.1, z=0.1)")}
+        ),
+        Example(
+            "float instead of a Vector3",
             {"dots.py": _NODE.format("0.1")},
             "7:20: 'scale' of visualization_msgs.msg.Marker is a geometry_msgs.msg.Vector3, not a "
             "float: it cannot be published",
         ),
         Example(
-            "a message with the same fields",
+            "Point instead of a Vector3, which has the same fields",
             {"dots.py": _NODE.format("Marker().pose.position")},
             Report(
                 "7:20",
@@ -94,7 +96,7 @@ class AssignedTypeUnfit(TypeRule):
             ),
         ),
         Example(
-            "an element whose kind another one says",
+            "tuple element used after a check of the first element",
             {
                 "run.py": "from std_msgs.msg import Int32\n\n"
                 "steps = [('move', (0.0, 0.4))]  # ('lift', 2)\n"
@@ -104,7 +106,7 @@ class AssignedTypeUnfit(TypeRule):
             },
         ),
         Example(
-            "an element of a sequence",
+            "tuple assigned to an integer field",
             {
                 "run.py": "from std_msgs.msg import Int32\n\n"
                 "steps = [('move', (0.0, 0.4))]\n"
@@ -115,7 +117,7 @@ class AssignedTypeUnfit(TypeRule):
             "6:17: 'data' of std_msgs.msg.Int32 is an int, not a tuple: it cannot be published",
         ),
         Example(
-            "numbers and a text that are sent as something else",
+            "int in a bool field and str in a float field, passed as arguments",
             {
                 "led.py": "from geometry_msgs.msg import Vector3\n"
                 "from std_msgs.msg import Bool\n\n\n"
@@ -133,7 +135,7 @@ class AssignedTypeUnfit(TypeRule):
             "('place' comes from line 13)",
         ),
         Example(
-            "an attribute and a method for a list and a stamp",
+            "float attribute in an array field, rclpy.time.Time from a method as a stamp",
             {
                 "joints.py": "from rclpy.node import Node\nfrom sensor_msgs.msg import JointState\n"
                 "import math\n\n\n"
@@ -157,7 +159,7 @@ class AssignedTypeUnfit(TypeRule):
             "rclpy.time.Time: it cannot be published",
         ),
         Example(
-            "entries of a table, each of its own type",
+            "bool from a dictionary with values of different types",
             {
                 "flag.py": "from std_msgs.msg import Bool\n\n"
                 "TARGETS = [{'speed': 0.2, 'is_on': True}, {'speed': 0.4, 'is_on': False}]\n"
@@ -166,15 +168,15 @@ class AssignedTypeUnfit(TypeRule):
                 "    flag.data = target['is_on']\n"
             },
         ),
-        Example("a list of what the field holds", {"trail.py": _TRAIL.format("pose")}),
+        Example("list with the correct message type", {"trail.py": _TRAIL.format("pose")}),
         Example(
-            "a list of something else",
+            "list with a wrong message type",
             {"trail.py": _TRAIL.format("pose.pose")},
             "15:22: elements of 'poses' must be a geometry_msgs.msg.PoseStamped, not a "
             "geometry_msgs.msg.Pose: it cannot be published",
         ),
         Example(
-            "a name that a message gets in one branch",
+            "variable that is a message in one branch only",
             {
                 "say.py": "from geometry_msgs.msg import Twist\n"
                 "from std_msgs.msg import String\n\n\n"
@@ -192,7 +194,7 @@ class AssignedTypeUnfit(TypeRule):
             "it cannot be published",
         ),
         Example(
-            "a time for tf2",
+            "rclpy.time.Time as a stamp in a file that imports tf2_ros",
             {
                 "look.py": "import tf2_ros\nfrom rclpy.time import Time\n"
                 "from std_msgs.msg import Header\n\n\n"
@@ -209,7 +211,7 @@ class AssignedTypeUnfit(TypeRule):
             ),
         ),
         Example(
-            "a member of an enumeration, and one that is an int as well",
+            "Enum and IntEnum members in an integer field",
             {
                 "state.py": "from enum import Enum, IntEnum\n\nfrom std_msgs.msg import UInt8\n\n\n"
                 "class State(Enum):\n    IDLE = 0\n\n\n"

@@ -129,9 +129,10 @@ class AttributeMissing(TypeRule):
 
     The class belongs to ROS or to another module of the workspace.
 
-    **Why.** ``AttributeError`` when the line is executed.
+    **Why.** The line fails when it runs: ``AttributeError: 'Future' object has no attribute
+    'accepted'``.
 
-    **Fix.** Use a name that the class defines.
+    **Fix.** Use an attribute that the class defines; call ``result()`` on a future first.
 
     **Source.** The classes of ROS 2 Jazzy and their annotations; the code of the workspace.
     """
@@ -142,7 +143,7 @@ class AttributeMissing(TypeRule):
     kinds = frozenset({"missing-attribute"})
     examples = (
         Example(
-            "two values that are taken for the message",
+            "return value of wait_for_message() used as the message",
             {
                 "once.py": "from rclpy.wait_for_message import wait_for_message\n"
                 "from sensor_msgs.msg import CameraInfo\n\n\n"
@@ -153,7 +154,7 @@ class AttributeMissing(TypeRule):
             "7:12: a tuple has no 'width': AttributeError; unpack it first",
         ),
         Example(
-            "an event of another library, which passes other objects to the same callback",
+            "subscription callback that another library calls as well",
             {
                 "base.py": "from rclpy.node import Node\n"
                 "from std_msgs.msg import String\n\n\n"
@@ -166,7 +167,7 @@ class AttributeMissing(TypeRule):
             },
         ),
         Example(
-            "a method that is kept instead of what it returns",
+            "get_logger stored without calling it",
             {
                 "idle.py": "from rclpy.node import Node\n\n\n"
                 "class Idle(Node):\n"
@@ -179,7 +180,7 @@ class AttributeMissing(TypeRule):
             "11:9: a function has no 'info': AttributeError; call it first",
         ),
         Example(
-            "an array of numpy, which has neither the fields of a quaternion nor append()",
+            "NumPy array used as a quaternion and as a list",
             {
                 "heading.py": "import numpy as np\n"
                 "from geometry_msgs.msg import Quaternion\n"
@@ -193,7 +194,7 @@ class AttributeMissing(TypeRule):
             "10:1: numpy.ndarray has no 'append': AttributeError",
         ),
         Example(
-            "seconds as ROS 1 has them, in an f-string as well",
+            "ROS 1 attributes of a Duration, in code and in an f-string",
             {
                 "age.py": "from rclpy.node import Node\nfrom rclpy.time import Time\n"
                 "from std_msgs.msg import Header\n\n\n"
@@ -210,7 +211,7 @@ class AttributeMissing(TypeRule):
             "10:60: rclpy.duration.Duration has no 'nanosec': AttributeError; write .nanoseconds",
         ),
         Example(
-            "a field of ROS 1, where rospy is imported",
+            "ROS 1 field in a file that imports rospy",
             {
                 "cloud.py": "import os\n\nfrom std_msgs.msg import Header\n\n"
                 "VERSION = int(os.environ.get('VERSION_OF_ROS', '2'))\n"
@@ -220,7 +221,7 @@ class AttributeMissing(TypeRule):
             },
         ),
         Example(
-            "a key of a dictionary as an attribute",
+            "dictionary key used as an attribute",
             {
                 "lamps.py": "from rclpy.node import Node\nfrom std_msgs.msg import Bool\n\n\n"
                 "class Lamps(Node):\n"
@@ -233,9 +234,9 @@ class AttributeMissing(TypeRule):
             },
             "12:9: a dict has no 'red': AttributeError; write ['red']",
         ),
-        Example("an attribute that exists", {"asker.py": _NODE.format("destroy")}),
+        Example("existing attribute", {"asker.py": _NODE.format("destroy")}),
         Example(
-            "a node that another module is given",
+            "unknown attribute of a node in a function of another module",
             {
                 "package.xml": "<package><name>arm</name></package>\n",
                 "arm/util.py": "def title(node, prefix=''):\n    return prefix + node.name()\n",
@@ -247,7 +248,7 @@ class AttributeMissing(TypeRule):
             "arm/main.py)",
         ),
         Example(
-            "a property of Node that something else is assigned to, which ND013 reports",
+            "Node.executor replaced with another object, which ND013 reports",
             {
                 "miner.py": "from concurrent.futures import ThreadPoolExecutor\n\n"
                 "from rclpy.node import Node\n\n\n"
@@ -260,7 +261,7 @@ class AttributeMissing(TypeRule):
             },
         ),
         Example(
-            "asked for first",
+            "hasattr() check before the use",
             {
                 "asker.py": _NODE.format("halt").replace(
                     "stop(self):\n", "stop(self):\n        assert hasattr(self.client, 'halt')\n"
@@ -268,7 +269,7 @@ class AttributeMissing(TypeRule):
             },
         ),
         Example(
-            "an annotation that the calls contradict, of a function that others get as well",
+            "method with an incorrect annotation that is also passed as a callback",
             {
                 "turn.py": "from geometry_msgs.msg import Quaternion\n"
                 "from rclpy.node import Node\nfrom sensor_msgs.msg import Imu\n\n\n"
@@ -287,11 +288,11 @@ class AttributeMissing(TypeRule):
             },
         ),
         Example(
-            "what a module imports for itself",
+            "name that a module imports but does not define",
             {"kinds.py": "import rclpy.node\n\nOnSet = rclpy.node.Callable[[list], None]\n"},
         ),
         Example(
-            "the parameters of a callback",
+            "unknown attribute of a Parameter in a parameter callback",
             {"limit.py": _LIMIT.format("type")},
             Report(
                 "12:16",
@@ -301,7 +302,7 @@ class AttributeMissing(TypeRule):
             fixed={"limit.py": _LIMIT.format("type_")},
         ),
         Example(
-            "what a method looks up",
+            "unknown field of a transform returned by a method",
             {
                 "finder.py": "from rclpy.node import Node\nfrom rclpy.time import Time\n"
                 "from tf2_ros import Buffer, TransformException\n\n\n"
@@ -325,7 +326,7 @@ class AttributeMissing(TypeRule):
             "child_frame_id, header, transform",
         ),
         Example(
-            "the bytes of a bag",
+            "serialized message read from a bag",
             {
                 "read.py": "from geometry_msgs.msg import Twist\n"
                 "from rosbag2_py import SequentialReader\n\n\n"
@@ -339,7 +340,7 @@ class AttributeMissing(TypeRule):
             "10:44: bytes has no 'linear': AttributeError",
         ),
         Example(
-            "a client from a table that states its kind",
+            "client from a dictionary, used after a check of its kind",
             {
                 "asker.py": _NODE.format("destroy") + "\n    def wait(self, task):\n"
                 "        self.kinds = {1: {'a': {'client': self.client, 'kind': 'action'}}}\n"
@@ -351,24 +352,24 @@ class AttributeMissing(TypeRule):
             },
         ),
         Example(
-            "a module of Windows",
+            "Windows-only module after a check of os.name",
             {
                 "keys.py": "import os\n\nimport rclpy\n\nrclpy.init()\n"
                 "if os.name == 'nt':\n    import msvcrt\n\n    print(msvcrt.getch())\n"
             },
         ),
         Example(
-            "a name that only a later Python removed",
+            "attribute that a later Python version removed",
             {"record.py": _RECORD},
         ),
         Example(
-            "a name that Python removed",
+            "attribute that Python removed",
             {"record.py": _RECORD},
             "6:7: sqlite3 has no 'version': AttributeError",
             distro="lyrical",
         ),
         Example(
-            "an action as annotation of its feedback",
+            "action feedback callback annotated with the action",
             {
                 "asker.py": _NODE.format("destroy")
                 + "\n    def feedback(self, message: Fibonacci):\n"
@@ -376,7 +377,7 @@ class AttributeMissing(TypeRule):
             },
         ),
         Example(
-            "the feedback as annotation of the message around it",
+            "action feedback callback annotated with the feedback",
             {
                 "asker.py": _NODE.format("destroy")
                 + "\n    def feedback(self, message: Fibonacci.Feedback):\n"
@@ -384,14 +385,14 @@ class AttributeMissing(TypeRule):
             },
         ),
         Example(
-            "the parts of a launch description",
+            "attributes of launch entities",
             {
                 "names.py": "from launch import LaunchDescription\n\n"
                 "names = [action.name for action in LaunchDescription().entities]\n"
             },
         ),
         Example(
-            "a callback that annotates its self",
+            "methods that annotate self as Node",
             {
                 "listener.py": "from rclpy.node import Node\nfrom std_msgs.msg import String\n\n\n"
                 "class Listener(Node):\n"
@@ -404,7 +405,7 @@ class AttributeMissing(TypeRule):
             },
         ),
         Example(
-            "futures of others",
+            "future of a thread pool",
             {
                 "asker.py": _NODE.format("destroy") + "\n    def ask(self, pool):\n"
                 "        pool.submit(self.stop).add_done_callback(self.on_done)\n\n"
@@ -413,7 +414,7 @@ class AttributeMissing(TypeRule):
             },
         ),
         Example(
-            "a future taken for the goal handle that it brings",
+            "future used as the goal handle",
             {
                 "asker.py": _NODE.format("destroy") + "\n    def ask(self):\n"
                 "        future = self.client.send_goal_async(Fibonacci.Goal())\n"
@@ -425,7 +426,7 @@ class AttributeMissing(TypeRule):
             "future",
         ),
         Example(
-            "callbacks that objects have, of the same file and of another module",
+            "unknown fields in callbacks that are functions or methods of other objects",
             {
                 "package.xml": "<package><name>rover</name></package>\n",
                 "rover/__init__.py": "",
@@ -452,7 +453,7 @@ class AttributeMissing(TypeRule):
             "rover/node.py:10:16: std_msgs.msg.String has no 'image': AttributeError; it has data",
         ),
         Example(
-            "a message passed to the method of a helper, and of a mixin",
+            "unknown fields of a message passed to a helper object and to a mixin",
             {
                 "limits.py": "from geometry_msgs.msg import TwistStamped\n"
                 "from rclpy.node import Node\n\n\n"
@@ -472,7 +473,7 @@ class AttributeMissing(TypeRule):
             "header, twist ('msg' comes from line 19)",
         ),
         Example(
-            "a goal handle taken for the goal, whose fields are set elsewhere",
+            "goal handle used as the goal",
             {
                 "server.py": "from example_interfaces.action import Fibonacci\n"
                 "from rclpy.action import ActionServer\nfrom rclpy.node import Node\n\n\n"
@@ -487,7 +488,7 @@ class AttributeMissing(TypeRule):
             "12:22: rclpy.action.server.ServerGoalHandle has no 'order': AttributeError",
         ),
         Example(
-            "a future taken for the response, whose fields are set elsewhere",
+            "future used as the service response",
             {
                 "asker.py": "from rclpy.node import Node\nfrom std_srvs.srv import Trigger\n\n\n"
                 "class Asker(Node):\n"
@@ -500,7 +501,7 @@ class AttributeMissing(TypeRule):
             "9:28: rclpy.task.Future has no 'success': AttributeError; call result() of the future",
         ),
         Example(
-            "a method taken for what it returns",
+            "future.result without parentheses",
             {
                 "asker.py": _NODE.format("destroy") + "\n    def ask(self):\n"
                 "        future = self.client.send_goal_async(Fibonacci.Goal())\n"
@@ -512,7 +513,7 @@ class AttributeMissing(TypeRule):
             "20:16: rclpy.task.Future.result has no 'accepted': AttributeError; write result()",
         ),
         Example(
-            "a text taken for the message that it is in",
+            "str used as the message it was read from",
             {
                 "hear.py": "from rclpy.node import Node\nfrom std_msgs.msg import String\n\n\n"
                 "class Hearer(Node):\n"
@@ -527,7 +528,7 @@ class AttributeMissing(TypeRule):
             "14:32: a str has no 'data': AttributeError ('message' comes from line 11)",
         ),
         Example(
-            "the goal handle that a future brings",
+            "unknown attribute of a goal handle",
             {
                 "asker.py": _NODE.format("destroy") + "\n    def ask(self):\n"
                 "        self.handle_of_goal = None\n"
@@ -541,7 +542,7 @@ class AttributeMissing(TypeRule):
             "22:20: rclpy.action.client.ClientGoalHandle has no 'was_refused': AttributeError",
         ),
         Example(
-            "a timer that is None at first",
+            "unknown method of a timer that is initially None",
             {
                 "asker.py": _NODE.format("destroy").replace(
                     "'fibonacci')\n",
@@ -554,12 +555,12 @@ class AttributeMissing(TypeRule):
             "17:9: rclpy.timer.Timer has no 'shutdown': AttributeError",
         ),
         Example(
-            "an attribute of ROS 1",
+            "ROS 1 method of an action client",
             {"asker.py": _NODE.format("cancel_all_goals")},
             "12:9: rclpy.action.client.ActionClient has no 'cancel_all_goals': AttributeError",
         ),
         Example(
-            "after spin",
+            "unknown attribute after rclpy.spin()",
             {
                 "talk.py": "import rclpy\nfrom rclpy.node import Node\n\n\ndef main():\n"
                 "    rclpy.init()\n    rclpy.spin(Node('talker'))\n    rclpy.stop_all()\n"
@@ -567,7 +568,7 @@ class AttributeMissing(TypeRule):
             Report("8:5", "rclpy has no 'stop_all': AttributeError", severity=Severity.WARNING),
         ),
         Example(
-            "a class of another module",
+            "misspelled method of a class from another module",
             {
                 "package.xml": "<package><name>rover</name></package>\n",
                 "rover/__init__.py": "",
@@ -582,7 +583,7 @@ class AttributeMissing(TypeRule):
             ),
         ),
         Example(
-            "a class that sets its attributes by their names",
+            "class that sets attributes with setattr()",
             {
                 "package.xml": "<package><name>rover</name></package>\n",
                 "rover/__init__.py": "",
@@ -591,7 +592,7 @@ class AttributeMissing(TypeRule):
             },
         ),
         Example(
-            "a mock in the place of a node",
+            "mock instead of a node in a test",
             {
                 "package.xml": "<package><name>rover</name></package>\n",
                 "rover/__init__.py": "",
@@ -612,7 +613,7 @@ class AttributeMissing(TypeRule):
             },
         ),
         Example(
-            "an object of a class below the one that is promised",
+            "method that only a subclass of the annotated return type defines",
             {
                 "package.xml": "<package><name>rover</name></package>\n",
                 "rover/__init__.py": "",
@@ -625,7 +626,7 @@ class AttributeMissing(TypeRule):
             },
         ),
         Example(
-            "attributes that other modules store on the object",
+            "attributes set by other modules",
             {
                 "package.xml": "<package><name>rover</name></package>\n",
                 "rover/__init__.py": "",
@@ -641,7 +642,7 @@ class AttributeMissing(TypeRule):
             },
         ),
         Example(
-            "one that another package stores on the object",
+            "attribute set by another package",
             {
                 "package.xml": "<package><name>rover</name></package>\n",
                 "rover/__init__.py": "",
@@ -657,7 +658,7 @@ class AttributeMissing(TypeRule):
             },
         ),
         Example(
-            "the default value of a field, which its class has in capital letters",
+            "NAME__DEFAULT constant for the default of a message field",
             {
                 "package.xml": "<package><name>rover</name>"
                 "<export><build_type>ament_cmake</build_type></export></package>\n",
@@ -669,7 +670,7 @@ class AttributeMissing(TypeRule):
             },
         ),
         Example(
-            "a class that makes objects of others",
+            "class whose __new__() returns other objects",
             {
                 "package.xml": "<package><name>rover</name></package>\n",
                 "rover/__init__.py": "",
@@ -679,7 +680,7 @@ class AttributeMissing(TypeRule):
             },
         ),
         Example(
-            "a field of a message",
+            "unknown field of a message",
             {
                 "say.py": "from std_msgs.msg import String\n\n"
                 "message = String()\nmessage.text = 'hello'\n"
@@ -687,14 +688,14 @@ class AttributeMissing(TypeRule):
             "4:1: std_msgs.msg.String has no 'text': AttributeError; it has data",
         ),
         Example(
-            "awaited; kept as a coroutine",
+            "coroutine that is awaited, coroutine that is closed",
             {
                 "home.py": _HOMING.format("await self.ask()", "success")
                 + "        waiting = self.ask()\n        waiting.close()\n"
             },
         ),
         Example(
-            "a publisher that objects have in place of the text of their class",
+            "instance attribute of a different type than the class attribute",
             {
                 "talker.py": "from launch_param_builder import ParameterBuilder\n"
                 "from std_msgs.msg import String\n\n\n"
@@ -706,22 +707,22 @@ class AttributeMissing(TypeRule):
             },
         ),
         Example(
-            "fields of a dataclass in a dictionary",
+            "existing field of a message in a dictionary of dataclasses",
             {"keep.py": _STATES.format("pose.position")},
         ),
         Example(
-            "another field of a dataclass in a dictionary",
+            "unknown field of a message in a dictionary of dataclasses",
             {"keep.py": _STATES.format("pose.pose")},
             "21:19: geometry_msgs.msg.Pose has no 'pose': AttributeError; it has orientation, "
             "position",
         ),
         Example(
-            "not awaited",
+            "coroutine that is not awaited",
             {"home.py": _HOMING.format("self.ask()", "success")},
             "15:15: a coroutine has no 'success': AttributeError; await it",
         ),
         Example(
-            "an attribute that the distribution removed",
+            "method removed in this distribution",
             {"hint.py": _HINT.format("warn")},
             Report(
                 "7:13",
@@ -733,7 +734,7 @@ class AttributeMissing(TypeRule):
             distro="lyrical",
         ),
         Example(
-            "methods of a class of which only some are described, called on the class",
+            "class with incomplete type stubs",
             {
                 "turn.py": "from scipy.spatial.transform import Rotation\n"
                 "from serial import Serial\n\n"

@@ -27,9 +27,10 @@ _CLIENTS = (
 class MethodAsCondition(TypeRule):
     """A condition is a method of a ROS object that is not called.
 
-    **Why.** A method is always true, so the condition is, too.
+    **Why.** A method object is always truthy: the node never waits for the service, or reads a
+    result before it exists.
 
-    **Fix.** Add the parentheses.
+    **Fix.** Call the method: ``if client.service_is_ready():``.
 
     **Source.** The methods of the classes of ROS 2 Jazzy.
     """
@@ -38,9 +39,9 @@ class MethodAsCondition(TypeRule):
     name = "method-as-condition"
     kinds = frozenset({"redundant-condition"})
     examples = (
-        Example("called", {"chooser.py": _CLIENTS.format("()")}),
+        Example("method call as a condition", {"chooser.py": _CLIENTS.format("()")}),
         Example(
-            "clients in a list, and futures that are stored",
+            "methods of clients and futures without parentheses",
             {"chooser.py": _CLIENTS.format("")},
             "13:16: 'service_is_ready' is a method: always true; write service_is_ready()",
             "17:51: 'done' is a method: always true; write done()",

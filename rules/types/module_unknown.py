@@ -51,25 +51,25 @@ class ModuleUnknown(TypeRule):
 
     **Why.** The program fails at start: ``ModuleNotFoundError: No module named 'imp'``.
 
-    **Fix.** Import the module that has what you need; classes of messages are imported from
-    ``std_msgs.msg``.
+    **Fix.** Correct the name, or use a replacement such as ``importlib``. Import message classes
+    from their module: ``from std_msgs.msg import String``.
 
     **Source.** The Python that the distribution runs on, 3.12 for Jazzy; its packages of ROS 2.
     """
 
     code = "TY001"
     name = "module-unknown"
-    other_severities = {Severity.WARNING: "setuptools may provide the module"}
+    other_severities = {Severity.WARNING: "it is ``distutils``, which setuptools may provide"}
     is_removal = True
     kinds = frozenset({"import-not-found"})
     examples = (
-        Example("a module", {"talker.py": _NODE.format("std_msgs.msg")}),
+        Example("existing module", {"talker.py": _NODE.format("std_msgs.msg")}),
         Example(
-            "one that may be missing",
+            "optional import with except ImportError",
             {"talker.py": "try:\n    import imp\nexcept ImportError:\n    imp = None\n"},
         ),
         Example(
-            "setup.py of a package that CMake builds: nothing runs it",
+            "setup.py of an ament_cmake package, which is never run",
             {
                 "package.xml": "<package><name>talker</name>"
                 "<export><build_type>ament_cmake</build_type></export></package>\n",
@@ -77,7 +77,7 @@ class ModuleUnknown(TypeRule):
             },
         ),
         Example(
-            "a class",
+            "message class imported as a module",
             {"talker.py": _NODE.format("std_msgs.msg.String")},
             Report(
                 "2:8",
@@ -88,7 +88,7 @@ class ModuleUnknown(TypeRule):
             fixed={"talker.py": _NODE.format("std_msgs.msg")},
         ),
         Example(
-            "modules that Python 3.12 lacks, a misspelled one",
+            "modules removed in Python 3.12, misspelled modules",
             {
                 "talker.py": "import imp\nfrom distutils import util\nimport rclpy.nodes\n"
                 "from std_msgs.srv import SetBool\n"
@@ -106,24 +106,24 @@ class ModuleUnknown(TypeRule):
             "'example_interfaces.srv' or 'std_srvs.srv'?",
         ),
         Example(
-            "a module that Python does not have yet",
+            "module that only a newer Python version has",
             {"settings.py": "import tomllib\n"},
             "1:8: Python 3.10 has no module 'tomllib', which is new in 3.11: ModuleNotFoundError; "
             "use tomli",
             distro="humble",
         ),
         Example(
-            "one that Python has now",
+            "module that this Python version has",
             {"settings.py": "import tomllib\n"},
         ),
         Example(
-            "one of a package that Python does not have yet",
+            "submodule of a package that only a newer Python version has",
             {"archive.py": "from compression import zstd\n"},
             "1:6: Python 3.12 has no module 'compression.zstd', which is new in 3.14: "
             "ModuleNotFoundError; use backports.zstd",
         ),
         Example(
-            "for newer Pythons",
+            "imports with a check of the Python version",
             {
                 "settings.py": "import sys\n\nif sys.version_info >= (3, 11):\n"
                 "    import tomllib\nelse:\n    import tomli as tomllib\n",
@@ -133,7 +133,7 @@ class ModuleUnknown(TypeRule):
             distro="humble",
         ),
         Example(
-            "for other Pythons, asked for with a constant of a library",
+            "imports with a check of the Python version from another library",
             {
                 "loader.py": "import rclpy\nfrom six import PY3\nfrom torch._six import PY37\n\n"
                 "if PY37:\n    import importlib\nelse:\n    import imp\n"
@@ -141,7 +141,7 @@ class ModuleUnknown(TypeRule):
             },
         ),
         Example(
-            "modules that CMake installs next to the code of messages",
+            "module that CMake installs into the generated message package",
             {
                 **_INTERFACES,
                 "scripts/node.py": "from talker.gains import Gains\nfrom talker.msg import Beat\n"
@@ -150,7 +150,7 @@ class ModuleUnknown(TypeRule):
             },
         ),
         Example(
-            "one that is not installed there",
+            "module that CMake does not install",
             {
                 **_INTERFACES,
                 "scripts/node.py": "from talker.limits import Limits\n"
@@ -159,7 +159,7 @@ class ModuleUnknown(TypeRule):
             "scripts/node.py:1:6: ROS 2 Jazzy has no module 'talker.limits': ModuleNotFoundError",
         ),
         Example(
-            "a package of one's own with such a name",
+            "other package with the name of a newer standard library module",
             {"archive.py": "import rclpy\nfrom compression import pack\n\nrclpy.init()\npack()\n"},
         ),
     )

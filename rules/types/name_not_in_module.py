@@ -25,7 +25,8 @@ class NameNotInModule(TypeRule):
     **Why.** The program fails at start: ``ImportError: cannot import name 'Iterable' from
     'collections'``.
 
-    **Fix.** Import a name that the module of ROS 2 Jazzy, or of Python 3.12, defines.
+    **Fix.** Correct the name, or import it from the module that defines it:
+    ``from collections.abc import Iterable``.
 
     **Source.** Python 3.12, which Jazzy runs on; the packages of ROS 2 Jazzy.
     """
@@ -35,24 +36,24 @@ class NameNotInModule(TypeRule):
     kinds = frozenset({"missing-module-member"})
     examples = (
         Example(
-            "a name that this Python has, in a file without ROS",
+            "name that this Python version defines",
             {"clock.py": "from datetime import UTC\n"},
         ),
         Example(
-            "a name that Python has later, in a file without ROS",
+            "name that only a newer Python version defines",
             {"clock.py": "from datetime import UTC\n"},
             "1:22: 'datetime' has no 'UTC': ImportError",
             distro="humble",
         ),
         Example(
-            "names that exist",
+            "existing names",
             {
                 "talker.py": "from rclpy.node import Node\n"
                 "from tf2_ros import Buffer, TransformableObject\n"
             },
         ),
         Example(
-            "what a module imports for itself",
+            "names that a module imports but does not define",
             {
                 "talker.py": "from rclpy.executors import time\n"
                 "from launch_ros.substitutions.find_package import get_package_share_directory\n"
@@ -61,7 +62,7 @@ class NameNotInModule(TypeRule):
             },
         ),
         Example(
-            "a moved name",
+            "name that was moved to another module",
             {"talker.py": "from collections import Iterable\n"},
             Report(
                 "1:25",
@@ -71,13 +72,13 @@ class NameNotInModule(TypeRule):
             fixed={"talker.py": "from collections.abc import Iterable\n"},
         ),
         Example(
-            "a misspelled name",
+            "misspelled names",
             {"talker.py": "from rclpy.node import Nod\nfrom std_msgs.msg import Sting\n"},
             "1:24: 'rclpy.node' has no 'Nod': ImportError; did you mean 'Node'?",
             "2:26: 'std_msgs.msg' has no 'Sting': ImportError; did you mean 'String'?",
         ),
         Example(
-            "a name of another module",
+            "names from the wrong module",
             {
                 "talk.launch.py": "from launch.actions import Node, TimerAction\n"
                 "from launch.substitutions import FindPackageShare\n",
@@ -93,7 +94,7 @@ class NameNotInModule(TypeRule):
             "'geometry_msgs.msg.Twist'?",
         ),
         Example(
-            "a message of the workspace",
+            "misspelled message of another package in the workspace",
             {"talker.py": "from my_msgs.msg import Beat, Bet\n"},
             "1:31: 'my_msgs.msg' has no 'Bet': ImportError; did you mean 'Beat'?",
             neighbors={
@@ -106,7 +107,7 @@ class NameNotInModule(TypeRule):
             },
         ),
         Example(
-            "a message that is gone",
+            "message removed in this distribution",
             {"talker.py": "from geometry_msgs.msg import Pose2D\n"},
             "1:31: 'geometry_msgs.msg' has no 'Pose2D': ImportError; it was removed in Lyrical: "
             "use geometry_msgs/msg/Pose, or a message of your own with x, y and theta: which is "

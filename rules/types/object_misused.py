@@ -60,9 +60,10 @@ class ObjectMisused(TypeRule):
     The object comes from ROS, or a function of the workspace returns it.
 
     **Why.** ``TypeError: 'Point' object is not subscriptable``, or ``ValueError: too many values to
-    unpack``, when the line is executed.
+    unpack``, when the line runs.
 
-    **Fix.** Use the attributes and methods that the class has; unpack as many values as there are.
+    **Fix.** Use the fields or methods of the object: ``point.z`` instead of ``point[2]``. Unpack
+    as many values as the function returns.
 
     **Source.** The classes of ROS 2 Jazzy; the code of the workspace.
     """
@@ -72,7 +73,7 @@ class ObjectMisused(TypeRule):
     kinds = frozenset({*_DOES, "invalid-assignment"})
     examples = (
         Example(
-            "a tuple of a dictionary that holds a shorter one as well",
+            "dictionary with tuples of different lengths, unpacked in a method",
             {
                 "boxes.py": "from rclpy.node import Node\n\n\n"
                 "class Boxes(Node):\n"
@@ -88,9 +89,9 @@ class ObjectMisused(TypeRule):
                 "        return high - low\n"
             },
         ),
-        Example("a field", {"height.py": _NODE.format("point.z")}),
+        Example("access to a field", {"height.py": _NODE.format("point.z")}),
         Example(
-            "elements of what another function makes of an object",
+            "parameters converted by a function of another package",
             {
                 "plan.py": "from plans import nested\nfrom rclpy.node import Node\n\n\n"
                 "class Planner(Node):\n"
@@ -106,7 +107,7 @@ class ObjectMisused(TypeRule):
             },
         ),
         Example(
-            "an element of what callers keep under names",
+            "dictionary with values of different types",
             {
                 "latest.py": "from geometry_msgs.msg import Point\nfrom rclpy.node import Node\n"
                 "from std_msgs.msg import Float64MultiArray\n\n\n"
@@ -127,12 +128,12 @@ class ObjectMisused(TypeRule):
             },
         ),
         Example(
-            "an element",
+            "indexing a Point",
             {"height.py": _NODE.format("point[2]")},
             "6:12: a geometry_msgs.msg.Point has no elements: TypeError",
         ),
         Example(
-            "a publisher, a profile",
+            "calling a QoS profile and a publisher",
             {
                 "talker.py": "from rclpy.node import Node\n"
                 "from rclpy.qos import qos_profile_sensor_data\n"
@@ -148,7 +149,7 @@ class ObjectMisused(TypeRule):
             "12:9: an rclpy.publisher.Publisher cannot be called: TypeError",
         ),
         Example(
-            "as many names as values",
+            "correct number of names",
             {
                 "package.xml": "<package><name>rover</name></package>\n",
                 "rover/__init__.py": "",
@@ -157,7 +158,7 @@ class ObjectMisused(TypeRule):
             },
         ),
         Example(
-            "values that go on in the next line",
+            "return value that continues on the next line",
             {
                 "package.xml": "<package><name>rover</name></package>\n",
                 "rover/__init__.py": "",
@@ -166,7 +167,7 @@ class ObjectMisused(TypeRule):
             },
         ),
         Example(
-            "more names than values",
+            "too many names for the returned values",
             {
                 "package.xml": "<package><name>rover</name></package>\n",
                 "rover/__init__.py": "",
@@ -176,7 +177,7 @@ class ObjectMisused(TypeRule):
             "rover/drive.py:9:9: not enough values for 4 names: ValueError",
         ),
         Example(
-            "entries of a dictionary that have different lengths",
+            "dictionary with tuples of different lengths, unpacked directly",
             {
                 "package.xml": "<package><name>rover</name></package>\n",
                 "rover/__init__.py": "",
@@ -191,7 +192,7 @@ class ObjectMisused(TypeRule):
             },
         ),
         Example(
-            "tuples whose first element tells their kind",
+            "tuples of different lengths, unpacked after a check of the first element",
             {
                 "package.xml": "<package><name>rover</name></package>\n",
                 "rover/__init__.py": "",
@@ -209,7 +210,7 @@ class ObjectMisused(TypeRule):
             },
         ),
         Example(
-            "a method of Node that is replaced after the call",
+            "method of Node that is replaced after the call",
             {
                 "talker.py": "from rclpy.node import Node\nfrom std_msgs.msg import String\n\n\n"
                 "class Talker(Node):\n"
@@ -220,17 +221,17 @@ class ObjectMisused(TypeRule):
             },
         ),
         Example(
-            "numbers: attributes of a time and of a buffer, and of a point",
+            "correct use of nanoseconds, can_transform() and the fields of a point",
             {"height.py": _NUMBER.format("nanoseconds", ", return_debug_tuple=True", ".x")},
         ),
         Example(
-            "numbers that are called and unpacked",
+            "calling an int, unpacking a bool",
             {"height.py": _NUMBER.format("nanoseconds()", "", ".x")},
             "11:17: 'nanoseconds' is an int, not a method: TypeError; remove the parentheses",
             "12:19: a bool cannot be looped over: TypeError",
         ),
         Example(
-            "an attribute for which Python lists several types",
+            "attribute whose type is a union in the Python stubs",
             {
                 "serve.py": "from socketserver import TCPServer\n\n"
                 "from rclpy.node import Node\n\n\n"
@@ -242,7 +243,7 @@ class ObjectMisused(TypeRule):
             },
         ),
         Example(
-            "a loop over a length",
+            "loop over len() without range()",
             {
                 "names.py": "from sensor_msgs.msg import JointState\n\n\n"
                 "def names(state: JointState):\n"

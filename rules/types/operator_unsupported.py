@@ -66,7 +66,8 @@ class OperatorUnsupported(TypeRule):
     **Why.** ``TypeError: '>' not supported between instances of 'Duration' and 'float'``, or
     ``can only concatenate str (not "float") to str``.
 
-    **Fix.** Use numbers on both sides, or objects of the same kind; put numbers into an f-string.
+    **Fix.** Convert one side: ``elapsed > Duration(seconds=1.0)``. Format numbers with an
+    f-string.
 
     **Source.** The operators that the classes of ROS 2 Jazzy and of Python define.
     """
@@ -75,15 +76,17 @@ class OperatorUnsupported(TypeRule):
     name = "operator-unsupported"
     kinds = frozenset({"unsupported-operator"})
     examples = (
-        Example("two durations", {"ticker.py": _NODE.format("Duration(seconds=1.0)")}),
         Example(
-            "a duration and a number",
+            "comparison of two durations", {"ticker.py": _NODE.format("Duration(seconds=1.0)")}
+        ),
+        Example(
+            "comparison of a Duration and a float",
             {"ticker.py": _NODE.format("1.0")},
             "11:16: '>' does not work on an rclpy.duration.Duration and a float: TypeError; use "
             "Duration(seconds=...), or compare .nanoseconds",
         ),
         Example(
-            "a time and a number",
+            "float added to a Time",
             {
                 "ticker.py": _NODE.format("Duration(seconds=1.0)").replace(
                     "get_clock().now()\n\n", "get_clock().now() + 5.0\n\n"
@@ -93,11 +96,11 @@ class OperatorUnsupported(TypeRule):
             "Duration(seconds=...)",
         ),
         Example(
-            "numbers of a scan, and what is made of them",
+            "scan ranges converted to a NumPy array",
             {"scan.py": _SCAN.format("numpy.array(ranges)")},
         ),
         Example(
-            "numbers of a scan, compared and multiplied all at once",
+            "scan ranges compared with and multiplied by a number",
             {"scan.py": _SCAN.format("ranges")},
             "8:14: '>' does not work on an array.array and a float: TypeError; use "
             "numpy.array(...)",
@@ -105,7 +108,7 @@ class OperatorUnsupported(TypeRule):
             "numpy.array(...)",
         ),
         Example(
-            "numbers of a scan that a lambda hands to a function",
+            "scan ranges passed by a lambda, compared with a number",
             {
                 "near.py": "from rclpy.node import Node\n"
                 "from sensor_msgs.msg import LaserScan\n\n\n"
@@ -118,7 +121,7 @@ class OperatorUnsupported(TypeRule):
             "6:12: '<' does not work on an array.array and an int: TypeError; use numpy.array(...)",
         ),
         Example(
-            "a text and a number",
+            "numbers converted to str, str converted to a number",
             {
                 "speed.py": _SPEED.format("'speed ' + str(speed)", "str(2) + ' m'"),
                 "level.py": _LEVEL.format("float(msg.data) > 3.0"),
@@ -126,30 +129,30 @@ class OperatorUnsupported(TypeRule):
             },
         ),
         Example(
-            "a text and a number that are added",
+            "str and number concatenated",
             {"speed.py": _SPEED.format("'speed ' + speed", "2 + ' m'")},
             "9:28: '+' cannot join a str and a float: TypeError; use an f-string",
             "10:28: '+' cannot join an int and a str: TypeError; use an f-string",
         ),
         Example(
-            "a list for an attribute that may be a property of its class",
+            "list assigned to an attribute that may be a property",
             {
                 "state.py": "import rclpy\nfrom vehicle import State\n\nrclpy.init()\n"
                 "state = State()\nstate.array = [3.0, 4.0]\nstate.array += 0.5\n"
             },
         ),
         Example(
-            "a text and the bytes of a serial port",
+            "bytes of a serial port, decoded",
             {"port.py": _PORT.format("line.decode()")},
         ),
         Example(
-            "a text and the bytes of a serial port, which are not decoded",
+            "bytes of a serial port, not decoded",
             {"port.py": _PORT.format("line")},
             "8:32: '+' does not work on a str and bytes: TypeError; decode() the bytes first",
             "9:16: 'in' does not work on a str and bytes: TypeError; decode() the bytes first",
         ),
         Example(
-            "a field of a dataclass that is a str, whatever its annotation says",
+            "str in a dataclass field with an incorrect annotation",
             {
                 "held.py": "from dataclasses import dataclass\n\n"
                 "from std_msgs.msg import String\n\n\n"
@@ -159,7 +162,7 @@ class OperatorUnsupported(TypeRule):
             },
         ),
         Example(
-            "a directory joined like a path, and a tuple with a list",
+            "`/` on strings, `+` on a tuple and a list",
             {
                 "load.py": "from ament_index_python.packages import get_package_share_directory\n"
                 "from rclpy.node import Node\n\nBASE = (1, 2)\n\n\n"
@@ -172,7 +175,7 @@ class OperatorUnsupported(TypeRule):
             "10:37: '+' does not work on a tuple and a list: TypeError",
         ),
         Example(
-            "paths that objects have in place of the texts of their class",
+            "Path in an instance attribute whose class attribute is a str",
             {
                 "builder.py": "from pathlib import Path\n\n"
                 "from ament_index_python import get_package_share_directory\n"
@@ -186,7 +189,7 @@ class OperatorUnsupported(TypeRule):
             },
         ),
         Example(
-            "a text that is compared with a number",
+            "comparison of a str and a number",
             {"level.py": _LEVEL.format("msg.data > 3")},
             "6:12: '>' does not work on a str and an int: TypeError; use float(...)",
         ),
