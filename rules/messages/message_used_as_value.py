@@ -168,10 +168,12 @@ class MessageUsedAsValue(MessageRule):
                     "''", "msg.data + 0.5, msg.data.min(), 'row ' + msg.data[0], msg.data * 2"
                 )
             },
-            "15:16: msg.data is an array, not of numpy: TypeError; use numpy.array(msg.data)",
-            "15:32: msg.data is an array, not of numpy: it has no 'min': AttributeError; use "
+            "15:16: msg.data is an array.array, not a NumPy array: TypeError; use "
             "numpy.array(msg.data)",
-            "15:48: msg.data[0] is a number, and is not joined to text: TypeError; use an f-string",
+            "15:32: msg.data is an array.array, not a NumPy array: it has no 'min': "
+            "AttributeError; use numpy.array(msg.data)",
+            "15:48: msg.data[0] is a number, which cannot be added to a str: TypeError; use an "
+            "f-string",
         ),
         Example(
             "messages for functions of numpy and OpenCV",
@@ -234,9 +236,9 @@ class MessageUsedAsValue(MessageRule):
                 "        rows = point_cloud2.read_points_numpy(msg)\n"
                 "        return heights, points['z'], rows[:, 2]\n"
             },
-            "16:22: np.fromstring() does not take msg.data, an array.array: TypeError; use "
+            "16:22: np.fromstring() does not accept msg.data, an array.array: TypeError; use "
             "numpy.frombuffer()",
-            "17:9: cv2.imdecode() does not take msg.data, an array.array: cv2.error; use "
+            "17:9: cv2.imdecode() does not accept msg.data, an array.array: cv2.error; use "
             "numpy.frombuffer(msg.data, numpy.uint8)",
             "21:19: read_points() returns an array with one dimension, whose fields have names: "
             "IndexError; write ['x'], or use read_points_numpy()",
@@ -269,7 +271,7 @@ class MessageUsedAsValue(MessageRule):
             "14:25: made.shape has three values for bgr8: ValueError; write made.shape[:2] for "
             "rows and columns",
             "18:28: gray.shape has two values for mono8: ValueError",
-            "23:23: rows come first: write image.height, image.width",
+            "23:23: the shape is (rows, columns); write image.height, image.width",
             "27:24: mean() cannot use structured points: TypeError; use read_points_numpy()",
         ),
     )
