@@ -134,9 +134,11 @@ class RvizDisplayUnfit(Rule):
             for _, mapping in yaml_tree.mappings(roots):
                 values = {key.text: value for key, value in mapping.pairs}
                 for at, problem in (*_of_display(package, values), *_of_frame(package, values)):
-                    yield self.report(at, problem)
+                    cause = f"RViz of ROS 1: {path}" if _OF_ROS1 in problem else ""
+                    yield self.report(at, problem, cause=cause)
 
 
+_OF_ROS1 = "belongs to ROS 1"
 _Values = Mapping[str, object]
 """The values of a mapping, by key."""
 
@@ -149,7 +151,7 @@ def _of_display(package: Package, values: _Values) -> Iterator[tuple[Location, s
     area, _, name = class_.text.rpartition("/")
     known = {*_TYPES, *_OTHERS}
     if area == "rviz" and name in known:
-        yield class_.location, f"{class_.text} belongs to ROS 1; ROS 2 has {_PREFIX}{name}"
+        yield class_.location, f"{class_.text} {_OF_ROS1}; ROS 2 has {_PREFIX}{name}"
     elif f"{area}/" == _PREFIX and name not in known:
         closest = get_close_matches(name, sorted(known), 1, 0.75)
         if closest:
