@@ -29,8 +29,8 @@ _LATER = "robot_state_publisher does not check this, others reject it"
 class ArraysOfTwoLengths(MessageRule):
     """A message has a different number of joint names and values.
 
-    **Why.** robot_state_publisher ignores it: ``Robot state publisher ignored an invalid
-    JointState message``; others read past the end of the shorter array.
+    **Why.** robot_state_publisher ignores the message: ``Robot state publisher ignored an invalid
+    JointState message``. Other subscribers may read past the end of the shorter array.
 
     **Fix.** Set one value for each name, in the same order, or leave the array empty.
 
@@ -39,17 +39,17 @@ class ArraysOfTwoLengths(MessageRule):
 
     code = "MS028"
     name = "arrays-of-two-lengths"
-    other_severities = {Severity.WARNING: "they are velocities or efforts of a joint state"}
+    other_severities = {Severity.WARNING: "the array is the velocity or effort of a joint state"}
     effect = Effect.WRONG_BEHAVIOR
     examples = (
-        Example("the same length, or empty", {"a.py": _NODE.format("[0.0, 1.0]", "[]")}),
+        Example("arrays of the same length, or empty", {"a.py": _NODE.format("[0.0, 1.0]", "[]")}),
         Example(
-            "a product",
+            "list multiplied by a number",
             {"a.py": _NODE.format("[0.0] * 3", "[*range(3)]")},
             "7:20: position has 3 values for 2 names: the message is ignored; give one for each",
         ),
         Example(
-            "names that the node keeps, and those that it finds later",
+            "names from attributes: constant, and extended by another method",
             {
                 "a.py": "from rclpy.node import Node\nfrom sensor_msgs.msg import JointState\n\n"
                 "ARM = ['shoulder', 'elbow']\n\n\n"
@@ -68,7 +68,7 @@ class ArraysOfTwoLengths(MessageRule):
             "18:60: position has 2 values for 3 names: the message is ignored; give one for each",
         ),
         Example(
-            "different lengths",
+            "too few positions, too many velocities",
             {"a.py": _NODE.format("[0.0]", "[1.0, 2.0]")},
             "7:20: position has 1 values for 2 names: the message is ignored; give one for each",
             Report(

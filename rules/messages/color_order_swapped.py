@@ -36,10 +36,11 @@ _CONVERTED = re.compile(r"COLOR_(?:BGR2(?=RGB)|RGB2(?=BGR)|(?:GRAY|HSV|HLS|YUV|L
 class ColorOrderSwapped(MessageRule):
     """An RGB image is treated as BGR, or the reverse.
 
-    **Why.** Red and blue are swapped, without an error: thresholds in HSV match nothing, or the
-    wrong object. cv_bridge rejects a gray image with a color encoding.
+    **Why.** Red and blue are swapped without an error: HSV thresholds match nothing, or the wrong
+    object. For a gray image with a color encoding, cv_bridge raises ``CvBridgeError``.
 
-    **Fix.** Request ``bgr8``, the order of OpenCV, from cv_bridge, or use ``COLOR_RGB2...``.
+    **Fix.** Request ``bgr8``, the order of OpenCV, from cv_bridge, or convert the image with
+    ``COLOR_RGB2...``.
 
     **Source.** OpenCV, ``cvtColor``; cv_bridge tutorial: "bgr8" is what OpenCV expects.
     """
@@ -49,13 +50,18 @@ class ColorOrderSwapped(MessageRule):
     effect = Effect.WRONG_BEHAVIOR
     examples = (
         Example(
-            "the order that OpenCV expects",
+            "bgr8, the order that OpenCV expects",
             {"a.py": _NODE.format("'bgr8'", *["COLOR_BGR2HSV"] * 2)},
         ),
-        Example("swapped on purpose", {"a.py": _NODE.format("'rgb8'", *["COLOR_BGR2RGB"] * 2)}),
-        Example("an unknown order", {"a.py": _NODE.format("ORDER", *["COLOR_BGR2HSV"] * 2)}),
         Example(
-            "an unknown order, swapped twice",
+            "rgb8 converted with COLOR_BGR2RGB",
+            {"a.py": _NODE.format("'rgb8'", *["COLOR_BGR2RGB"] * 2)},
+        ),
+        Example(
+            "encoding from a variable", {"a.py": _NODE.format("ORDER", *["COLOR_BGR2HSV"] * 2)}
+        ),
+        Example(
+            "image of unknown encoding, converted twice",
             {
                 "a.py": _FILE.format("rgb8").replace(
                     "cv2.imread(path)",
@@ -66,7 +72,7 @@ class ColorOrderSwapped(MessageRule):
             },
         ),
         Example(
-            "red for blue",
+            "rgb8 image treated as BGR, BGR image published as rgb8",
             {
                 "a.py": _NODE.format("desired_encoding='rgb8'", "COLOR_BGR2HSV", "COLOR_RGB2GRAY"),
                 "b.py": _FILE.format("rgb8"),
@@ -77,7 +83,7 @@ class ColorOrderSwapped(MessageRule):
             "b.py:8:12: 'frame' is BGR, but is sent as RGB: red and blue are swapped",
         ),
         Example(
-            "one channel for three",
+            "gray image published as bgr8 and rgb8",
             {
                 "a.py": _FILE.format("bgr8").replace(
                     "cv2.imread(path)", "cv2.cvtColor(path, cv2.COLOR_BGR2GRAY)"
@@ -93,7 +99,7 @@ class ColorOrderSwapped(MessageRule):
             "b.py:9:12: 'frame' is gray, but is sent as RGB: CvBridgeError; write 'mono8'",
         ),
         Example(
-            "an image that a method is given",
+            "bgr8 image passed to a method that treats it as RGB",
             {
                 "a.py": "import cv2\nfrom cv_bridge import CvBridge\n"
                 "from sensor_msgs.msg import Image\n\n\n"
@@ -108,7 +114,7 @@ class ColorOrderSwapped(MessageRule):
             "COLOR_BGR2HSV",
         ),
         Example(
-            "a converted image, and one of a camera",
+            "converted images and camera frames published with the wrong encoding",
             {
                 "a.py": _FILE.format("bgr8").replace(
                     "cv2.imread(path)", "cv2.cvtColor(path, cv2.COLOR_BGR2RGB)"

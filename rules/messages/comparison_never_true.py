@@ -33,12 +33,12 @@ _NODE = (
 class ComparisonNeverTrue(MessageRule):
     """A message or field is compared with a value that it never has, or anything with NaN.
 
-    **Why.** ``==`` is always false, without an error: ``'1'`` is not ``1``, a cell of a map is an
-    int8 and never 255, the level of a diagnostic status is ``bytes``, the result of an action is
-    not its status, and NaN equals nothing, not even itself.
+    **Why.** ``==`` is always false, without an error: ``'1'`` is not ``1``, a map cell is an int8
+    and never 255, ``DiagnosticStatus.level`` is ``bytes``, an action result is not its status, and
+    NaN does not even equal itself.
 
-    **Fix.** Compare with a value of the field type, preferably a constant of the message:
-    ``DiagnosticStatus.OK``; use ``math.isnan(distance)``.
+    **Fix.** Compare with a value of the field type, preferably a constant of the message such as
+    ``DiagnosticStatus.OK``. To test for NaN, use ``math.isnan(distance)``.
 
     **Source.** ``ros2 interface show``; https://github.com/ros2/rcl_interfaces/issues/158.
     """
@@ -47,7 +47,7 @@ class ComparisonNeverTrue(MessageRule):
     name = "comparison-never-true"
     examples = (
         Example(
-            "values of the types",
+            "comparisons with values of the field type",
             {
                 "watch.py": _NODE.format(
                     "-1", "100", "DiagnosticStatus.OK", "True or msg.data == 1", "(1, 2)"
@@ -55,7 +55,7 @@ class ComparisonNeverTrue(MessageRule):
             },
         ),
         Example(
-            "out of range, a number for bytes, texts for a truth and for a number",
+            "values out of range, int instead of bytes, str instead of bool and int",
             {"watch.py": _NODE.format("255", "200", "0", "'true'", "('1', '2')")},
             "16:16: msg.data[0] is of int8, -128 to 127: it never equals 255",
             "16:66: cell is of int8, -128 to 127: it never equals 200",
@@ -64,7 +64,7 @@ class ComparisonNeverTrue(MessageRule):
             "25:16: msg.data is of type int, which never equals '1'",
         ),
         Example(
-            "a header for a text, and NaN",
+            "header compared with a str, number compared with NaN",
             {
                 "watch.py": _NODE.format(
                     "100 or msg.header == 'map'",

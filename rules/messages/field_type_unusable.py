@@ -18,12 +18,12 @@ _MANIFEST = "<package><name>my_msgs</name></package>\n"
 class FieldTypeUnusable(Rule):
     """A field has a type that its package does not define, or that contains the message itself.
 
-    **Why.** The build stops: the generated code includes a header that does not exist, such as
-    ``my_msgs/msg/detail/header__struct.h``, or the generated structures would be infinite, also
-    where the field is an array.
+    **Why.** The build fails: the generated code includes a header that does not exist, such as
+    ``my_msgs/msg/detail/header__struct.h``. A message that contains itself cannot be generated,
+    not even with an array field.
 
-    **Fix.** Write the type as ``package/Name``; without a package, it is looked up in this one. For
-    a tree, send a flat list, and refer to the parent of each element by its index.
+    **Fix.** Write the type as ``package/Name``; without a package, it is looked up in the same
+    package. For a tree, send a flat array whose elements contain the index of their parent.
 
     **Source.** ROS 2 documentation, "Interfaces": a type without a package;
     ``rosidl_generator_type_description``, which stops first (``KeyError``).
@@ -34,7 +34,7 @@ class FieldTypeUnusable(Rule):
     effect = Effect.STOPS_BUILD
     examples = (
         Example(
-            "from another package, from this package, from an unknown package",
+            "types from another package, from this package and from an unknown package",
             {
                 "package.xml": "<package><name>my_msgs</name></package>\n",
                 "CMakeLists.txt": _LISTS.replace("{}", "msg/Beat.msg msg/Beats.msg"),
@@ -43,7 +43,7 @@ class FieldTypeUnusable(Rule):
             },
         ),
         Example(
-            "a header without its package, a misspelled type",
+            "Header without its package, misspelled type",
             {
                 "package.xml": "<package><name>my_msgs</name></package>\n",
                 "CMakeLists.txt": _LISTS.replace("{}", "msg/Beat.msg"),
@@ -55,7 +55,7 @@ class FieldTypeUnusable(Rule):
             "did you mean 'Point'?",
         ),
         Example(
-            "a type that the distribution removed",
+            "type removed in this distribution",
             {
                 "package.xml": "<package><name>my_msgs</name></package>\n",
                 "CMakeLists.txt": _LISTS.replace("{}", "msg/Beat.msg"),
@@ -67,7 +67,7 @@ class FieldTypeUnusable(Rule):
             distro="lyrical",
         ),
         Example(
-            "a list of other messages",
+            "array of another message",
             {
                 "package.xml": _MANIFEST,
                 "CMakeLists.txt": _LISTS_LOOPS,
@@ -76,7 +76,7 @@ class FieldTypeUnusable(Rule):
             },
         ),
         Example(
-            "a message in itself",
+            "message that contains itself",
             {
                 "package.xml": _MANIFEST,
                 "CMakeLists.txt": _LISTS_LOOPS,
@@ -86,7 +86,7 @@ class FieldTypeUnusable(Rule):
             "msg/Node.msg:2:1: message 'Node' contains itself: the build stops",
         ),
         Example(
-            "two messages in each other",
+            "two messages that contain each other",
             {
                 "package.xml": _MANIFEST,
                 "CMakeLists.txt": _LISTS_LOOPS,

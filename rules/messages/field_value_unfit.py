@@ -65,7 +65,7 @@ class FieldValueUnfit(MessageRule):
     ``False`` for ``1``, ``5e-324`` for the int ``1`` in a float field, ``44`` for 300 in a uint8.
     Other values raise an error that does not name the field.
 
-    **Fix.** Convert the value, or keep it in its range: ``float(x)``, ``bool(x)``,
+    **Fix.** Convert the value, or limit it to the range: ``float(x)``, ``bool(x)``,
     ``min(x, 255)``. With ``ROS_PYTHON_CHECK_FIELDS=1`` such values raise an error at run time.
 
     **Source.** https://github.com/ros2/rosidl_python/pull/194; ``rosidl_generator_py``,
@@ -75,13 +75,13 @@ class FieldValueUnfit(MessageRule):
     code = "MS006"
     name = "field-value-unfit"
     other_severities = {
-        Severity.WARNING: "the value is another message with the same fields, or the int 0 for a "
-        "float, which arrive as they should; the condition before it is never true",
+        Severity.WARNING: "the value is another message with the same fields or the int 0 in a "
+        "float field, which are sent correctly, or the line is in a branch that never runs",
     }
     examples = (
-        Example("values of the right types", {"talker.py": _CODE.format(*_RIGHT)}),
+        Example("values of the correct types", {"talker.py": _CODE.format(*_RIGHT)}),
         Example(
-            "a list that is the default of a parameter, which may be set to a longer one",
+            "array from a parameter whose default is too short",
             {
                 "talker.py": _CODE.replace(
                     "        self.count = 0\n",
@@ -90,7 +90,7 @@ class FieldValueUnfit(MessageRule):
             },
         ),
         Example(
-            "matrices that methods return, with 36 and with 9 elements",
+            "covariance from methods that return 36 and 9 elements",
             {
                 "pose.py": "from geometry_msgs.msg import PoseWithCovariance\n\n\n"
                 "class Poses:\n"
@@ -108,7 +108,7 @@ class FieldValueUnfit(MessageRule):
             "[value, 0.0, 0.0, 0.0, valu... has 9 elements, not 36",
         ),
         Example(
-            "a counter of button presses",
+            "8-bit counter of button presses",
             {
                 "talker.py": _CODE.replace("create_timer(0.5, self.talk)", "on_press(self.talk)")
                 .format(*_RIGHT)
@@ -116,7 +116,7 @@ class FieldValueUnfit(MessageRule):
             },
         ),
         Example(
-            "numbers of numpy",
+            "NumPy results that are floats or converted to float",
             {
                 "watch.py": _SCAN.format(
                     "float(np.min(scan.ranges))",
@@ -126,7 +126,7 @@ class FieldValueUnfit(MessageRule):
             },
         ),
         Example(
-            "the smallest range as numpy has it",
+            "numpy.float32 results from the ranges of a scan",
             {
                 "watch.py": _SCAN.format(
                     "np.min(scan.ranges)", "np.array(scan.ranges).mean()", "np.max(near)"
@@ -140,7 +140,7 @@ class FieldValueUnfit(MessageRule):
             "numpy.float32, not a float; write float(...)",
         ),
         Example(
-            "a str for a float, 8 of 9 elements, an 8-bit counter, an int for a bool and a str",
+            "wrong types, 8 of 9 elements, an 8-bit counter that overflows",
             {"talker.py": _CODE.format("'20'", "[0.1] * 8", "250 + self.count", "1", "self.count")},
             "13:31: 'temperature' of sensor_msgs/msg/Temperature is float64, but '20' is a str",
             "15:38: 'orientation_covariance' of sensor_msgs/msg/Imu is float64[9], but [0.1] * 8 "
@@ -152,7 +152,7 @@ class FieldValueUnfit(MessageRule):
             "19:42: 'data' of std_msgs/msg/String is string, but self.count is an int",
         ),
         Example(
-            "fields of other messages, times, encoded text, a method, a parameter",
+            "int field in a float field, bytes in a string, invalid stamps, Parameter as a value",
             {
                 "talker.py": "from rclpy.node import Node\n"
                 "from std_msgs.msg import Float64, Header, Int32, String\n\n\n"
@@ -182,7 +182,7 @@ class FieldValueUnfit(MessageRule):
             "Parameter; append .value",
         ),
         Example(
-            "what numpy returns for a float and a bool",
+            "numpy.float32 and numpy.bool_ instead of float and bool",
             {
                 "talker.py": "import numpy as np\n"
                 "from std_msgs.msg import Bool, Float32, Float64\n\n"
@@ -198,7 +198,7 @@ class FieldValueUnfit(MessageRule):
             "a bool; write bool(...)",
         ),
         Example(
-            "all results of a function for one of them",
+            "tuple returned by cv2.imencode() instead of the encoded image",
             {
                 "talker.py": "import cv2\nfrom sensor_msgs.msg import CompressedImage\n\n\n"
                 "def compressed(frame):\n"
@@ -211,7 +211,7 @@ class FieldValueUnfit(MessageRule):
             "frame) is a tuple of several results, not a list",
         ),
         Example(
-            "one message for a list of them",
+            "single message in an array field",
             {
                 "talker.py": "from geometry_msgs.msg import PoseStamped\n"
                 "from nav_msgs.msg import Path\n\n"
@@ -222,7 +222,7 @@ class FieldValueUnfit(MessageRule):
             "geometry_msgs/msg/PoseStamped, not a list",
         ),
         Example(
-            "a comma is missing between two names",
+            "missing comma in a list of names",
             {
                 "talker.py": "from sensor_msgs.msg import JointState\n\n"
                 "JOINTS = ['left_wheel' 'right_wheel', 'arm']\n\n"
@@ -235,7 +235,7 @@ class FieldValueUnfit(MessageRule):
             "'right_wheel' are one text: missing comma",
         ),
         Example(
-            "a 2-D array for a flat one",
+            "two-dimensional NumPy arrays in an array field",
             {
                 "talker.py": "import numpy as np\nfrom sensor_msgs.msg import Imu\n\n"
                 "imu = Imu()\n"
@@ -253,7 +253,7 @@ class FieldValueUnfit(MessageRule):
             "np.zeros((3, 3)) is two-dimensional; append .flatten()",
         ),
         Example(
-            "the int 0 for a float; what is done for a field that is None, which no field is",
+            "int 0 in a float field, None in a branch that never runs",
             {
                 "planner.py": "from geometry_msgs.msg import Twist\n"
                 "from nav_msgs.srv import GetPlan\nfrom rclpy.node import Node\n\n\n"
@@ -283,7 +283,7 @@ class FieldValueUnfit(MessageRule):
             ),
         ),
         Example(
-            "an int for a float, another message, a single number for an array, out of range",
+            "int in a float field, wrong message, float in an array field, value out of range",
             {
                 "talker.py": "from geometry_msgs.msg import Pose, Twist, Vector3\n"
                 "from std_msgs.msg import Int8, Float32MultiArray\n\n"
@@ -306,9 +306,12 @@ class FieldValueUnfit(MessageRule):
             "8:19: 'data' of std_msgs/msg/Int8 is int8, but -129 is out of range: int8 holds -128 "
             "to 127",
         ),
-        Example("converted", {"talker.py": _CODE_TIMES.format(".to_msg()", ".to_msg()")}),
         Example(
-            "for a buffer of transforms, which reads both",
+            "clock time converted with to_msg()",
+            {"talker.py": _CODE_TIMES.format(".to_msg()", ".to_msg()")},
+        ),
+        Example(
+            "rclpy Time as the stamp of messages passed to tf2 only",
             {
                 "talker.py": "from geometry_msgs.msg import TransformStamped\n"
                 "from rclpy.time import Time\nfrom tf2_py import BufferCore\n\n\n"
@@ -327,7 +330,7 @@ class FieldValueUnfit(MessageRule):
             },
         ),
         Example(
-            "the time of the clock, for a field and for the header of an unknown message",
+            "rclpy Time as a stamp, also in the header of an unknown message type",
             {"talker.py": _CODE_TIMES.format("", "")},
             Report(
                 "8:32",

@@ -28,9 +28,10 @@ _Place = ast.Name | ast.Attribute | ast.Subscript
 class FilledAfterPublish(MessageRule):
     """A field of a message is set after the message was published, and it is not published again.
 
-    **Why.** ``publish`` sends a copy: subscribers get the default value of the field.
+    **Why.** ``publish()`` sends the message as it is at that time: subscribers get the default
+    value of the field.
 
-    **Fix.** Publish as the last step.
+    **Fix.** Set all fields before ``publish()``.
 
     **Source.** ``rclpy/publisher.py``, ``publish``.
     """
@@ -38,10 +39,13 @@ class FilledAfterPublish(MessageRule):
     code = "MS035"
     name = "filled-after-publish"
     examples = (
-        Example("before", {"talker.py": _NODE.format(_FILL + _SEND)}),
-        Example("sent again", {"talker.py": _NODE.format(_SEND + _FILL + _SEND)}),
+        Example("field set before publishing", {"talker.py": _NODE.format(_FILL + _SEND)}),
         Example(
-            "sent again by the next iteration; kept for later",
+            "message published again after the field is set",
+            {"talker.py": _NODE.format(_SEND + _FILL + _SEND)},
+        ),
+        Example(
+            "message published again in a loop, message stored for later",
             {
                 "talker.py": _NODE.format(
                     "        for _ in range(2):\n    " + _SEND + "    " + _FILL
@@ -50,7 +54,7 @@ class FilledAfterPublish(MessageRule):
             },
         ),
         Example(
-            "after",
+            "field set after publishing",
             {"talker.py": _NODE.format(_SEND + _FILL)},
             "14:9: joints.position is set after joints was published in line 13: subscribers do "
             "not get it; publish last",

@@ -29,11 +29,12 @@ class FrameOfItself(RclpyRule):
     """A transform connects a frame to itself, or has parent and child in the wrong order.
 
     **Why.** tf2 ignores it: ``TF_SELF_TRANSFORM: Ignoring transform ... with frame_id and
-    child_frame_id "odom" because they are the same``. A lookup gives the identity, whatever moves.
-    A frame has one parent, and ROS expects the order map, odom, base_link: in the reverse order,
-    the tree falls apart and the robot moves backwards.
+    child_frame_id "odom" because they are the same``. A lookup from a frame to itself always
+    returns the identity. A frame has only one parent, and REP 105 defines the order map,
+    odom, base_link: in the reverse order, the tree is disconnected or the robot appears to move
+    backwards.
 
-    **Fix.** Name the frame that moves as the child: ``child_frame_id = 'base_link'``.
+    **Fix.** Use the moving frame as the child: ``child_frame_id = 'base_link'``.
 
     **Source.** ``tf2/src/buffer_core.cpp``, ``setTransformImpl``; REP 105, "Relationship between
     Frames".
@@ -41,17 +42,19 @@ class FrameOfItself(RclpyRule):
 
     code = "MS013"
     name = "frame-of-itself"
-    other_severities = {Severity.WARNING: "the child is above its parent in REP 105"}
+    other_severities = {Severity.WARNING: "REP 105 defines the reverse order"}
     effect = Effect.WRONG_BEHAVIOR
     examples = (
-        Example("two frames", {"odometry.py": _NODE.format("'odom'", "'base_link'")}),
         Example(
-            "the same name",
+            "transform between two frames", {"odometry.py": _NODE.format("'odom'", "'base_link'")}
+        ),
+        Example(
+            "child frame equal to the parent frame",
             {"odometry.py": _NODE.format("self.frame", "'odom'")},
             "16:36: the child frame is the parent frame: tf2 ignores the transform",
         ),
         Example(
-            "base_link as the parent of odom",
+            "base_footprint as the parent of odom",
             {"odometry.py": _NODE.format("'base_footprint'", "'odom'")},
             Report(
                 "16:36",
@@ -62,7 +65,7 @@ class FrameOfItself(RclpyRule):
             ),
         ),
         Example(
-            "the frame of a header",
+            "child frame copied from header.frame_id of the same odometry",
             {
                 "odometry.py": _NODE.format("'odom'", "odom.header.frame_id").replace(
                     "        transform.header.frame_id = 'odom'\n", ""
@@ -71,7 +74,7 @@ class FrameOfItself(RclpyRule):
             "15:36: the child frame is the parent frame: tf2 ignores the transform",
         ),
         Example(
-            "the child of the same message",
+            "child frame copied from child_frame_id of the odometry",
             {
                 "odometry.py": _NODE.format("'odom'", "odom.child_frame_id").replace(
                     "        transform.header.frame_id = 'odom'\n", ""
@@ -79,7 +82,7 @@ class FrameOfItself(RclpyRule):
             },
         ),
         Example(
-            "an odometry, which is no transform",
+            "odometry with one frame for both, which is not a transform",
             {
                 "odometer.py": "import rclpy\nfrom nav_msgs.msg import Odometry\n\n\n"
                 "def odometry(frame):\n"
@@ -90,7 +93,7 @@ class FrameOfItself(RclpyRule):
             },
         ),
         Example(
-            "a lookup",
+            "lookup of a transform from a frame to itself",
             {
                 "follower.py": "from rclpy.time import Time\nimport rclpy\nimport tf2_ros\n\n\n"
                 "def place(buffer):\n"

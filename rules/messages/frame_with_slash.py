@@ -60,11 +60,11 @@ _OF_UNKNOWN = (
 class FrameWithSlash(MessageRule):
     """A frame name starts with a slash.
 
-    A warning in a transform, where tf2 removes the slash, in a marker, where RViz does, and in
+    A warning in transforms, where tf2 removes the slash, in markers, where RViz removes it, and in
     messages of packages outside ROS, whose frames may never be looked up.
 
-    **Why.** tf2 rejects it in every program that uses the message: ``Invalid argument
-    "/base_link" passed to lookupTransform ... frame_ids cannot start with a '/'``.
+    **Why.** Every lookup of the frame fails: ``Invalid argument "/base_link" passed to
+    lookupTransform ... frame_ids cannot start with a '/'``.
 
     **Fix.** Remove the slash.
 
@@ -74,14 +74,16 @@ class FrameWithSlash(MessageRule):
     code = "MS007"
     name = "frame-with-slash"
     other_severities = {
-        Severity.WARNING: "it is in a transform, a marker, or a message not of ROS or not known"
+        Severity.WARNING: "it is in a transform, a marker, or a message of a package outside ROS"
     }
     effect = Effect.WRONG_BEHAVIOR
     examples = (
-        Example("no slash", {"node.py": _CODE.format("'map'", "'base'", "'map'")}),
-        Example("a test", {"test/test_a.py": _CODE.format("'/map'", "'/base'", "'/map'")}),
+        Example("frames without a slash", {"node.py": _CODE.format("'map'", "'base'", "'map'")}),
         Example(
-            "with a slash",
+            "slashes in a test", {"test/test_a.py": _CODE.format("'/map'", "'/base'", "'/map'")}
+        ),
+        Example(
+            "frames with a slash in lookups and transforms",
             {"node.py": _CODE.format("'/map'", '"/base"', "'/map'")},
             Report(
                 "5:41",
@@ -103,7 +105,7 @@ class FrameWithSlash(MessageRule):
             fixed={"node.py": _CODE.format("'map'", '"base"', "'map'")},
         ),
         Example(
-            "in a file without messages",
+            "slash in a lookup, in a file without message imports",
             {"node.py": _LOOKUP.format("/map")},
             Report(
                 "5:49",
@@ -113,7 +115,7 @@ class FrameWithSlash(MessageRule):
             fixed={"node.py": _LOOKUP.format("map")},
         ),
         Example(
-            "in messages of ROS and of a package of one's own",
+            "slash in the header of a ROS message and of a workspace message",
             {"node.py": _OTHERS.format("'/laser'", "'/world'")},
             Report(
                 "7:28",
@@ -136,7 +138,7 @@ class FrameWithSlash(MessageRule):
             fixed={"node.py": _OTHERS.format("'laser'", "'world'")},
         ),
         Example(
-            "in a marker",
+            "slash in the frame of a marker",
             {"node.py": _MARKER.format("/world")},
             Report(
                 "6:30",
@@ -148,7 +150,7 @@ class FrameWithSlash(MessageRule):
             fixed={"node.py": _MARKER.format("world")},
         ),
         Example(
-            "in a message of a type that is not known",
+            "slash in the frame of an unknown message type",
             {"node.py": "import rclpy\n" + _OF_UNKNOWN.format("/world")},
             Report(
                 "7:31",

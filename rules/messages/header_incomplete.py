@@ -31,9 +31,9 @@ _STATES = {
 class HeaderIncomplete(MessageRule):
     """A message is published with its data, but without its stamp, frame, size or range.
 
-    **Why.** The stamp stays zero: tf2 has no transform for that time, ``message_filters`` never
-    finds a match, RViz drops the message. tf2 does not know the empty frame: RViz shows
-    nothing, and Nav2 refuses the goal. A scan with ``range_max`` 0 has no reading in its range.
+    **Why.** With a zero stamp, tf2 has no transform for that time, ``message_filters`` finds no
+    match, and RViz drops the message. With an empty frame, RViz shows nothing, and Nav2 rejects
+    the goal. In a scan with ``range_max`` 0, all readings are out of range.
 
     **Fix.** Set ``message.header.stamp = self.get_clock().now().to_msg()`` and
     ``message.header.frame_id = 'map'``.
@@ -47,7 +47,7 @@ class HeaderIncomplete(MessageRule):
     effect = Effect.WRONG_BEHAVIOR
     examples = (
         Example(
-            "set",
+            "stamp and frame set",
             {
                 "talker.py": _NODE.format(
                     "        reading.header.stamp = self.get_clock().now().to_msg()\n"
@@ -55,13 +55,13 @@ class HeaderIncomplete(MessageRule):
             },
         ),
         Example(
-            "never set",
+            "stamp never set",
             {"talker.py": _NODE.format("")},
             "11:19: sensor_msgs/msg/Temperature is published in line 13 with a zero stamp; set "
             "header.stamp",
         ),
         Example(
-            "odometry whose header is shared with a transform; and a point without any",
+            "odometry without a stamp, point without stamp and frame",
             {
                 "odom.py": "from geometry_msgs.msg import PointStamped, TransformStamped\n"
                 "from nav_msgs.msg import Odometry\nfrom rclpy.node import Node\n\n\n"
@@ -88,7 +88,7 @@ class HeaderIncomplete(MessageRule):
             "frame; set header.stamp and header.frame_id",
         ),
         Example(
-            "a pose without a frame",
+            "pose without a frame",
             {
                 "talker.py": _NODE.format("")
                 .replace("frame_id = 'base_link'", "stamp = self.get_clock().now().to_msg()")
@@ -119,7 +119,7 @@ class HeaderIncomplete(MessageRule):
             "child_frame_id",
         ),
         Example(
-            "a scan without a range, odometry without a frame; a scan that a driver completes",
+            "scan without range_max, odometry without a frame",
             {
                 "scan.py": "from nav_msgs.msg import Odometry\nfrom rclpy.node import Node\n"
                 "from sensor_msgs.msg import LaserScan\n\n\n"
@@ -147,7 +147,7 @@ class HeaderIncomplete(MessageRule):
             "header.frame_id",
         ),
         Example(
-            "points of a trajectory without a time",
+            "trajectory points without time_from_start",
             {
                 "arm.py": "from rclpy.node import Node\n"
                 "from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint\n\n\n"
@@ -172,10 +172,11 @@ class HeaderIncomplete(MessageRule):
             "duration, and controllers reject it",
         ),
         Example(
-            "possibly set elsewhere", {"talker.py": _NODE.format("        self.stamp(reading)\n")}
+            "message passed to a method that may set the stamp",
+            {"talker.py": _NODE.format("        self.stamp(reading)\n")},
         ),
         Example(
-            "a transform that a function makes",
+            "transform without a child frame, returned by a function",
             {
                 "odom.py": "from geometry_msgs.msg import TransformStamped\n"
                 "from nav_msgs.msg import Odometry\nfrom rclpy.node import Node\n"

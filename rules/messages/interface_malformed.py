@@ -33,16 +33,15 @@ _LISTS_ESCAPES = "project(my_msgs)\nrosidl_generate_interfaces(${PROJECT_NAME} m
 class InterfaceMalformed(Rule):
     """A line of a .msg, .srv or .action file has an invalid form, name, keyword or escape.
 
-    **Why.** The build stops in rosidl_adapter, with the line but not its number: an invalid type or
-    array size, a default that does not fit its type, a missing ``---``, ``'maxSpeed' is an invalid
-    field name``. A backslash that is not a valid escape, such as at the end of a comment or before
-    ``x`` or ``users``, is a ``UnicodeDecodeError`` without the line. Code with a keyword of C or
-    C++ for a name does not compile; with one of Python ``message.from`` is a SyntaxError.
+    **Why.** The build fails in rosidl_adapter, which prints the line without its number, for
+    example ``'maxSpeed' is an invalid field name``. An invalid escape, such as a backslash at the
+    end of a comment or before ``x`` or ``users``, raises a ``UnicodeDecodeError`` that does not
+    show the line. If a field name is a C or C++ keyword, the generated code does not compile; if
+    it is a Python keyword, ``message.from`` is a ``SyntaxError``.
 
-    **Fix.** Correct the line as the message shows. Types are files in CamelCase, fields are
-    lower-case words with single underscores between them, constants are in capitals; a default
-    comes after the name of a field without ``=``. No automatic fix: anyone who uses the name must
-    follow.
+    **Fix.** Correct the line as the message shows. File names are in CamelCase, field names in
+    snake_case, constants in upper case. A default follows the field name without ``=``. No
+    automatic fix: all code that uses a renamed field or constant must change, too.
 
     **Source.** ``rosidl_adapter/parser.py``; ``rosidl_adapter/msg/__init__.py``,
     ``string_to_idl_string_literal``; ``rosidl_generator_py/generate_py_impl.py``; the keywords of
@@ -54,7 +53,7 @@ class InterfaceMalformed(Rule):
     effect = Effect.STOPS_BUILD
     examples = (
         Example(
-            "types, sizes, bounds and defaults",
+            "valid types, array sizes, bounds and defaults",
             {
                 "CMakeLists.txt": _LISTS,
                 "msg/Beat.msg": "std_msgs/Header header\nuint8[<=3] levels [1, 2]\n"
@@ -63,7 +62,7 @@ class InterfaceMalformed(Rule):
             },
         ),
         Example(
-            "a file that is not generated",
+            "invalid file that CMakeLists.txt does not list",
             {
                 "CMakeLists.txt": _LISTS,
                 "msg/Beat.msg": "int32 count\n",
@@ -72,7 +71,7 @@ class InterfaceMalformed(Rule):
             },
         ),
         Example(
-            "a C type, a default out of range, an indented line, no separator",
+            "C type, default out of range, indented line, missing separator",
             {
                 "CMakeLists.txt": _LISTS,
                 "msg/Beat.msg": "int count\nuint8 level 256\n  bool on\nint32[0] none\n"
@@ -90,13 +89,13 @@ class InterfaceMalformed(Rule):
             "file has 0",
         ),
         Example(
-            "a type with small letters and an underscore",
+            "lower-case file name with an underscore",
             {**_LISTS_NAMES, "msg/my_beat.msg": "int32 count\n"},
             "msg/my_beat.msg:1:1: the file name 'my_beat' is not a valid type name: rosidl "
             "requires letters and digits only, a capital first, as in 'MyBeat.msg'",
         ),
         Example(
-            "fields: camel case, a trailing underscore",
+            "field names in camel case and with a trailing underscore",
             {**_LISTS_NAMES, "msg/Beat.msg": "int32 count\nfloat64 maxSpeed\nint32 next_\n"},
             "msg/Beat.msg:2:9: 'maxSpeed' is not a valid field name: rosidl requires lower-case "
             "letters, digits and single underscores, a letter first, as in 'max_speed'",
@@ -104,11 +103,11 @@ class InterfaceMalformed(Rule):
             "letters, digits and single underscores, a letter first, as in 'next'",
         ),
         Example(
-            "constants: capitals; a default",
+            "constant in capitals, field with a default",
             {**_LISTS_NAMES, "msg/Beat.msg": "int32 MAX_COUNT=5\nint32 count 1\n"},
         ),
         Example(
-            "constants: small letters, a default with an equals sign, a bound with spaces",
+            "lower-case constant, default with an equals sign, bound with spaces",
             {**_LISTS_NAMES, "msg/Beat.msg": "int32 max=5\nint32 count = 1\nstring <= 5 name\n"},
             "msg/Beat.msg:1:7: the '=' makes this line a constant, and 'max' is not a valid name "
             "for one: rosidl requires capitals, digits and single underscores, a letter first, as "
@@ -119,17 +118,17 @@ class InterfaceMalformed(Rule):
             "msg/Beat.msg:3:8: a bound is written without spaces, as in 'string<=10'",
         ),
         Example(
-            "the same name in request and response",
+            "same field name in request and response",
             {**_LISTS_NAMES, "srv/Add.srv": "int32 a\n---\nint32 a\n"},
         ),
         Example(
-            "a name twice in the request",
+            "duplicate field in the request, duplicate constant in the response",
             {**_LISTS_NAMES, "srv/Add.srv": "int32 a\nfloat64 a\n---\nint32 A=1\nint32 A=2\n"},
             "srv/Add.srv:2:9: the field 'a' exists already, in line 1",
             "srv/Add.srv:5:7: the constant 'A' exists already, in line 4",
         ),
         Example(
-            "keywords for names",
+            "C++ and Python keywords as field names",
             {
                 "CMakeLists.txt": _LISTS_KEYWORDS,
                 "msg/Beat.msg": "string class\nint32 from\nbool ok\n",
@@ -139,7 +138,7 @@ class InterfaceMalformed(Rule):
             "msg/Beat.msg:2:7: 'from' is a keyword of Python: 'message.from' is a SyntaxError",
         ),
         Example(
-            "macros for names",
+            "C macros as constant names",
             {
                 "CMakeLists.txt": _LISTS_KEYWORDS,
                 "msg/Beat.msg": "int8 NULL=0\nint8 EIO=1\nint8 OK=2\n",
@@ -148,7 +147,7 @@ class InterfaceMalformed(Rule):
             "msg/Beat.msg:2:6: 'EIO' is a macro of C: the generated C++ code does not compile",
         ),
         Example(
-            "a type that Python cannot have",
+            "message named like a Python keyword",
             {
                 "CMakeLists.txt": _LISTS_KEYWORDS.replace("Beat", "None"),
                 "msg/None.msg": "int8 count\n",
@@ -157,14 +156,14 @@ class InterfaceMalformed(Rule):
             "SyntaxError",
         ),
         Example(
-            "backslashes: slashes, escapes, the end of the file, which rosidl leaves out",
+            "slashes and escaped backslashes in comments",
             {
                 "CMakeLists.txt": _LISTS_ESCAPES,
                 "msg/Beat.msg": "# in C:/users\nint32 count  # or \\d+\\\\\n# the end\\\n",
             },
         ),
         Example(
-            "backslashes at the end, in a path",
+            "backslashes at the end of comments and in Windows paths",
             {
                 "CMakeLists.txt": _LISTS_ESCAPES,
                 "msg/Beat.msg": "# C:\\users\nint32 count  # of C:\\data\\\n# all \\\nint8 code\n",
@@ -174,7 +173,7 @@ class InterfaceMalformed(Rule):
             "msg/Beat.msg:3:1: rosidl cannot read the comment: \\ at end of string",
         ),
         Example(
-            "backslashes: a line end, a constant",
+            "backslash-n in a comment, Windows path in a constant",
             {
                 "CMakeLists.txt": _LISTS_ESCAPES,
                 "msg/Beat.msg": 'int8 code  # ends with \\n\nstring HOME="C:\\users"\n',

@@ -36,11 +36,11 @@ _NODE = (
 class MarkerNotShown(MessageRule):
     """A marker has no alpha or no size, or all markers of a loop have the same id.
 
-    **Why.** ``color.a`` and ``scale`` are 0 unless they are set: RViz draws nothing. A marker
-    replaces the marker with the same ``ns`` and ``id``: of an array, only the last one is shown.
+    **Why.** ``color.a`` and ``scale`` are 0 by default: RViz draws nothing. A marker replaces an
+    earlier one with the same ``ns`` and ``id``: RViz only shows the last one.
 
-    **Fix.** ``marker.color.a = 1.0``; ``marker.scale.x = 0.1``; ``marker.id = number`` of
-    ``enumerate(...)``.
+    **Fix.** Set ``marker.color.a = 1.0``, ``marker.scale.x = 0.1`` and a unique ``marker.id``, such
+    as the index of ``enumerate(...)``.
 
     **Source.** ``visualization_msgs/msg/Marker``; RViz User Guide, "Marker Display".
     """
@@ -49,9 +49,12 @@ class MarkerNotShown(MessageRule):
     name = "marker-not-shown"
     effect = Effect.WRONG_BEHAVIOR
     examples = (
-        Example("colored, numbered", {"show.py": _NODE.format("number", "a", "marker.ns = 'a'")}),
         Example(
-            "numbered, in one assignment with its namespace",
+            "markers of a loop with color, namespace and unique ids",
+            {"show.py": _NODE.format("number", "a", "marker.ns = 'a'")},
+        ),
+        Example(
+            "namespace and id set in one assignment",
             {
                 "show.py": _NODE.format("number", "a", "pass").replace(
                     "marker.id = number", "marker.ns, marker.id = 'a', number"
@@ -59,7 +62,7 @@ class MarkerNotShown(MessageRule):
             },
         ),
         Example(
-            "made by a function that a loop calls: no alpha, one id",
+            "function called in a loop: no alpha, same id",
             {
                 "show.py": "from visualization_msgs.msg import Marker, MarkerArray\n\n\n"
                 "def shown(place):\n"
@@ -77,7 +80,7 @@ class MarkerNotShown(MessageRule):
             "5:14: color.a is never set, so it is 0: RViz does not show this marker; set it to 1.0",
         ),
         Example(
-            "made by a function for a list: one id",
+            "function called in a list comprehension: same id",
             {
                 "show.py": "from visualization_msgs.msg import Marker, MarkerArray\n\n\n"
                 "def shown(place):\n"
@@ -93,7 +96,7 @@ class MarkerNotShown(MessageRule):
             "unique id",
         ),
         Example(
-            "a color without alpha",
+            "ColorRGBA without alpha",
             {
                 "show.py": "from std_msgs.msg import ColorRGBA\n"
                 "from visualization_msgs.msg import Marker\n\n"
@@ -103,7 +106,7 @@ class MarkerNotShown(MessageRule):
             "4:7: alpha of this color is 0 by default: RViz does not show it; add a=1.0",
         ),
         Example(
-            "made by a function whose result is changed later",
+            "marker whose alpha is set by the caller",
             {
                 "show.py": "from visualization_msgs.msg import Marker\n\n\n"
                 "def shown(place):\n"
@@ -118,7 +121,7 @@ class MarkerNotShown(MessageRule):
             },
         ),
         Example(
-            "completed by loops over the list that keeps them, or by its users",
+            "markers stored in a list and completed elsewhere",
             {
                 "item.py": "from visualization_msgs.msg import Marker\n\n\n"
                 "class Item:\n"
@@ -145,18 +148,18 @@ class MarkerNotShown(MessageRule):
             },
         ),
         Example(
-            "possibly set elsewhere",
+            "marker passed to a method that may set the alpha",
             {"show.py": _NODE.format("number", "r", "self.paint(marker)")},
         ),
         Example(
-            "one that is removed, one of a namespace of its own",
+            "marker with the action DELETE, marker with a unique namespace",
             {
                 "show.py": _NODE.format("number", "r", "marker.action = Marker.DELETE"),
                 "b.py": _NODE.format("0", "a", "marker.ns = f'place{number}'"),
             },
         ),
         Example(
-            "no size",
+            "marker without a scale",
             {
                 "show.py": _NODE.format("number", "a", "marker.ns = 'a'").replace(
                     "marker.scale.x = marker.scale.y = marker.scale.z = 0.1",
@@ -166,7 +169,7 @@ class MarkerNotShown(MessageRule):
             "13:22: scale is never set, so it is 0: RViz does not show this marker; set it",
         ),
         Example(
-            "no alpha, one id",
+            "loop of markers without alpha, with the same id",
             {"show.py": _NODE.format("7", "r", "marker.action = Marker.ADD")},
             "13:22: all markers of this loop have the id 7: RViz only shows the last one; use a "
             "unique id",

@@ -19,7 +19,7 @@ class MessageArgumentUnknown(MessageRule):
     **Why.** An unknown keyword is silently ignored: an empty message is published. Humble raises
     an ``AssertionError``, Lyrical a ``TypeError``. A positional argument raises ``TypeError``.
 
-    **Fix.** Write ``field=value``, with a field of the definition.
+    **Fix.** Pass fields by name: ``String(data='hello')``.
 
     **Source.** ``rosidl_generator_py``, ``resource/_msg.py.em``: on Jazzy and Kilted keywords that
     are not fields are rejected only when ``ROS_PYTHON_CHECK_FIELDS`` is set.
@@ -29,11 +29,17 @@ class MessageArgumentUnknown(MessageRule):
     name = "message-argument-unknown"
     effect = Effect.IGNORED
     examples = (
-        Example("a field", {"talker.py": _PREFIX.format("data='hello'")}),
-        Example("unpacked arguments", {"talker.py": _PREFIX.format("**fields, check_fields=True")}),
-        Example("passed on", {"talker.py": _PREFIX.format("*args, **fields")}),
+        Example("keyword that is a field", {"talker.py": _PREFIX.format("data='hello'")}),
         Example(
-            "the results of a function, by position",
+            "keywords unpacked from a variable",
+            {"talker.py": _PREFIX.format("**fields, check_fields=True")},
+        ),
+        Example(
+            "arguments of the caller passed on with *args and **fields",
+            {"talker.py": _PREFIX.format("*args, **fields")},
+        ),
+        Example(
+            "function result unpacked into positional arguments",
             {
                 "turn.py": "from geometry_msgs.msg import Quaternion\n"
                 "from tf_transformations import quaternion_from_euler\n\n"
@@ -43,34 +49,34 @@ class MessageArgumentUnknown(MessageRule):
             "x=...",
         ),
         Example(
-            "misspelled",
+            "misspelled field",
             {"talker.py": _PREFIX.format("dta='hello'")},
             "3:18: std_msgs/msg/String has no field 'dta': the value is silently dropped; did you "
             "mean 'data'? (definition: std_msgs 5.3.6 of ROS 2 Jazzy)",
         ),
         Example(
-            "misspelled, on Humble",
+            "misspelled field on Humble",
             {"talker.py": _PREFIX.format("dta='hello'")},
             "3:18: std_msgs/msg/String has no field 'dta': AssertionError; did you mean 'data'? "
             "(definition: std_msgs 4.9.1 of ROS 2 Humble)",
             distro="humble",
         ),
         Example(
-            "misspelled, on Lyrical",
+            "misspelled field on Lyrical",
             {"talker.py": _PREFIX.format("dta='hello'")},
             "3:18: std_msgs/msg/String has no field 'dta': TypeError; did you mean 'data'? "
             "(definition: std_msgs 5.9.2 of ROS 2 Lyrical)",
             distro="lyrical",
         ),
         Example(
-            "asked to look at values, on Humble",
+            "check_fields on Humble, which does not support it",
             {"talker.py": _PREFIX.format("data='hello', check_fields=True")},
             "3:32: std_msgs/msg/String has no field 'check_fields': AssertionError; it has data "
             "(definition: std_msgs 4.9.1 of ROS 2 Humble)",
             distro="humble",
         ),
         Example(
-            "misspelled, in a dictionary",
+            "misspelled field in an unpacked dictionary",
             {
                 "talker.py": "from std_msgs.msg import String\n\n"
                 "VALUES = {'data': 'hello', 'dta': 'you'}\n"
@@ -80,7 +86,7 @@ class MessageArgumentUnknown(MessageRule):
             "mean 'data'? (definition: std_msgs 5.3.6 of ROS 2 Jazzy)",
         ),
         Example(
-            "positional",
+            "positional argument",
             {"talker.py": _PREFIX.format("'hello'")},
             "3:18: std_msgs/msg/String takes only keyword arguments: TypeError; write data=...",
         ),

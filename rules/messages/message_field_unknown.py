@@ -48,7 +48,7 @@ class MessageFieldUnknown(MessageRule):
     """Code reads or sets a field that the message, or what wraps it, does not have.
 
     **Why.** ``AttributeError: 'String' object has no attribute 'text'``; in a callback, the
-    first message ends the node. Feedback and results of actions come inside of another message:
+    first message crashes the node. Action feedback and results are wrapped in another message:
     ``'Fibonacci_FeedbackMessage' object has no attribute 'sequence'``.
 
     **Fix.** Use a field of the definition: ``ros2-scaffold interfaces String`` shows it; for
@@ -63,9 +63,9 @@ class MessageFieldUnknown(MessageRule):
     code = "MS002"
     name = "message-field-unknown"
     examples = (
-        Example("the field of the definition", {"listener.py": _NODE.format("data")}),
+        Example("existing field", {"listener.py": _NODE.format("data")}),
         Example(
-            "of a type that other code may have set",
+            "subscription with a message type that other code may set",
             {
                 "listener.py": _NODE.replace("n(String", "n(self.kind")
                 .replace(
@@ -77,20 +77,20 @@ class MessageFieldUnknown(MessageRule):
             },
         ),
         Example(
-            "read in a callback",
+            "unknown field in a callback",
             {"listener.py": _NODE.format("text")},
             "11:36: std_msgs/msg/String has no field or constant 'text'; it has data (definition: "
             "std_msgs 5.3.6 of ROS 2 Jazzy)",
         ),
         Example(
-            "of what an event of another library passes to the same callback",
+            "callback that another library calls as well",
             {
                 "listener.py": _NODE.format("text")
                 + "\n    def listen(self, port):\n        port.found += self.on_chatter\n"
             },
         ),
         Example(
-            "set, nested, of a response, a constant; reassigned names are not checked",
+            "unknown nested fields, response fields and constants",
             {
                 "talker.py": "from geometry_msgs.msg import Twist\n"
                 "from diagnostic_msgs.msg import DiagnosticStatus\n"
@@ -116,7 +116,7 @@ class MessageFieldUnknown(MessageRule):
             "mean 'OK'? (definition: diagnostic_msgs 5.3.6 of ROS 2 Jazzy)",
         ),
         Example(
-            "a field that is gone",
+            "field removed in this distribution",
             {
                 "talker.py": "from lifecycle_msgs.msg import TransitionEvent\n\n"
                 "event = TransitionEvent()\nevent.timestamp = 3\n"
@@ -127,13 +127,16 @@ class MessageFieldUnknown(MessageRule):
             distro="lyrical",
         ),
         Example(
-            "an unknown part of a service",
+            "misspelled Request class of a service",
             {"talker.py": "from std_srvs.srv import SetBool\n\nrequest = SetBool.Requests()\n"},
             "3:19: std_srvs/srv/SetBool has no 'Requests': AttributeError; did you mean 'Request'?",
         ),
-        Example("unwrapped", {"sender.py": _NODE_WRAPPED.format(".feedback", ".result")}),
         Example(
-            "not unwrapped",
+            "fields read from .feedback and .result",
+            {"sender.py": _NODE_WRAPPED.format(".feedback", ".result")},
+        ),
+        Example(
+            "fields read without .feedback and .result",
             {"sender.py": _NODE_WRAPPED.format("", "")},
             "16:21: this wrapper has only 'feedback' and 'goal_id', not 'sequence': "
             "AttributeError; use .feedback.sequence",

@@ -30,8 +30,8 @@ class MessageUsedAsValue(MessageRule):
     """A message is used as a list, number, string or function, or a plain value as a message.
 
     **Why.** ``TypeError: 'String' object is not subscriptable``, ``AttributeError: 'str' object
-    has no attribute 'data'``: in a callback, the first message ends the node. ``msg == 'go'`` is
-    never true, and ``if msg:`` always, whatever the message holds.
+    has no attribute 'data'``: in a callback, the first message crashes the node. ``msg == 'go'``
+    is always false, and ``if msg:`` is always true, whatever the message contains.
 
     **Fix.** Read the field: ``msg.data``, ``msg.data[0]``, ``len(msg.data)``.
 
@@ -43,11 +43,11 @@ class MessageUsedAsValue(MessageRule):
     name = "message-used-as-value"
     examples = (
         Example(
-            "fields",
+            "fields used as values",
             {"listener.py": _NODE.format("msg.data.upper()", "len(msg.data), msg.data[0]")},
         ),
         Example(
-            "put into texts in plain, and as numbers",
+            "messages in format strings: plain, and formatted as numbers",
             {
                 "listener.py": _NODE.format(
                     "f'{msg} {msg!r:>9} ' + '%s' % msg", "f'{msg:.2f}', '%d' % msg"
@@ -59,7 +59,7 @@ class MessageUsedAsValue(MessageRule):
             "fields",
         ),
         Example(
-            "as a dict, as a list",
+            "messages indexed like a dict or a list",
             {"listener.py": _NODE.format("msg['data']", "len(msg), msg[0], msg.layout[0]")},
             "12:32: std_msgs/msg/String cannot be indexed: TypeError; use one of its fields",
             "15:16: std_msgs/msg/Float32MultiArray has no length: TypeError; use one of its fields",
@@ -69,7 +69,7 @@ class MessageUsedAsValue(MessageRule):
             "fields",
         ),
         Example(
-            "a field of a str, a field called, a message iterated over",
+            ".data of a str, field called like a method, loop over a message",
             {
                 "listener.py": _NODE.format(
                     "msg.data.data", "msg.layout.data_offset(), [x for x in msg]"
@@ -81,7 +81,7 @@ class MessageUsedAsValue(MessageRule):
             "fields",
         ),
         Example(
-            "as text and as a number",
+            "message used as JSON text and as a number",
             {
                 "listener.py": "import json\n\n"
                 + _NODE.format("json.loads(msg)['a']", "float(msg), msg + 1, msg > 1.0, 2 in msg")
@@ -97,7 +97,7 @@ class MessageUsedAsValue(MessageRule):
             "fields",
         ),
         Example(
-            "fields as text and as numbers",
+            "fields used as JSON text and as numbers",
             {
                 "listener.py": "import json\n\n"
                 + _NODE.format(
@@ -107,7 +107,7 @@ class MessageUsedAsValue(MessageRule):
             },
         ),
         Example(
-            "compared, unpacked",
+            "message compared with a str, message unpacked",
             {
                 "listener.py": _NODE.format(
                     "msg == 'go'", "0\n\n    def on_reset(self):\n        a, b = String()"
@@ -117,12 +117,12 @@ class MessageUsedAsValue(MessageRule):
             "18:16: std_msgs/msg/String cannot be unpacked: TypeError; use one of its fields",
         ),
         Example(
-            "tested for truth",
+            "Bool message as a condition",
             {"listener.py": _NODE.replace("String", "Bool").format("'on' if msg else 'off'", "0")},
             "12:40: std_msgs/msg/Bool is always true, whatever it holds; use its field 'data'",
         ),
         Example(
-            "tested for being there",
+            "field as a condition, None check of a stored message",
             {
                 "listener.py": _NODE.replace("String", "Bool").format(
                     "'on' if msg.data else 'off'",
@@ -132,7 +132,7 @@ class MessageUsedAsValue(MessageRule):
             },
         ),
         Example(
-            "a message in a for loop",
+            "for loop over a message",
             {
                 "listener.py": _NODE.format("''", "0").replace(
                     "        return", "        for x in msg:\n            print(x)\n        return"
@@ -142,7 +142,7 @@ class MessageUsedAsValue(MessageRule):
             "fields",
         ),
         Example(
-            "the length of an array, and one of its elements",
+            "length of an array field, comparison of one element",
             {
                 "listener.py": _NODE.format(
                     "''", "[x for x in range(len(msg.data))], msg.data[0] > 1"
@@ -150,7 +150,7 @@ class MessageUsedAsValue(MessageRule):
             },
         ),
         Example(
-            "an array as a number",
+            "array field used as a number",
             {
                 "listener.py": _NODE.format(
                     "''", "range(msg.data), float(msg.data), msg.data > 1.0, range(msg.data[0])"
@@ -162,7 +162,7 @@ class MessageUsedAsValue(MessageRule):
             "15:66: msg.data[0] is a float, not an integer: TypeError",
         ),
         Example(
-            "an array as one of numpy, a number as text",
+            "array field used as a NumPy array, number concatenated with a str",
             {
                 "listener.py": _NODE.format(
                     "''", "msg.data + 0.5, msg.data.min(), 'row ' + msg.data[0], msg.data * 2"
@@ -176,7 +176,7 @@ class MessageUsedAsValue(MessageRule):
             "f-string",
         ),
         Example(
-            "messages for functions of numpy and OpenCV",
+            "messages passed to NumPy and OpenCV functions",
             {
                 "look.py": "import cv2\nimport numpy as np\nfrom geometry_msgs.msg import Point\n"
                 "from rclpy.node import Node\nfrom sensor_msgs.msg import Image\n\n\n"
@@ -196,7 +196,7 @@ class MessageUsedAsValue(MessageRule):
             "19:16: geometry_msgs/msg/Point is not a number: TypeError; use one of its fields",
         ),
         Example(
-            "a map as a table, and columns of a matrix of numpy",
+            "map data indexed by row and column",
             {
                 "look.py": "import numpy as np\nfrom nav_msgs.msg import OccupancyGrid\n"
                 "from rclpy.node import Node\n\n\n"
@@ -216,7 +216,7 @@ class MessageUsedAsValue(MessageRule):
             "TypeError; write self.grid.data[row * width + column]",
         ),
         Example(
-            "arrays for functions of numpy and OpenCV, columns of points",
+            "array fields passed to NumPy and OpenCV, column of read_points()",
             {
                 "look.py": "import cv2\nimport numpy as np\nfrom rclpy.node import Node\n"
                 "from sensor_msgs.msg import CompressedImage, PointCloud2\n"
@@ -244,7 +244,7 @@ class MessageUsedAsValue(MessageRule):
             "IndexError; write ['x'], or use read_points_numpy()",
         ),
         Example(
-            "shapes of images and maps, and the mean of structured points",
+            "wrong number of values in a shape, wrong order in reshape(), mean of read_points()",
             {
                 "look.py": "import numpy as np\nfrom cv_bridge import CvBridge\n"
                 "from nav_msgs.msg import OccupancyGrid\n"

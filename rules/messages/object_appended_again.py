@@ -33,7 +33,8 @@ _LOOP = (
 class ObjectAppendedAgain(MessageRule):
     """One message object is changed and appended again and again.
 
-    **Why.** A list contains references: all poses of the path are the newest one, without an error.
+    **Why.** The list contains the same object several times: all poses of the path are equal to the
+    last one, without an error.
 
     **Fix.** Create a new message for each element, inside the callback or loop.
 
@@ -45,7 +46,7 @@ class ObjectAppendedAgain(MessageRule):
     effect = Effect.WRONG_BEHAVIOR
     examples = (
         Example(
-            "a new object",
+            "new object for each element",
             {
                 "tracker.py": _NODE.format(
                     "pose = PoseStamped()\n        pose.pose = msg.pose.pose\n"
@@ -54,7 +55,7 @@ class ObjectAppendedAgain(MessageRule):
             },
         ),
         Example(
-            "a list of one object, several times: filled one by one, or all alike",
+            "list multiplication of one message, changed in a loop",
             {
                 "a.py": _LOOP.format(
                     "    array.poses = [Pose()] * 2\n    poses = [Pose()] * 3\n"
@@ -67,7 +68,7 @@ class ObjectAppendedAgain(MessageRule):
             "all; write [Pose() for _ in range(...)]",
         ),
         Example(
-            "a list that is new; a copy",
+            "new list for each element, copy of the object",
             {
                 "tracker.py": _NODE.format(
                     "self.pose.pose = msg.pose.pose\n        path = Path()\n"
@@ -93,7 +94,7 @@ class ObjectAppendedAgain(MessageRule):
             },
         ),
         Example(
-            "the same object",
+            "attribute appended in each callback",
             {
                 "tracker.py": _NODE.format(
                     "self.pose.pose = msg.pose.pose\n        self.path.poses.append(self.pose)"
@@ -103,7 +104,7 @@ class ObjectAppendedAgain(MessageRule):
             "self.pose; create a new object for each element",
         ),
         Example(
-            "in a loop",
+            "same object appended in a loop",
             {
                 "row.py": _LOOP.format(
                     "    pose = Pose()\n    for x in range(3):\n"

@@ -44,8 +44,8 @@ _HEAD = (
 class QuaternionOrderSwapped(MessageRule):
     """A quaternion is unpacked or built in the order of another library.
 
-    **Why.** There is no error, but the robot faces another direction. Messages, tf_transformations
-    and SciPy have x first, transforms3d has w first.
+    **Why.** There is no error, but the rotation is wrong. Messages, tf_transformations and SciPy
+    use the order x, y, z, w; transforms3d uses w, x, y, z.
 
     **Fix.** ``x, y, z, w = quaternion_from_euler(...)``; ``w, x, y, z = euler2quat(...)``.
 
@@ -57,7 +57,7 @@ class QuaternionOrderSwapped(MessageRule):
     effect = Effect.WRONG_BEHAVIOR
     examples = (
         Example(
-            "the order of the libraries",
+            "correct order for each library",
             {
                 "a.py": _HEAD + "def turn(q: Quaternion, yaw) -> Quaternion:\n"
                 "    euler_from_quaternion([q.x, q.y, q.z, q.w])\n"
@@ -69,7 +69,7 @@ class QuaternionOrderSwapped(MessageRule):
             },
         ),
         Example(
-            "the reverse order",
+            "wrong order for each library",
             {
                 "a.py": _HEAD + "def turn(q: Quaternion, yaw) -> Quaternion:\n"
                 "    euler_from_quaternion([q.w, q.x, q.y, q.z])\n"

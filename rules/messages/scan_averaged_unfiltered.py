@@ -35,7 +35,8 @@ class ScanAveragedUnfiltered(MessageRule):
     **Why.** A beam without a return is ``inf`` or ``nan``, and so are the sum and the mean: a
     comparison with them never detects an obstacle.
 
-    **Fix.** ``ranges = np.array(msg.ranges)``, then ``ranges[np.isfinite(ranges)].mean()``.
+    **Fix.** Use only finite values: ``ranges = np.array(msg.ranges)``, then
+    ``ranges[np.isfinite(ranges)].mean()``.
 
     **Source.** ``sensor_msgs/msg/LaserScan``: values out of the range should be discarded; REP-117.
     """
@@ -46,7 +47,7 @@ class ScanAveragedUnfiltered(MessageRule):
     effect = Effect.WRONG_BEHAVIOR
     examples = (
         Example(
-            "filtered; the smallest one",
+            "mean of finite ranges, minimum of all ranges",
             {
                 "guard.py": _NODE.format("np.mean([x for x in msg.ranges if math.isfinite(x)])"),
                 "a.py": _NODE.format("min(msg.ranges)"),
@@ -54,7 +55,7 @@ class ScanAveragedUnfiltered(MessageRule):
             },
         ),
         Example(
-            "means",
+            "mean and sum of unfiltered ranges",
             {"guard.py": _NODE.format("np.mean(msg.ranges[:30]), sum(msg.ranges)")},
             "14:16: beams without a return are inf, and so is this result; filter them with "
             "isfinite()",
@@ -62,7 +63,7 @@ class ScanAveragedUnfiltered(MessageRule):
             "isfinite()",
         ),
         Example(
-            "an array that is replaced in part, one of which a part is filtered",
+            "array with infinite values replaced, array filtered for one of two means",
             {
                 "a.py": _NODE.format(
                     "0.0\n        values = np.array(msg.ranges)\n"
@@ -78,7 +79,7 @@ class ScanAveragedUnfiltered(MessageRule):
             "isfinite()",
         ),
         Example(
-            "an array",
+            "mean of an unfiltered NumPy array",
             {"guard.py": _NODE.format("np.array(msg.ranges).mean()")},
             "14:16: beams without a return are inf, and so is this result; filter them with "
             "isfinite()",

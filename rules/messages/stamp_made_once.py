@@ -30,35 +30,37 @@ class StampMadeOnce(RclpyRule):
     **Why.** All messages have the start time of the node: tf2 no longer has transforms for that
     time, ``message_filters`` finds no match, and RViz drops them.
 
-    **Fix.** ``msg.header.stamp = self.get_clock().now().to_msg()`` where the message is created.
+    **Fix.** Read the time for each message: ``msg.header.stamp = self.get_clock().now().to_msg()``.
 
     **Source.** ``std_msgs/msg/Header``.
     """
 
     code = "MS012"
     name = "stamp-made-once"
-    other_severities = {Severity.WARNING: "a message that is made once is sent again and again"}
+    other_severities = {
+        Severity.WARNING: "a message is created and stamped once, but published repeatedly"
+    }
     effect = Effect.WRONG_BEHAVIOR
     examples = (
         Example(
-            "the time of the message",
+            "stamp read in the callback",
             {"sensor.py": _NODE.format("10", "self.get_clock().now().to_msg()")},
         ),
         Example(
-            "the time of the start",
+            "stamp read in the constructor",
             {"sensor.py": _NODE.format("10", "self.stamp")},
             "14:37: self.stamp is only set in the constructor: all messages have the start time "
             "of the node; use self.get_clock().now().to_msg()",
         ),
         Example(
-            "renewed",
+            "stamp updated in the callback",
             {
                 "sensor.py": _NODE.format("10", "self.stamp")
                 + "        self.stamp = self.get_clock().now().to_msg()\n"
             },
         ),
         Example(
-            "a message that is made and stamped once",
+            "message created and stamped in the constructor",
             {
                 "sensor.py": _NODE.format("10", "self.stamp")
                 .replace("        self.reading.header.stamp = self.stamp\n", "")
@@ -75,7 +77,7 @@ class StampMadeOnce(RclpyRule):
             ),
         ),
         Example(
-            "for late subscribers",
+            "transient local publisher",
             {
                 "sensor.py": "from rclpy.qos import QoSProfile\n"
                 + _NODE.format("QoSProfile(depth=1, durability='TRANSIENT_LOCAL')", "self.stamp")

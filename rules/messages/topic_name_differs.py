@@ -66,12 +66,12 @@ _STARTING = (
 class TopicNameDiffers(Rule):
     """One end of a topic, service or action differs from the other by a letter or a ``~/``.
 
-    **Why.** Nothing arrives, the client waits forever, and there is no error; ``~`` expands to the
-    name of the node. Only names of the same type that have no other end in the package are
-    reported.
+    **Why.** No message arrives, or the client waits forever, without an error. ``~`` expands to the
+    name of the node. A name is only reported if it has no counterpart in the package, but a similar
+    name of the same type exists.
 
-    **Fix.** Spell both the same way, preferably with one constant; leave out ``~/``, or write the
-    name of the node, ``talker/chatter``.
+    **Fix.** Use the same name on both sides, preferably from one constant. Remove ``~/``, or write
+    the name of the node: ``talker/chatter``.
 
     **Source.** ROS 2 documentation, "Understanding topics", "Understanding services"; ROS 2 design,
     "Topic and Service name mapping to DDS", private names.
@@ -83,24 +83,24 @@ class TopicNameDiffers(Rule):
     effect = Effect.WRONG_BEHAVIOR
     examples = (
         Example(
-            "the same name of a topic",
+            "same topic name",
             {
                 "a.py": _NODE.format("publisher(String, 'chatter', 10)"),
                 "b.py": _NODE.format("subscription(String, 'chatter', print, 10)"),
             },
         ),
         Example(
-            "an absolute name in a namespace, where another node has a relative one",
+            "absolute and relative topic name in a namespace",
             {**_FILES, "launch/a.launch.py": _STARTING.format("left")},
             "demo/a.py:8:39: '/chatter' leaves the namespace that launch/a.launch.py:8 gives, "
             "where demo/b.py:8 has '/left/chatter': they never connect; write 'chatter'",
         ),
         Example(
-            "an absolute name in no namespace",
+            "absolute and relative topic name without a namespace",
             {**_FILES, "launch/a.launch.py": _STARTING.format("")},
         ),
         Example(
-            "a topic with a missing letter",
+            "topic name with a missing letter",
             {
                 "a.py": _NODE.format("publisher(String, 'chatter', 10)"),
                 "b.py": _NODE.format("subscription(String, 'chater', print, 10)"),
@@ -108,7 +108,7 @@ class TopicNameDiffers(Rule):
             "b.py:8:42: no publisher for 'chater'; did you mean 'chatter' (a.py:8)?",
         ),
         Example(
-            "the words of a topic in another order",
+            "topic name with its words in another order",
             {
                 "a.py": _NODE.format("publisher(String, 'scan_filtered', 10)"),
                 "b.py": _NODE.format("subscription(String, 'filtered/scan', print, 10)"),
@@ -116,7 +116,7 @@ class TopicNameDiffers(Rule):
             "b.py:8:42: no publisher for 'filtered/scan'; did you mean 'scan_filtered' (a.py:8)?",
         ),
         Example(
-            "private to the node that publishes it",
+            "private name of the publisher",
             {
                 "a.py": _NODE.format("publisher(String, '~/chatter', 10)"),
                 "b.py": _NODE.format("subscription(String, 'chatter', print, 10)"),
@@ -125,7 +125,7 @@ class TopicNameDiffers(Rule):
             "to the node name",
         ),
         Example(
-            "private, and remapped by a launch file",
+            "private name of the publisher, remapped in a launch file",
             {
                 "a.py": _NODE.format("publisher(String, '~/chatter', 10)"),
                 "b.py": _NODE.format("subscription(String, 'chatter', print, 10)"),
@@ -135,7 +135,7 @@ class TopicNameDiffers(Rule):
             },
         ),
         Example(
-            "private to the node that subscribes",
+            "private name of the subscription",
             {
                 "a.py": _NODE.format("publisher(String, 'chatter', 10)"),
                 "b.py": _NODE.format("subscription(String, '~/chatter', print, 10)"),
@@ -143,14 +143,14 @@ class TopicNameDiffers(Rule):
             "b.py:8:42: no publisher for '~/chatter': a.py:8 publishes 'chatter', and ~ expands "
             "to the node name",
         ),
-        Example("the same name of a service", {"nodes.py": _NODE_SERVICES.format("report")}),
+        Example("same service name", {"nodes.py": _NODE_SERVICES.format("report")}),
         Example(
-            "a typo in a service",
+            "misspelled service name",
             {"nodes.py": _NODE_SERVICES.format("reports")},
             "17:51: no service 'reports'; did you mean 'report' (nodes.py:8)?",
         ),
         Example(
-            "a typo in an action",
+            "misspelled action name",
             {
                 "server.py": "from nav2_msgs.action import Spin\n"
                 "from rclpy.action import ActionServer\n\n\n"
@@ -163,7 +163,7 @@ class TopicNameDiffers(Rule):
             "(server.py:6)?",
         ),
         Example(
-            "a node that passes requests on",
+            "private service that forwards to an absolute one",
             {
                 "nodes.py": _NODE_SERVICES.format("/report").replace(
                     "Trigger, 'report'", "Trigger, '~/report'"
@@ -171,7 +171,7 @@ class TopicNameDiffers(Rule):
             },
         ),
         Example(
-            "a service that is private on one side",
+            "private name of the service client",
             {"nodes.py": _NODE_SERVICES.format("~/report")},
             "17:51: no service '~/report'; did you mean 'report' (nodes.py:8)? ~ expands to the "
             "node name",

@@ -27,9 +27,10 @@ _NODE = (
 class TopicTypeDiffers(Rule):
     """The two sides of a topic or service in one package use different types.
 
-    **Why.** They do not connect: nothing arrives, and a client waits forever, without an error.
+    **Why.** The two sides do not connect: no message arrives, or the client waits forever, without
+    an error.
 
-    **Fix.** Use the same type on both sides, or two names.
+    **Fix.** Use the same type on both sides, or different names.
 
     **Source.** ROS 2 documentation, "Topics": a topic has one type.
     """
@@ -39,14 +40,14 @@ class TopicTypeDiffers(Rule):
     effect = Effect.WRONG_BEHAVIOR
     examples = (
         Example(
-            "the same type",
+            "same topic type",
             {
                 "a.py": _NODE.format("publisher(String, 'chatter', 10)"),
                 "b.py": _NODE.format("subscription(String, 'chatter', print, 10)"),
             },
         ),
         Example(
-            "two types for a topic",
+            "different types for a topic",
             {
                 "a.py": _NODE.format("publisher(String, 'chatter', 10)"),
                 "b.py": _NODE.format("subscription(Bool, 'chatter', print, 10)"),
@@ -57,7 +58,7 @@ class TopicTypeDiffers(Rule):
             "a.py:9: they never connect",
         ),
         Example(
-            "nodes in C++ may be the other sides",
+            "Python nodes whose counterparts may be C++ nodes",
             {
                 "a.py": _NODE.format("publisher(String, 'chatter', 10)"),
                 "b.py": _NODE.format("subscription(Bool, 'chatter', print, 10)"),
@@ -68,7 +69,7 @@ class TopicTypeDiffers(Rule):
             },
         ),
         Example(
-            "four files",
+            "different types for a topic in four files",
             {
                 "a.py": _NODE.format("publisher(String, 'chatter', 10)"),
                 "b.py": _NODE.format("publisher(Bool, 'chatter', 10)"),
@@ -83,7 +84,7 @@ class TopicTypeDiffers(Rule):
             "b.py:9: they never connect",
         ),
         Example(
-            "two types for a service",
+            "different types for a service",
             {
                 "a.py": _NODE.format("service(Trigger, 'reset', print)"),
                 "b.py": _NODE.format("client(Empty, 'reset')"),

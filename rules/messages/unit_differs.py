@@ -137,11 +137,11 @@ _PER = re.compile(r"_(?:per|p)_?(?:s|sec|second)$|_s$")
 class UnitDiffers(MessageRule):
     """A message field or a trigonometric function gets a value in the wrong unit.
 
-    **Why.** The number is sent unchanged, without an error: a robot turns 57 times as far, or stops
-    a kilometer before the wall.
+    **Why.** The number is sent unchanged, without an error: the robot turns 57 times as far, or
+    stops a kilometer before the wall.
 
-    **Fix.** Convert the value where the message is filled. Lengths are in meters, angles in
-    radians, times in seconds.
+    **Fix.** Convert the value before it is assigned, for example with ``math.radians()``. Lengths
+    are in meters, angles in radians, times in seconds.
 
     **Source.** REP-103, "Standard Units of Measure"; the comments of the definitions in
     common_interfaces.
@@ -149,11 +149,11 @@ class UnitDiffers(MessageRule):
 
     code = "MS034"
     name = "unit-differs"
-    other_severities = {Severity.WARNING: "the unit is only known from the name of the value"}
+    other_severities = {Severity.WARNING: "the unit is inferred from the name of the value"}
     effect = Effect.WRONG_BEHAVIOR
     examples = (
         Example(
-            "the parameter of a function is an angle in radians",
+            "degrees passed to a function that expects radians",
             {
                 "turn.py": "import math\n\nfrom geometry_msgs.msg import Pose\n"
                 "from rclpy.node import Node\n\n\n"
@@ -166,9 +166,9 @@ class UnitDiffers(MessageRule):
             },
             "20:33: 'yaw' of rotation() is in radians, but this is in degrees; use math.radians()",
         ),
-        Example("converted", {"board.py": _NODE.format(*_RIGHT)}),
+        Example("values converted to SI units", {"board.py": _NODE.format(*_RIGHT)}),
         Example(
-            "hectopascals, degrees, millimeters by their names; degrees",
+            "hectopascals, degrees and millimeters in message fields",
             {
                 "board.py": _NODE.format(
                     "pressure_hpa",
@@ -196,7 +196,7 @@ class UnitDiffers(MessageRule):
             ),
         ),
         Example(
-            "another unit in the name, or of no field",
+            "names that only look like a unit",
             {
                 "board.py": _NODE.format(
                     "board.bar_graph", "board.speed_deg_to_rad(3)", "board.pan_ticks", "board.cm()"
@@ -204,7 +204,7 @@ class UnitDiffers(MessageRule):
             },
         ),
         Example(
-            "degrees for a cosine, and several values at once",
+            "degrees passed to math.cos(), km/h unpacked from a tuple",
             {
                 "turn.py": "import math\n\nfrom geometry_msgs.msg import Twist\n\n\n"
                 "def turned(heading_deg, speed_kmh):\n"
@@ -229,7 +229,7 @@ class UnitDiffers(MessageRule):
             ),
         ),
         Example(
-            "a name that got the converted value",
+            "variable reassigned to the converted value",
             {
                 "board.py": "import math\n\nfrom sensor_msgs.msg import LaserScan\n\n\n"
                 "def scan(start_deg, end_deg):\n"
@@ -238,7 +238,7 @@ class UnitDiffers(MessageRule):
             },
         ),
         Example(
-            "an attribute that starts with zero, and gets degrees in a callback",
+            "attribute set to degrees in a callback, passed to math.cos()",
             {
                 "wind.py": "import math\n\nfrom geometry_msgs.msg import Vector3\n"
                 "from rclpy.node import Node\n\n\n"

@@ -52,11 +52,13 @@ _PERCENT = 100
 class ValueImplausible(MessageRule):
     """A message field gets a value that contradicts its unit or definition.
 
-    **Why.** There is no error when it is published, but a battery shows 8000 %, a robot spins, or
-    colors are white. cv_bridge rejects unknown encodings: ``Unrecognized image encoding [BGR8]``.
+    **Why.** The message is published without an error, but the battery shows 8000 %, the robot
+    spins, or a color is white. cv_bridge rejects unknown encodings: ``Unrecognized image encoding
+    [BGR8]``.
 
-    **Fix.** The comments of the definition give the unit: ``ros2 interface show
-    sensor_msgs/msg/BatteryState``; a yaw is ``z=sin(yaw / 2)``, ``w=cos(yaw / 2)``.
+    **Fix.** Use the unit that the definition documents: ``ros2 interface show
+    sensor_msgs/msg/BatteryState``. The quaternion of a yaw is ``z=sin(yaw / 2)``,
+    ``w=cos(yaw / 2)``.
 
     **Source.** The definitions in common_interfaces; ``sensor_msgs/image_encodings.hpp``; REP-103.
     """
@@ -64,13 +66,13 @@ class ValueImplausible(MessageRule):
     code = "MS026"
     name = "value-implausible"
     other_severities = {
-        Severity.WARNING: "it is a range or an encoding that other programs may accept"
+        Severity.WARNING: "the value is out of range, or an encoding that other programs may accept"
     }
     effect = Effect.WRONG_BEHAVIOR
     examples = (
-        Example("plausible", {"talker.py": _NODE.format(*_GOOD)}),
+        Example("plausible values", {"talker.py": _NODE.format(*_GOOD)}),
         Example(
-            "a constant of another field",
+            "constants of another field",
             {
                 "talker.py": _NODE.format(*_GOOD).replace(
                     "        image =",
@@ -88,7 +90,7 @@ class ValueImplausible(MessageRule):
             "of power_supply_health",
         ),
         Example(
-            "a percentage that a method computes",
+            "battery percentage multiplied by 100 in a method",
             {
                 "talker.py": _NODE.format("self.charge()", *_GOOD[1:])
                 + "\n    def charge(self):\n        return 100.0 * self.volts / 12.0\n"
@@ -100,7 +102,7 @@ class ValueImplausible(MessageRule):
             ),
         ),
         Example(
-            "a percentage; an encoding in capitals; bytes of a row; a yaw",
+            "percentage above 1, encoding in capitals, wrong step, yaw as z of a quaternion",
             {"talker.py": _NODE.format("80.0", "BGR8", "width", "self.yaw")},
             Report(
                 "13:30", "percentage is a fraction from 0 to 1, not 80", severity=Severity.WARNING
@@ -111,7 +113,7 @@ class ValueImplausible(MessageRule):
             "w=cos(self.yaw / 2.0)",
         ),
         Example(
-            "a share times 100; an encoding of one's own; a color",
+            "percentage multiplied by 100, color component of 255, custom encoding",
             {
                 "talker.py": _NODE.format("100.0 * width", "h264", *_GOOD[2:]),
                 "b.py": "from std_msgs.msg import ColorRGBA\n\n\n"
@@ -125,7 +127,7 @@ class ValueImplausible(MessageRule):
             ),
         ),
         Example(
-            "an encoding for cv_bridge",
+            "unknown encodings passed to cv_bridge",
             {
                 "b.py": "from cv_bridge import CvBridge\nfrom sensor_msgs.msg import Image\n\n\n"
                 "def convert(image: Image):\n"
@@ -137,7 +139,7 @@ class ValueImplausible(MessageRule):
             "8:40: unknown encoding 'bgr': CvBridgeError; write 'bgr8'",
         ),
         Example(
-            "yaws: of a quaternion, and for one",
+            "conversions between yaw and quaternion without the half angle",
             {
                 "turn.py": "import math\n\nfrom geometry_msgs.msg import Pose, Quaternion\n\n\n"
                 "def turned(yaw):\n"
@@ -158,7 +160,7 @@ class ValueImplausible(MessageRule):
             "pose.orientation.w), or euler_from_quaternion()",
         ),
         Example(
-            "four angles of joints in a quaternion",
+            "joint angles sent in the fields of a quaternion",
             {
                 "arm.py": "from geometry_msgs.msg import Pose\n\n\n"
                 "class Arm:\n"
@@ -168,7 +170,7 @@ class ValueImplausible(MessageRule):
             },
         ),
         Example(
-            "the diagonal of a covariance, its first row",
+            "variances written to the first row of a covariance",
             {
                 "odom.py": "from nav_msgs.msg import Odometry\n\n\n"
                 "def filled():\n"
@@ -190,7 +192,7 @@ class ValueImplausible(MessageRule):
             "write [4 * i]",
         ),
         Example(
-            "shapes of an image",
+            "width and height swapped in reshape() and shape",
             {
                 "look.py": "import numpy as np\nfrom sensor_msgs.msg import Image\n\n\n"
                 "def wrong(image: Image):\n"
@@ -211,7 +213,7 @@ class ValueImplausible(MessageRule):
             "17:5: a shape has the height first: write height, width = ....shape[:2]",
         ),
         Example(
-            "a part of a map that is transposed; a layout of one's own",
+            "transposed map, custom message with another layout",
             {
                 "explore.py": "import numpy as np\nfrom nav_msgs.msg import OccupancyGrid\n\n\n"
                 "class Map:\n"
@@ -229,7 +231,7 @@ class ValueImplausible(MessageRule):
             },
         ),
         Example(
-            "parts of vectors: one twice, one left out; uniform, or turned",
+            "z copied from y, quaternion without w, quaternion of zeros",
             {
                 "copy_pose.py": "from geometry_msgs.msg import Pose, PoseStamped, Vector3\n\n\n"
                 "def copied(pose: Pose, q):\n"
@@ -275,7 +277,7 @@ class ValueImplausible(MessageRule):
             "zero.py:7:31: a quaternion of zeros is not a rotation; write w=1.0 for the identity",
         ),
         Example(
-            "one stamp for an image and its camera info, and two",
+            "image and camera info with the same stamp and with different stamps",
             {
                 f"{name}.py": "from rclpy.node import Node\n"
                 "from sensor_msgs.msg import CameraInfo, Image\n\n\n"
@@ -295,7 +297,7 @@ class ValueImplausible(MessageRule):
             "no pair; copy it",
         ),
         Example(
-            "a quarter of a turn in each second, and ninety radians",
+            "angular velocity of 90 radians per second",
             {
                 "turn.py": "from geometry_msgs.msg import Twist\n\nDEGREES = 90.0\n\n\n"
                 "def turns():\n"
@@ -307,7 +309,7 @@ class ValueImplausible(MessageRule):
             "use math.radians()",
         ),
         Example(
-            "fractions of a second",
+            "nanosec computed with the wrong factor",
             {
                 "stamp.py": "from builtin_interfaces.msg import Time\n\n\n"
                 "def stamps(now):\n"
@@ -323,7 +325,7 @@ class ValueImplausible(MessageRule):
             "9:35: a second has 1e9 nanoseconds, but this multiplies by 1000",
         ),
         Example(
-            "rows for columns",
+            "width and height of a map swapped",
             {
                 "map.py": "from nav_msgs.msg import MapMetaData\n\n\n"
                 "def describe(grid):\n    info = MapMetaData()\n"

@@ -87,9 +87,9 @@ class ElementRefused(Rule):
     with ``Failed to parse robot description``, for a joint with ``Joint [axis] is of type REVOLUTE
     but it does not specify limits`` or ``has no known type [continous]``.
 
-    **Fix.** Write the attribute or the element; ``<xacro:arg>`` needs a default as well, and a
-    wheel is ``continuous`` and needs no limits. Joints are ``revolute``, ``continuous``,
-    ``prismatic``, ``fixed``, ``floating`` or ``planar``; numbers are separated by spaces.
+    **Fix.** Add the attribute or the element, such as a default for ``<xacro:arg>``. A wheel is a
+    ``continuous`` joint, which needs no limits. Joint types are ``revolute``, ``continuous``,
+    ``prismatic``, ``fixed``, ``floating`` and ``planar``; numbers are separated by spaces.
 
     **Source.** urdfdom, ``joint.cpp``, ``link.cpp`` and ``pose.cpp``; xacro, ``reqd_attrs``.
     """
@@ -98,20 +98,20 @@ class ElementRefused(Rule):
     name = "element-refused"
     examples = (
         Example(
-            "a macro for MoveIt, whose joints are no joints of URDF",
+            "SRDF macro for MoveIt with <joint> elements",
             {
                 "srdf/arm.xacro": '<robot xmlns:xacro="http://www.ros.org/wiki/xacro">\n'
                 '  <xacro:macro name="arm">\n    <disable_collisions link1="a" link2="b"/>\n'
                 '    <joint name="elbow" value="0"/>\n  </xacro:macro>\n</robot>\n'
             },
         ),
-        Example("complete", {"robot.urdf": _ROBOT.format("value")}),
+        Example("complete elements", {"robot.urdf": _ROBOT.format("value")}),
         Example(
-            "a web application, which npm builds",
+            "robot file of a web application",
             {"web/package.json": "{}\n", "web/public/robot.urdf": "<robot>\n</robot>\n"},
         ),
         Example(
-            "a joint of ros2_control, in a macro that others call",
+            "ros2_control joint in a macro",
             {
                 "robot.xacro": _XACRO.format(' default="false"'),
                 "control.xacro": '<robot xmlns:xacro="http://www.ros.org/wiki/xacro">\n'
@@ -121,7 +121,7 @@ class ElementRefused(Rule):
             },
         ),
         Example(
-            "a material for Gazebo, in a macro that others call",
+            "Gazebo material in a macro",
             {
                 "materials.xacro": '<robot xmlns:xacro="http://www.ros.org/wiki/xacro">\n'
                 '  <xacro:macro name="black">\n    <visual>\n      <material>\n'
@@ -130,12 +130,12 @@ class ElementRefused(Rule):
             },
         ),
         Example(
-            "a wrong attribute name",
+            "wrong attribute name",
             {"robot.urdf": _ROBOT.format("val")},
             "4:8: <mass> has no 'value': urdfdom rejects the whole file; 'val' is ignored",
         ),
         Example(
-            "a matrix without its zeros",
+            "inertia matrix without ixy, ixz and iyz",
             {
                 "robot.urdf": '<robot name="r">\n  <link name="a">\n    <inertial>\n'
                 '      <mass value="1"/>\n'
@@ -145,7 +145,7 @@ class ElementRefused(Rule):
             "5:8: <inertia> has no 'ixy', 'ixz' or 'iyz': urdfdom rejects the whole file",
         ),
         Example(
-            "several attributes of one element",
+            "<limit> without effort and velocity",
             {
                 "robot.urdf": '<robot name="r">\n  <link name="a"/>\n  <link name="b"/>\n'
                 '  <joint name="c" type="revolute">\n'
@@ -155,35 +155,36 @@ class ElementRefused(Rule):
             "7:6: <limit> has no 'effort' or 'velocity': urdfdom rejects the whole file",
         ),
         Example(
-            "an argument without a default",
+            "<xacro:arg> without a default",
             {"robot.xacro": _XACRO.format("")},
             "2:4: <xacro:arg> has no 'default': xacro stops here",
         ),
         Example(
-            "a robot without a name",
+            "robot without a name",
             {"robot.urdf": '<robot>\n  <link name="base_link"/>\n</robot>\n'},
             "1:2: <robot> has no 'name': urdfdom rejects the whole file",
         ),
         Example(
-            "a joint with limits", {"robot.urdf": _ROBOT_JOINTS.format("revolute", _CHILD + _LIMIT)}
+            "revolute joint with limits",
+            {"robot.urdf": _ROBOT_JOINTS.format("revolute", _CHILD + _LIMIT)},
         ),
         Example(
-            "a continuous joint without limits",
+            "continuous joint without limits",
             {"robot.urdf": _ROBOT_JOINTS.format("continuous", _CHILD)},
         ),
         Example(
-            "a joint without limits",
+            "revolute joint without limits",
             {"robot.urdf": _ROBOT_JOINTS.format("revolute", _CHILD)},
             "4:4: joint 'axis' is revolute and has no <limit>: urdfdom rejects the whole file; "
             "add effort, velocity, lower and upper",
         ),
         Example(
-            "a joint without a child",
+            "joint without a child",
             {"robot.urdf": _ROBOT_JOINTS.format("prismatic", _LIMIT)},
             "4:4: joint 'axis' has no <child>: urdfdom rejects the whole file",
         ),
         Example(
-            "values as they are",
+            "valid shape, joint type and numbers",
             {
                 "robot.urdf": _ROBOT_VALUES.format(
                     'sphere radius="0.1"', "continuous", "0 0.1 -1e-3"
@@ -191,7 +192,7 @@ class ElementRefused(Rule):
             },
         ),
         Example(
-            "a joint type misspelt; of Gazebo",
+            "misspelled joint type, joint type of Gazebo",
             {
                 "a.urdf": _ROBOT_VALUES.format('sphere radius="0.1"', "continous", "0 0 0"),
                 "b.urdf": _ROBOT_VALUES.format('sphere radius="0.1"', "ball", "0 0 0"),
@@ -202,7 +203,7 @@ class ElementRefused(Rule):
             "revolute, continuous, prismatic, fixed, floating, planar",
         ),
         Example(
-            "an unknown shape; commas; too few values",
+            "unknown shape, commas between numbers, too few numbers",
             {
                 "a.urdf": _ROBOT_VALUES.format('cube size="1 1 1"', "fixed", "0, 0, 0"),
                 "b.urdf": _ROBOT_VALUES.format('box size="1 1"', "fixed", "0 0 0"),

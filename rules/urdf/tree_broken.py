@@ -75,41 +75,42 @@ class TreeBroken(Rule):
     robot_state_publisher exits. Gazebo silently ignores the sensors, plugins and friction of
     missing links.
 
-    **Fix.** Connect each link but the first to its parent, by one joint; give each a unique name,
-    in a macro derived from a parameter: ``${name}_link``.
+    **Fix.** Connect each link except the root to its parent with one joint. Use unique names, in a
+    macro derived from a parameter: ``${name}_link``.
 
     **Source.** urdfdom, ``ModelInterface::initTree`` and ``initRoot``, ``model.cpp``.
     """
 
     code = "UR022"
     name = "tree-broken"
-    other_severities = {Severity.WARNING: "Gazebo only misses a color or a friction"}
+    other_severities = {Severity.WARNING: "Gazebo only ignores a color or the friction"}
     examples = (
-        Example("a tree", {"robot.urdf": _ROBOT.format("base_link", "camera")}),
+        Example("valid tree", {"robot.urdf": _ROBOT.format("base_link", "camera")}),
         Example(
-            "two parents, and therefore two roots",
+            "link with two parents, link without a parent",
             {"robot.urdf": _ROBOT.format("camera", "wheel")},
             "4:15: no joint connects 'camera': urdfdom finds two roots, it and 'base_link', and "
             "rejects the whole file",
             "9:4: link 'wheel' is the child of 'axis' and of 'mount': a link has one parent",
         ),
         Example(
-            "a link without a joint",
+            "joint with a child link that does not exist",
             {"robot.urdf": _ROBOT.format("wheel", "wheel2")},
             "11:18: child 'wheel2' of joint 'mount' is not a link of this robot: "
             "robot_state_publisher exits; closest: 'wheel'",
         ),
         Example(
-            "a loop",
+            "loop of joints",
             {"robot.urdf": _LOOP},
             "8:4: joint 'ba' closes a loop: 'a' is above 'b' already, so no root leads to these "
             "links",
         ),
         Example(
-            "a macro with a name for its link", {"robot.xacro": _MACRO.format("${name}", "${name}")}
+            "macro with link names from a parameter",
+            {"robot.xacro": _MACRO.format("${name}", "${name}")},
         ),
         Example(
-            "a link twice",
+            "duplicate link name",
             {"robot.urdf": _ROBOT_NAMES.format("wheel", "shoulder", "arm")},
             "4:15: a link 'wheel' is already defined in robot.urdf:3: urdfdom rejects the whole "
             "file",
@@ -117,22 +118,24 @@ class TreeBroken(Rule):
             "robot_state_publisher exits",
         ),
         Example(
-            "a joint twice",
+            "duplicate joint name",
             {"robot.urdf": _ROBOT_NAMES.format("arm", "axis", "arm")},
             "9:16: a joint 'axis' is already defined in robot.urdf:5: urdfdom rejects the whole "
             "file",
         ),
         Example(
-            "a macro without a name for its link",
+            "macro with a fixed link name, called twice",
             {"robot.xacro": _MACRO.format("wheel", "wheel")},
             "4:17: a link 'wheel' is already defined in an earlier call of the macro: urdfdom "
             "rejects the whole file",
             "5:6: link 'wheel' is the child of 'left_joint' and of 'right_joint': a link has one "
             "parent",
         ),
-        Example("both links there", {"robot.urdf": _ROBOT_LINKS.format("base_link", "wheel")}),
         Example(
-            "a gripper, which hangs on the arm of a file that includes it",
+            "existing parent and child", {"robot.urdf": _ROBOT_LINKS.format("base_link", "wheel")}
+        ),
+        Example(
+            "gripper file whose parent link is in the file that includes it",
             {
                 "gripper.xacro": '<robot name="gripper">\n  <link name="finger"/>\n'
                 '  <joint name="grip" type="fixed">\n    <parent link="wrist"/>\n'
@@ -140,19 +143,19 @@ class TreeBroken(Rule):
             },
         ),
         Example(
-            "an unknown link",
+            "misspelled parent link",
             {"robot.urdf": _ROBOT_LINKS.format("base", "wheel")},
             "5:19: parent 'base' of joint 'axis' is not a link of this robot: "
             "robot_state_publisher exits; closest: 'base_link'",
         ),
         Example(
-            "an unknown link without a similar name",
+            "unknown child link without a similar name",
             {"robot.urdf": _ROBOT_LINKS.format("base_link", "camera")},
             "6:18: child 'camera' of joint 'axis' is not a link of this robot: "
             "robot_state_publisher exits",
         ),
         Example(
-            "a sensor on an unknown link",
+            "Gazebo sensor on an unknown link",
             {
                 "robot.urdf": _ROBOT_LINKS.format("base_link", "wheel").replace(
                     "</robot>", '  <gazebo reference="lidar"><sensor name="a"/></gazebo>\n</robot>'
@@ -162,7 +165,7 @@ class TreeBroken(Rule):
             "it",
         ),
         Example(
-            "a sensor on a link that a gazebo element adds",
+            "Gazebo sensor on a link defined in a <gazebo> element",
             {
                 "robot.urdf": _ROBOT_LINKS.format("base_link", "wheel").replace(
                     "</robot>",
@@ -172,7 +175,7 @@ class TreeBroken(Rule):
             },
         ),
         Example(
-            "a file of two robots that both lack a link",
+            "shared file that references a link missing in both robots",
             {
                 "simulation.xacro": _SIMULATION,
                 "lite.xacro": _INCLUDING.format("camera_1"),
@@ -182,7 +185,7 @@ class TreeBroken(Rule):
             "robot: Gazebo ignores it; closest: 'camera_1'",
         ),
         Example(
-            "a gazebo element of an unknown link",
+            "<gazebo> elements with known and unknown references",
             {
                 "robot.urdf": _ROBOT_LINKS.format("base_link", "wheel").replace(
                     "</robot>",
@@ -198,7 +201,7 @@ class TreeBroken(Rule):
             ),
         ),
         Example(
-            "a joint to mimic",
+            "mimic of an unknown joint",
             {"robot.urdf": _MIMIC.format("axle")},
             "7:19: 'axis' mimics 'axle', which is not a joint of this robot",
         ),

@@ -32,12 +32,12 @@ _RADIAN = 3.14159265 / 180
 class ValueImpossible(Rule):
     """An angle is in degrees, or an axis, limit, mass or color is impossible.
 
-    **Why.** URDF uses radians: with 90 for a quarter turn, the part is rotated by 116.6 degrees,
-    and a joint with such limits is not limited at all. With swapped limits or an axis of length
-    zero, nothing can move the joint, and Gazebo ignores a link without mass.
+    **Why.** URDF uses radians: an angle of 90 rotates the part by 116.6 degrees, and limits in
+    degrees do not limit the joint at all. With swapped limits or an axis of length zero, the joint
+    cannot move. Gazebo ignores a link without mass.
 
-    **Fix.** ``1.5708``, or ``${radians(90)}`` and ``${pi/2}`` in xacro; the smaller limit is
-    ``lower``; an axis is a direction such as ``0 0 1``.
+    **Fix.** Write ``1.5708``, or ``${radians(90)}`` or ``${pi/2}`` in xacro. ``lower`` is the
+    smaller limit, and an axis is a direction such as ``0 0 1``.
 
     **Source.** URDF, "joint": rpy, lower and upper are in radians; "inertial".
     """
@@ -47,9 +47,9 @@ class ValueImpossible(Rule):
     severity = Severity.WARNING
     effect = Effect.WRONG_BEHAVIOR
     examples = (
-        Example("possible", {"robot.urdf": _ROBOT.format("2", "0 0 1", "-1", "1")}),
+        Example("valid values", {"robot.urdf": _ROBOT.format("2", "0 0 1", "-1", "1")}),
         Example(
-            "no mass of what is fixed to another link, which Gazebo makes one body with it",
+            "link without mass at a fixed joint, which Gazebo merges into its parent",
             {
                 "robot.urdf": _ROBOT.format("0", "0 0 0", "0", "0").replace(
                     'type="revolute"', 'type="fixed"'
@@ -57,7 +57,7 @@ class ValueImpossible(Rule):
             },
         ),
         Example(
-            "no mass, colors up to 255",
+            "mass of 0, color components up to 255",
             {
                 "robot.urdf": _ROBOT.format("0.0", "0 0 1", "-1", "1").replace(
                     "</robot>",
@@ -69,7 +69,7 @@ class ValueImpossible(Rule):
             "15:35: colors and alpha are from 0 to 1, larger values count as 1; divide by 255",
         ),
         Example(
-            "no moments of inertia",
+            "moments of inertia of 0",
             {
                 "robot.urdf": _ROBOT.format("2", "0 0 1", "-1", "1")
                 .replace('ixx="1"', 'ixx="0"')
@@ -79,14 +79,14 @@ class ValueImpossible(Rule):
             "5:21: all moments of inertia are 0: in Gazebo, the link has no rotational inertia",
         ),
         Example(
-            "impossible",
+            "negative mass, axis of length zero, swapped limits",
             {"robot.urdf": _ROBOT.format("-2", "0 0 0", "1", "-1")},
             "4:20: a mass must not be negative: Gazebo rejects the link",
             "12:16: the axis has no direction: the joint cannot move; write 0 0 1",
             "13:19: lower is 1 and upper is -1: no position is within these limits; swap them",
         ),
         Example(
-            "radians; a winch; the height of a lift",
+            "angles in radians, winch with several turns, height of a lift",
             {
                 "a.urdf": _ROBOT_ANGLES.format("revolute", "1.5708", "-3.14", "6.2832"),
                 "b.urdf": _ROBOT_ANGLES.format("revolute", "0", "-31.4", "31.4"),
@@ -99,11 +99,11 @@ class ValueImpossible(Rule):
             },
         ),
         Example(
-            "no limits",
+            "very large limits",
             {"robot.urdf": _ROBOT_ANGLES.format("revolute", "0", "-100000", "1e16")},
         ),
         Example(
-            "degrees",
+            "angles in degrees",
             {"robot.urdf": _ROBOT_ANGLES.format("revolute", "90", "-45", "180")},
             "7:30: rpy is in radians, but 90 looks like degrees; write 1.5708",
             "8:19: lower is in radians, but -45 looks like degrees; write -0.7854",

@@ -67,23 +67,23 @@ _ORIGIN = '<origin xyz="0 0 0"/>'
 class XacroNameUndefined(Rule):
     """A xacro file uses an undefined name, or calls a macro with wrong parameters.
 
-    **Why.** xacro stops, ``unknown macro name: xacro:weel``, ``name 'radus' is not defined``,
-    ``Undefined parameters [y]`` or ``Invalid parameter "z"``, so the robot has no description. A
-    macro without its prefix is not expanded.
+    **Why.** xacro stops with ``unknown macro name: xacro:weel``, ``name 'radus' is not defined``,
+    ``Undefined parameters [y]`` or ``Invalid parameter "z"``, and there is no robot description. A
+    macro call without the ``xacro:`` prefix is not expanded.
 
-    **Fix.** Use a name that the file or one that it includes defines, above its use; give each
-    parameter of a macro without a default, and no others.
+    **Fix.** Define the name, or include the file that defines it, before its first use. Pass every
+    macro parameter that has no default, and no others.
 
     **Source.** xacro, ``handle_macro_call`` and ``eval_text``.
     """
 
     code = "UR030"
     name = "xacro-name-undefined"
-    other_severities = {Severity.WARNING: "another package may give the file to xacro"}
+    other_severities = {Severity.WARNING: "another package may process the file with xacro"}
     examples = (
-        Example("all defined", {"robot.xacro": _robot(1, "${radius}")}),
+        Example("defined names", {"robot.xacro": _robot(1, "${radius}")}),
         Example(
-            "names of Python and of another file",
+            "Python names, macro of an include in another package",
             {
                 "robot.xacro": _robot(1, "${max(radius, pi / 2)}"),
                 "other.xacro": '<robot xmlns:xacro="http://www.ros.org/wiki/xacro">\n'
@@ -92,7 +92,7 @@ class XacroNameUndefined(Rule):
             },
         ),
         Example(
-            "a macro of a namespace, which calls another of its file",
+            "macro in a namespace that calls another macro of its file",
             {
                 "robot.xacro": '<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">\n'
                 '  <xacro:include filename="parts.xacro" ns="parts"/>\n'
@@ -103,7 +103,7 @@ class XacroNameUndefined(Rule):
             },
         ),
         Example(
-            "a macro with the name of an element that Gazebo reads",
+            "macro with the name of a Gazebo element",
             {
                 "robot.xacro": '<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">\n'
                 '  <xacro:macro name="imu">\n'
@@ -112,7 +112,7 @@ class XacroNameUndefined(Rule):
             },
         ),
         Example(
-            "a macro that writes the element of its name",
+            "macro that creates an element of the same name",
             {
                 "robot.xacro": '<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">\n'
                 '  <xacro:macro name="contact"><contact mu="1"/></xacro:macro>\n'
@@ -121,7 +121,7 @@ class XacroNameUndefined(Rule):
             },
         ),
         Example(
-            "a property; an expression",
+            "undefined properties, invalid expression",
             {
                 "a.xacro": _robot(1, "${radus}"),
                 "b.xacro": _robot(1, "${radius *}"),
@@ -132,25 +132,25 @@ class XacroNameUndefined(Rule):
             "c.xacro:8:35: property 'height' is not defined here: xacro stops",
         ),
         Example(
-            "a macro",
+            "misspelled macro name",
             {"robot.xacro": _ROBOT.format(*_GOOD[:2], "xacro:w", "left", "xacro:w")},
             "12:4: macro 'wwheel' is not defined here: xacro stops; closest: 'wheel'",
         ),
         Example(
-            "a template of a generator",
+            "template of a code generator",
             {"templates/robot.xacro": _ROBOT_CALLS.replace("<xacro:wheel", "<xacro:$NAME$")},
         ),
         Example(
-            "a macro that stops xacro where an argument has a wrong value",
+            "undefined macro used to stop xacro for invalid arguments",
             {"robot.xacro": _CONDITION.format("wrong_model")},
         ),
         Example(
-            "a macro under a condition",
+            "misspelled macro name in a condition",
             {"robot.xacro": _CONDITION.format("laserr")},
             Report("5:6", "macro 'laserr' is not defined here: xacro stops; closest: 'laser'"),
         ),
         Example(
-            "a block; an argument; a command of launch",
+            "undefined block, undefined argument, substitution that only launch has",
             {
                 "a.xacro": _robot(0, '<xacro:insert_block name="pose"/>'),
                 "b.xacro": _robot(3, "$(arg prefx)wheel"),
@@ -163,20 +163,20 @@ class XacroNameUndefined(Rule):
             "arg",
         ),
         Example(
-            "a macro without its prefix",
+            "macro call without the xacro: prefix",
             {"robot.xacro": _ROBOT.format(*_GOOD[:2], "", "left", "")},
             "12:4: <wheel> is not expanded without its prefix; write <xacro:wheel>",
         ),
         Example(
-            "a call as the macro is defined",
+            "call with all parameters",
             {"robot.xacro": _ROBOT_CALLS.format('name="left" y="1"', _ORIGIN)},
         ),
         Example(
-            "a call without what has a default",
+            "call without a parameter that has a default",
             {"robot.xacro": _ROBOT_CALLS.format('name="left"', _ORIGIN)},
         ),
         Example(
-            "a default with an extra quote, which xacro accepts",
+            "default with an extra quote, which xacro accepts",
             {
                 "robot.xacro": _ROBOT_CALLS.format('name="left" y="1"', _ORIGIN).replace(
                     "y:=0", "y:='''"
@@ -184,27 +184,27 @@ class XacroNameUndefined(Rule):
             },
         ),
         Example(
-            "a parameter left out",
+            "missing parameter",
             {"robot.xacro": _ROBOT_CALLS.format('y="1"', _ORIGIN)},
             "10:4: macro 'wheel' needs 'name': xacro stops with 'Undefined parameters'",
         ),
         Example(
-            "another parameter",
+            "unknown parameter",
             {"robot.xacro": _ROBOT_CALLS.format('name="left" z="1"', _ORIGIN)},
             "10:28: macro 'wheel' has no parameter 'z': xacro stops; it has name, y",
         ),
         Example(
-            "no block",
+            "missing block",
             {"robot.xacro": _ROBOT_CALLS.format('name="left"', "")},
             "10:4: macro 'wheel' needs an element for its block 'origin': xacro stops",
         ),
         Example(
-            "an extra block",
+            "extra block",
             {"robot.xacro": _ROBOT_CALLS.format('name="left"', f"{_ORIGIN}<limit/>")},
             "10:50: macro 'wheel' has no block for <limit>: xacro stops with 'Unused block'",
         ),
         Example(
-            "a condition that is not a bool",
+            "invalid condition",
             {
                 "robot.xacro": '<robot name="a" xmlns:xacro="http://www.ros.org/wiki/xacro">\n'
                 '  <link name="a"/>\n  <xacro:if value="yes"/>\n</robot>\n'
@@ -212,7 +212,7 @@ class XacroNameUndefined(Rule):
             "3:20: 'yes' is not a condition: xacro stops; write true, false, 0, 1 or ${...}",
         ),
         Example(
-            "a URDF file that is not processed by xacro",
+            "URDF file that is not processed by xacro",
             {"robot.urdf": _PLAIN},
             Report(
                 "4:33",
@@ -222,7 +222,7 @@ class XacroNameUndefined(Rule):
             ),
         ),
         Example(
-            "a URDF file that a launch file passes to xacro",
+            "URDF file that a launch file passes to xacro",
             {
                 "robot.urdf": _PLAIN,
                 "launch/a.launch.py": "import xacro\n\n\n"
