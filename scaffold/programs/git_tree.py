@@ -146,14 +146,14 @@ class Commit(Objects):
         super().__init__(directory, "", f"--since {revision}")
         top = self._run("rev-parse", "--show-toplevel")
         if top is None:
-            raise InputError(f"--since {revision}: git has no repository of yours at {directory}")
+            raise InputError(f"--since {revision}: no git repository of yours at {directory}")
         self.top = os.fsdecode(top.removesuffix(b"\n"))
         """The top of the work tree."""
         self._directory = self.top
         words = ("--verify", "--quiet", "--end-of-options", f"{revision}^{{commit}}")
         name = self._run("rev-parse", *words)
         if not name:
-            raise InputError(f"--since {revision}: git knows no such commit")
+            raise InputError(f"--since {revision}: no such commit in the repository")
         self._name = os.fsdecode(name.strip())
 
     @cached_property

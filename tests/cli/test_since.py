@@ -129,9 +129,9 @@ def test_since_and_baseline_can_be_combined(
 @pytest.mark.parametrize(
     ("words", "message"),
     [
-        (["--since", "nowhere"], "--since nowhere: git knows no such commit"),
-        (["--since=--all"], "--since --all: git knows no such commit"),
-        (["--since", "HEAD:first"], "--since HEAD:first: git knows no such commit"),
+        (["--since", "nowhere"], "--since nowhere: no such commit in the repository"),
+        (["--since=--all"], "--since --all: no such commit in the repository"),
+        (["--since", "HEAD:first"], "--since HEAD:first: no such commit in the repository"),
         (["--since", "HEAD", "--fix"], "--since only reports: omit --fix"),
         (["--since", "HEAD", "--write-baseline", "a"], "omit --write-baseline"),
     ],
@@ -150,7 +150,7 @@ def test_since_without_git_is_an_error(
 ) -> None:
     shutil.rmtree(workspace / ".git")
     assert main(["check", "--since", "HEAD"]) == 2
-    assert f"git has no repository of yours at {workspace}\n" in capsys.readouterr().err
+    assert f"no git repository of yours at {workspace}\n" in capsys.readouterr().err
     monkeypatch.setenv("PATH", str(workspace))
     assert main(["check", "--since", "HEAD"]) == 2
     assert "--since HEAD: git is not installed\n" in capsys.readouterr().err

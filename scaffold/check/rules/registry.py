@@ -100,13 +100,13 @@ def _load_file(names: Sequence[str], path: str, code: CodeType) -> type[Rule]:
         if isinstance(value, type) and issubclass(value, Rule) and value.__module__ == name
     ]
     if len(result) != 1:
-        raise ContentError(f"{path}: holds {len(result)} rules; a rule file holds one")
+        raise ContentError(f"{path}: defines {len(result)} rules; a rule file defines one")
     (rule,) = result
     missing = [key for key in ("code", "name", "examples") if not hasattr(rule, key)]
     if missing:
         raise ContentError(f"{path}: the rule has no {' and no '.join(missing)}")
     if rule.name.replace("-", "_") != stem:
-        raise ContentError(f"{path}: holds the rule {rule.name!r}; file and rule share one name")
+        raise ContentError(f"{path}: defines the rule {rule.name!r}; file and rule share one name")
     return rule
 
 

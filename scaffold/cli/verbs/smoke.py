@@ -74,7 +74,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="NAMES",
         help="the distributions of ROS 2 to run on, separated by commas; on others, nothing is "
         "run (default: check.distribution of the configuration, else what `new --distro` made "
-        "the packages for, else ROS_DISTRO, else the one that is there)",
+        "the packages for, else ROS_DISTRO, else the available one)",
     )
     parser.add_argument(
         "--ros",

@@ -56,11 +56,11 @@ _INNER: Mapping[str, Any] = {
 }
 """The types of the items of a value."""
 _WORDS: Mapping[object, str] = {
-    str: "text",
+    str: "string",
     dict: "mapping",
     list: "list",
     bool: "flag",
-    (str, bool): "text",
+    (str, bool): "string",
 }
 _SECTIONS = {
     Role.NODE: "other nodes",
@@ -247,7 +247,7 @@ def _refuse_others(path: str, key: str, value: object) -> None:
     for inner in inside:
         if not isinstance(inner, _INNER.get(key, object)):
             whole, part = _WORDS[_KEYS[key]], _WORDS[_INNER[key]]
-            raise ContentError(f"{path}: {key} must be a {whole} of {part}s, and {inner!r} is none")
+            raise ContentError(f"{path}: {key} must be a {whole} of {part}s, not {inner!r}")
 
 
 def _question(path: str, name: str, entry: object) -> Question:
@@ -261,7 +261,7 @@ def _question(path: str, name: str, entry: object) -> Question:
         raise ContentError(f"{path}: {name} has an unknown key {unknown[0]!r}; the keys are {keys}")
     for key in ("help", "metavar"):
         if not isinstance(entry.get(key, ""), str):
-            raise ContentError(f"{path}: {key} of {name} must be a text")
+            raise ContentError(f"{path}: {key} of {name} must be a string")
     kind = entry.get("type", "text")
     if not isinstance(kind, str) or kind not in TYPES:
         raise ContentError(f"{path}: {name} has the unknown type {kind!r}; {', '.join(TYPES)}")
