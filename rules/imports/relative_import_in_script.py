@@ -38,11 +38,19 @@ class RelativeImportInScript(Rule):
             "talker/node.py:1:1: relative import in an installed program, which is not part of a "
             "package: ImportError; use the full module name",
         ),
+        Example(
+            "`__init__.py`, which nobody runs",
+            {
+                **_FILES,
+                "CMakeLists.txt": _LISTS.replace("node.py", "__init__.py"),
+                "talker/__init__.py": "from .text import TEXT\n",
+            },
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         for path in sorted({program.path for program in programs(package)}):
-            if path not in package.python_files:
+            if path not in package.python_files or path.endswith("__init__.py"):
                 continue
             try:
                 module = package.module(path)
