@@ -216,13 +216,29 @@ class EntryPointUnusable(Rule):
                 severity=Severity.WARNING,
             ),
         ),
+        Example(
+            "another package, in a package that CMake builds",
+            {
+                "setup.py": _SETUP_USE.format("my_package.node"),
+                **_FILES,
+                "CMakeLists.txt": "project(talker)\nfind_package(ament_cmake REQUIRED)\n",
+                "package.xml": "<package><export><build_type>ament_cmake</build_type></export>"
+                "</package>\n",
+            },
+            Report(
+                "setup.py:6:39",
+                "no module 'my_package.node' is installed; closest: 'talker.node'",
+                severity=Severity.WARNING,
+            ),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        yield from self._check_form(package)
-        yield from self._check_names(package)
-        yield from self._check_target(package)
-        yield from self._check_use(package)
+        is_unused = package.build_type == "ament_cmake"  # setup.py is not run there
+        checks = [self._check_form, self._check_names, self._check_use]
+        for check in checks if is_unused else [*checks, self._check_target]:
+            for found in check(package):
+                yield found._replace(severity=Severity.WARNING) if is_unused else found
 
     def _check_form(self, package: Package) -> Iterator[Diagnostic]:
         for entry in package.setup_py.console_scripts:
@@ -233,8 +249,7 @@ class EntryPointUnusable(Rule):
             elif entry.malformed:
                 message = f"console script {entry.text!r}: {entry.malformed}"
                 is_running = not entry.function and _runs_when_imported(package, entry.module)
-                is_used = package.build_type != "ament_cmake" and not is_running
-                severity = Severity.ERROR if is_used else Severity.WARNING
+                severity = Severity.WARNING if is_running else Severity.ERROR
                 cause = f"console scripts: {entry.malformed}"
                 yield self.report(entry, message, severity=severity, cause=cause)
 
@@ -249,8 +264,6 @@ class EntryPointUnusable(Rule):
                 yield self.report(entry, message)
 
     def _check_target(self, package: Package) -> Iterator[Diagnostic]:
-        if package.build_type == "ament_cmake":
-            return  # setup.py is not run there
         for entry in package.setup_py.console_scripts:
             if entry.malformed or not entry.module or not entry.function:
                 continue
