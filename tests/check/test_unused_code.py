@@ -427,6 +427,21 @@ def test_uncalled_function_of_a_library(
     assert severities(capsys, "F821") == {"talker/words.py": severity}
 
 
+@pytest.mark.parametrize(
+    ("severity", "expression"),
+    [("warning", "getattr(message, field)"), ("error", "getattr(sys.modules[__name__], field)")],
+)
+def test_uncalled_function_next_to_computed_attributes(
+    package: Path, capsys: pytest.CaptureFixture[str], severity: str, expression: str
+) -> None:
+    write(package / "setup.py", CONSOLE_SCRIPT)
+    read = f"def read(message, field):\n    return {expression}\n"
+    tell = "def tell():\n    return undefined\n"
+    write(package / "talker" / "words.py", f"import sys\n\n\n{read}\n\n{tell}")
+    write(package / "talker" / "node.py", "from talker.words import read\n")
+    assert severities(capsys, "F821") == {"talker/words.py": severity}
+
+
 def test_exception_that_is_no_exception(package: Path, capsys: pytest.CaptureFixture[str]) -> None:
     write(package / "talker" / "talk.py", "raise NotImplemented('later')\n")
     write(package / "talker" / "node.py", "raise NotThere('later')\n")

@@ -40,6 +40,8 @@ _NAMING = (".py", ".cfg", ".toml", ".cpp", ".hpp")
 _LAUNCH = frozenset({"launch", "launch_ros"})
 _LOOKUPS = ("globals(", "locals(", "vars(", "__dict__", "eval(", "exec(")
 """Functions that look up names computed at run time."""
+_MODULES = ("sys.modules", "import_module", "__import__")
+"""Expressions that return a module, whose functions are its attributes."""
 
 
 class _Unmentioned(NamedTuple):
@@ -118,13 +120,20 @@ def _function_at(module: PythonModule, line: int, *, is_helper: bool) -> _Unment
     function = _outermost_function(module, line)
     if function is None or _is_decorated(function) or not _is_called_by_name(module, function):
         return None
-    if module.mentions(*_LOOKUPS) or _COMPUTED.search(module.source.text):
+    if module.mentions(*_LOOKUPS) or _may_be_computed(module, function):
         return None
     if not _is_named_once(module, function.name):
         return None
     stem = module.path.rpartition("/")[2].removesuffix(".py")
     names = (function.name,) if is_helper else (stem, function.name)
     return _Unmentioned(names, is_for_all=is_helper)
+
+
+def _may_be_computed(module: PythonModule, function: FunctionNode) -> bool:
+    """Tell whether getattr with a computed name may return a method, or a function of a module."""
+    if module.enclosing_class(function) is None and not module.mentions(*_MODULES):
+        return False
+    return _COMPUTED.search(module.source.text) is not None
 
 
 def _class_at(module: PythonModule, line: int) -> _Unmentioned | None:
