@@ -174,6 +174,37 @@ class ImportUndeclared(Rule):
             },
         ),
         Example(
+            "declared for tests only",
+            {
+                "package.xml": _manifest("rclpy", "<test_depend>std_srvs</test_depend>"),
+                "talker/__init__.py": "",
+                "talker/node.py": "import rclpy\nfrom std_srvs.srv import SetBool\n",
+            },
+            Report(
+                "talker/node.py:2:1",
+                "imports 'std_srvs', which line 4 of package.xml declares for tests only: "
+                "<test_depend> does not install it where the package runs; add "
+                "<exec_depend>std_srvs</exec_depend>",
+                fix="Declare std_srvs",
+            ),
+            fixed={
+                "package.xml": _manifest("rclpy", "std_srvs", "<test_depend>std_srvs</test_depend>")
+            },
+        ),
+        Example(
+            "test dependencies of scripts that are not installed, but on the path of tests",
+            {
+                "package.xml": _manifest("<test_depend>python3-tqdm</test_depend>"),
+                "CMakeLists.txt": "project(talker)\nif(BUILD_TESTING)\n"
+                "  ament_add_pytest_test(talk test/test_talk.py\n"
+                "    APPEND_ENV PYTHONPATH=${CMAKE_SOURCE_DIR}/scripts)\nendif()\n",
+                "scripts/bags/__init__.py": "",
+                "scripts/bags/read.py": "import tqdm\n",
+                "scripts/draw.py": "import matplotlib\n",
+                "test/test_talk.py": "import bags.read\n",
+            },
+        ),
+        Example(
             "messages that only tests use",
             {
                 "package.xml": _manifest(),
@@ -454,10 +485,11 @@ class ImportUndeclared(Rule):
 def _why_missing(package: Package, need: requirements.Requirement) -> str:
     """Return why a package may be missing where the import runs."""
     for dependency in package.manifest.dependencies:
-        if dependency.name in need.keys and dependency.kind.startswith("build"):
+        if dependency.name in need.keys and dependency.kind.startswith(("build", "test")):
             line = dependency.location.line
+            purpose = "tests" if dependency.kind == "test_depend" else "the build"
             return (
-                f"line {line} of package.xml declares for the build only: <{dependency.kind}> "
+                f"line {line} of package.xml declares for {purpose} only: <{dependency.kind}> "
                 "does not install it where the package runs"
             )
     return "package.xml does not declare"

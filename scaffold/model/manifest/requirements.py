@@ -27,10 +27,11 @@ _OF_INTERFACES = [[], *([name] for name in sorted(INTERFACE_MODULES))]
 """The submodules of interface packages."""
 _NOT_SHIPPED = ("doc/", "docs/", "setup.py", "conf.py")
 _ROS1 = frozenset({"rospy", "roslib"})
-_COMPILING = re.compile(
+_NOT_INSTALLING = re.compile(
     r"\b(?:add_subdirectory|aux_source_directory|(?:target_)?include_directories)\s*\([^()]*\)"
+    r"|\bPYTHONPATH=[^\s)]*"
 )
-"""Matches CMake calls with C++ directories."""
+"""Matches CMake calls with C++ directories, and the search path of tests."""
 _OLD_STANDARD_LIBRARY = frozenset({"distutils", "imp", "asynchat", "asyncore", "smtpd"})
 
 
@@ -143,12 +144,17 @@ def is_shipped(package: Package, path: str) -> bool:
     if directory and package.has(f"{directory}/__init__.py"):
         # "talker copy" cannot be imported.
         return directory.replace("/", "").replace("-", "").isidentifier()
-    # The directory itself, not ``console_scripts`` or one of its files.
-    whole = rf"(?<!\w){re.escape(directory)}/?(?![\w/.-])"
+    whole = _mentions(directory)
     return any(
-        name in text or (directory and re.search(whole, _COMPILING.sub("", text)) is not None)
+        name in text or (directory and whole.search(_NOT_INSTALLING.sub("", text)) is not None)
         for text in _builds(package, directory)
     )
+
+
+def _mentions(*paths: str) -> re.Pattern[str]:
+    """Match a mention of files or directories, not of ``console_scripts`` or a file in them."""
+    names = "|".join(map(re.escape, paths))
+    return re.compile(rf"(?<!\w)(?:{names})/?(?![\w/.-])")
 
 
 def _is_of_ros1(imports: Iterable[Import]) -> bool:
@@ -216,13 +222,16 @@ def _programs(package: Package) -> frozenset[str]:
 
 
 def _is_named_for_tests(package: Package, path: str) -> bool:
-    """Tell whether CMake uses a file, or its directory, only for tests."""
+    """Tell whether CMake uses a file, or a directory around it, only for tests."""
     try:
         cmake = package.cmake
     except ViewError:
         return False
-    names = {path, path.rpartition("/")[2], path.rpartition("/")[0]} - {""}
-    using = [command for command in cmake.commands if not names.isdisjoint(command.values)]
+    *directories, name = path.split("/")
+    around = ["/".join(directories[: at + 1]) for at in range(len(directories))]
+    own = ["${PROJECT_NAME}"] if package.name in around else []
+    names = _mentions(name, *around, *own)
+    using = [command for command in cmake.commands if any(map(names.search, command.values))]
     return bool(using) and all(cmake.guarded_by_testing(item) for item in using)
 
 
