@@ -7,6 +7,7 @@ import re
 from collections import Counter
 from typing import TYPE_CHECKING
 
+from scaffold.files.limits import most_bytes
 from scaffold.formats.hash_comments import without_comments
 from scaffold.model.cmake.ament import programs
 from scaffold.model.facts import fact
@@ -35,7 +36,8 @@ _OF_PYTEST = re.compile(
 )
 """Matches the names of functions that pytest, unittest or launch_testing call."""
 _ENTRIES = frozenset({"main", "generate_launch_description"})
-_NAMING = (".py", ".cfg", ".toml", ".cpp", ".hpp")
+_CPP = (".cpp", ".hpp")
+_NAMING = (".py", ".cfg", ".toml", *_CPP)
 """The endings of files that may call a function of Python, or tell who does."""
 _LAUNCH = frozenset({"launch", "launch_ros"})
 _LOOKUPS = ("globals(", "locals(", "vars(", "__dict__", "eval(", "exec(")
@@ -305,16 +307,26 @@ def _is_named_in(
         if not path.endswith(endings) or path == module_path:
             continue
         try:
-            data = package.data(path)
+            data = _cpp(package, path) if path.endswith(_CPP) else package.data(path)
         except ViewError:
-            if path.endswith((".cpp", ".hpp")):
-                continue  # too large for code that calls a function of Python
             return True
         if all(word in data for word in words):
             text = without_comments(data.decode(errors="replace"))
             if _has_names(text, names):
                 return True
     return False
+
+
+def _cpp(package: Package, path: str) -> bytes:
+    """Return the code of a C++ file; empty if it is too large for one that calls Python."""
+
+    def read() -> bytes:
+        try:
+            return package.bytes_of(path, most_bytes(path))
+        except OSError:
+            return b""
+
+    return package.remember(("C++", path), read)
 
 
 def _has_names(text: str, names: tuple[str, ...]) -> bool:
