@@ -7,7 +7,15 @@ import re
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, LaunchRule, Report, Severity
-from scaffold.api.launch import FUNCTION, HANDLERS, NODES, Entity, LaunchFile, entities
+from scaffold.api.launch import (
+    FUNCTION,
+    HANDLERS,
+    NODES,
+    Entity,
+    LaunchFile,
+    entities,
+    is_unread,
+)
 
 _EXECUTED = frozenset({*NODES, "IncludeLaunchDescription", "ExecuteProcess"})
 _ASSIGNED = _EXECUTED | {"GroupAction", "OpaqueFunction", "RegisterEventHandler", "TimerAction"}
@@ -84,6 +92,34 @@ class ActionNotLaunched(LaunchRule):
             ),
         ),
         Example(
+            "an action whose variable is set again",
+            {
+                "launch/a.launch.py": _LAUNCH.format("", "", "").replace(
+                    "    description",
+                    "    talker = Node(package='talker', executable='other')\n    description",
+                    1,
+                )
+            },
+            Report(
+                "6:14",
+                "Node is not in the LaunchDescription: it is never launched",
+                severity=Severity.WARNING,
+            ),
+        ),
+        Example(
+            "an action of a variable outside of functions",
+            {
+                "launch/a.launch.py": _LAUNCH.format("", "", "").replace(
+                    "\n\n\n", "\n\nother = Node(package='talker', executable='other')\n\n\n"
+                )
+            },
+            Report(
+                "4:9",
+                "Node is not in the LaunchDescription: it is never launched",
+                severity=Severity.WARNING,
+            ),
+        ),
+        Example(
             "an action that is disabled",
             {
                 "launch/a.launch.py": _LAUNCH.format(
@@ -128,7 +164,7 @@ class ActionNotLaunched(LaunchRule):
         for call in launch.calls:
             is_dropped = isinstance(launch.module.parent(call.call), ast.Expr)
             is_dropped = is_dropped and call.kind in _EXECUTED
-            if is_dropped or (call.kind in _ASSIGNED and _is_never_used(launch, call.call)):
+            if is_dropped or (call.kind in _ASSIGNED and _is_only_stored(launch, call.call)):
                 yield self.report(
                     call,
                     f"{call.kind} is not in the LaunchDescription: it is never launched",
@@ -164,22 +200,17 @@ class ActionNotLaunched(LaunchRule):
                 yield self.report(launch.location(made), message)
 
 
-def _is_never_used(launch: LaunchFile, call: ast.Call) -> bool:
-    """Return whether a call is assigned to a local variable that is never used.
+def _is_only_stored(launch: LaunchFile, call: ast.Call) -> bool:
+    """Return whether a call is assigned to a variable that is not read afterwards.
 
     A variable in a comment is disabled on purpose.
     """
-    module = launch.module
-    match module.parent(call):
+    match launch.module.parent(call):
         case ast.Assign(targets=[ast.Name() as variable]):
-            pass
-        case _:
-            return False
-    if module.enclosing_function(variable) is None or module.mentions("locals()", "vars()"):
-        return False
-    uses = [use for use in module.index.names(variable.id) if isinstance(use.ctx, ast.Load)]
-    pattern = rf"#.*\b{re.escape(variable.id)}\b"
-    return not uses and not re.search(pattern, module.source.text)
+            pattern = rf"#.*\b{re.escape(variable.id)}\b"
+            is_disabled = re.search(pattern, launch.module.source.text)
+            return not is_disabled and is_unread(launch, variable)
+    return False
 
 
 def _nodes(launch: LaunchFile) -> Iterator[tuple[str, ast.Call, list[ast.Name]]]:

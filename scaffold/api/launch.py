@@ -77,6 +77,7 @@ from scaffold.model.launch.substitutions import (
     text_uses,
     truth_tests,
 )
+from scaffold.model.launch.unlaunched import is_unread
 
 __all__ = [
     "ACTIONS",
@@ -121,6 +122,7 @@ __all__ = [
     "is_named",
     "is_named_elsewhere",
     "is_reversed",
+    "is_unread",
     "later_declarations",
     "launch_files",
     "launch_paths",

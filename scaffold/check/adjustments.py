@@ -18,6 +18,7 @@ from scaffold.model.install.unused import (
     is_never_run,
     is_out_of_reach,
 )
+from scaffold.model.launch.unlaunched import is_in_unlaunched_action
 from scaffold.model.launch.unused_files import is_left_alone
 from scaffold.model.package import Package
 from scaffold.model.python.facts import imports_of, paths_importing
@@ -31,6 +32,11 @@ from scaffold.source import Location, ViewError
 _OF_LINTERS = ("E9", "F")
 _OF_PROGRAMS = ("IM", "LF", "MS", "ND", "TY")
 """Areas of rules about run-time behavior."""
+_OF_ACTIONS = (
+    *("LF006", "LF010", "LF016", "LF045", "LF053", "LF058", "LF060", "LF065", "LF066", "LF067"),
+    *("LF08", "PF"),
+)
+"""Areas and codes of rules about what happens when an action of a launch file is executed."""
 _OF_DATA = ("PF", "UR", UnparsableFile.code)
 """Areas and codes of rules about data files of programs."""
 _ENDINGS_OF_DATA = (".yaml", ".yml", ".urdf", ".xacro", ".sdf")
@@ -148,6 +154,8 @@ def _is_unreached(package: Package, diagnostic: Diagnostic) -> bool:
         return True
     if code.startswith(_OF_LINTERS):
         return is_out_of_reach(package, path) or _is_hardly_reached(package, diagnostic)
+    if code.startswith(_OF_ACTIONS) and _is_unlaunched(package, diagnostic.location):
+        return True
     return code.startswith(_OF_PROGRAMS) and (
         is_out_of_reach(package, path) or _is_uncalled(package, diagnostic.location)
     )
@@ -210,6 +218,14 @@ def _is_uncalled(package: Package, at: Location) -> bool:
         return True
     try:
         return is_in_uncalled_function(package, at.path, at.line)
+    except ViewError:
+        return False
+
+
+def _is_unlaunched(package: Package, at: Location) -> bool:
+    """Tell whether code is in an action that is never put into the LaunchDescription."""
+    try:
+        return is_in_unlaunched_action(package, at.path, at.line, at.column)
     except ViewError:
         return False
 

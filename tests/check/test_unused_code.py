@@ -206,6 +206,51 @@ def test_uncalled_function_of_a_launch_file(
     }
 
 
+UNLAUNCHED = """from launch import LaunchDescription
+from launch_ros.actions import Node
+
+
+def generate_launch_description():
+    node = Node(package='talker', executable='talk', name='a b')
+    {}
+    return LaunchDescription([node])
+"""
+AGAIN = "node = Node(package='talker', executable='talk')"
+
+
+@pytest.mark.parametrize(
+    ("severity", "changed", "into"),
+    [
+        ("warning", "", AGAIN),
+        ("warning", "[node]", "[]"),
+        ("error", "", "node = OnProcessExit(node)"),
+        ("error", "", f"print(node)\n    {AGAIN}"),
+        ("error", "", f"if LaunchDescription:\n        {AGAIN}"),
+        ("error", "", f"late = lambda: node\n    {AGAIN}\n    late()"),
+        ("error", "[node]", "list(locals().values())"),
+        ("error", "", f"for _ in ():\n        pass\n    {AGAIN}"),
+    ],
+)
+def test_action_that_is_never_launched(
+    package: Path, capsys: pytest.CaptureFixture[str], severity: str, changed: str, into: str
+) -> None:
+    text = UNLAUNCHED.replace(changed, into).format("") if changed else UNLAUNCHED.format(into)
+    write(package / "launch" / "a.launch.py", text)
+    assert severities(capsys, "LF045") == {"launch/a.launch.py": severity}
+
+
+@pytest.mark.parametrize(
+    ("path", "severity"), [("a.launch.py", "warning"), ("common_launch.py", "error")]
+)
+def test_action_outside_of_functions(
+    package: Path, capsys: pytest.CaptureFixture[str], path: str, severity: str
+) -> None:
+    action = "node = Node(package='talker', executable='talk', name='a b')"
+    text = UNLAUNCHED.replace(f"    {action}\n", "").replace("[node]", "[]").format("")
+    write(package / "launch" / path, text.replace("\n\n\n", f"\n\n{action}\n\n\n"))
+    assert severities(capsys, "LF045") == {f"launch/{path}": severity}
+
+
 def test_main_guard_of_a_launch_file(package: Path, capsys: pytest.CaptureFixture[str]) -> None:
     description = "def generate_launch_description():\n    return None\n\n\n"
     guard = "if __name__ == '__main__':\n    {}\n"

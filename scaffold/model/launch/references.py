@@ -11,7 +11,7 @@ from scaffold.model.discovery.repos_files import is_fetched
 from scaffold.model.facts import fact
 from scaffold.model.launch.markup_file import is_known, markup_files
 from scaffold.model.launch.python_file import LaunchFile, launch_paths
-from scaffold.model.launch.share_paths import is_never_used
+from scaffold.model.launch.unlaunched import is_never_used
 from scaffold.model.programs.executables import programs_of
 from scaffold.model.python.values import UNKNOWN, Unknown
 from scaffold.model.released import is_released
@@ -82,7 +82,7 @@ def _in_launch_file(package: Package, path: str) -> tuple[Reference, ...]:
             node = call.given.get("executable")
             at = launch.location(node) if node is not None else at
         optional = launch.is_optional(use.node) or (
-            call is not None and is_never_used(launch, call.call, frozenset())
+            call is not None and is_never_used(launch, call.call)
         )
         result.append(Reference(use.name, use.location, executable, at, optional))
     for program, node in launch.programs:

@@ -16,6 +16,7 @@ from scaffold.model.install.share import share_of
 from scaffold.model.launch.files import DATA_DIRECTORIES
 from scaffold.model.launch.markup_file import markup_files
 from scaffold.model.launch.python_file import LaunchFile, SharePath, launch_paths
+from scaffold.model.launch.unlaunched import is_never_used
 from scaffold.record import NamedTuple
 from scaffold.source import ViewError
 
@@ -74,7 +75,7 @@ def _paths_of_launch_file(package: Package, path: str) -> tuple[NamedPath, ...]:
         for share_path in launch.share_paths
         if not launch.is_optional(share_path.node)
         and not _is_given_to_unknown(launch, share_path.node)
-        and not is_never_used(launch, share_path.node, frozenset())
+        and not is_never_used(launch, share_path.node)
         and not _is_written(launch, share_path.node)
         for named in _as_installed(package, launch, share_path)
     )
@@ -163,48 +164,6 @@ def _is_given_to_unknown(launch: LaunchFile, node: ast.expr) -> bool:
         else []
     )
     return any(isinstance(item, ast.Name) and item.id == "getattr" for item in made)
-
-
-def is_never_used(launch: LaunchFile, node: ast.AST, seen: frozenset[str]) -> bool:
-    """Tell whether a path or an action is only stored in an unused local variable.
-
-    Classes of launch access files when executed, functions may do so immediately.
-
-    Args:
-        launch: The launch file.
-        node: The path, the action, or a variable with it.
-        seen: The variables followed so far.
-    """
-    names: set[str] = set()
-    function: ast.AST | None = None
-    for parent in launch.module.parents(node):
-        match parent:
-            case ast.Assign(targets=[ast.Name(id=name)]) if not names:
-                names = {name}
-            case ast.Call() if not names and not _makes_object(parent):
-                return False
-            case ast.stmt() if not names:
-                return False
-            case ast.FunctionDef() | ast.AsyncFunctionDef():
-                function = parent
-                break
-            case _:
-                continue
-    if function is None or not names:
-        return False
-    uses = [
-        item
-        for name in names
-        for item in launch.module.index.names(name)
-        if isinstance(item.ctx, ast.Load) and function in launch.module.parents(item)
-    ]
-    return names <= seen or all(is_never_used(launch, use, seen | names) for use in uses)
-
-
-def _makes_object(call: ast.Call) -> bool:
-    name = call.func.attr if isinstance(call.func, ast.Attribute) else call.func
-    name = name.id if isinstance(name, ast.Name) else name
-    return isinstance(name, str) and name[:1].isupper()
 
 
 def _is_written(launch: LaunchFile, node: ast.expr) -> bool:

@@ -1,0 +1,119 @@
+"""Actions of a launch file, and the values they read, that no LaunchDescription gets."""
+
+from __future__ import annotations
+
+import ast
+from typing import TYPE_CHECKING
+
+from scaffold.model.facts import fact
+from scaffold.model.launch.python_file import LaunchFile
+
+if TYPE_CHECKING:
+    from scaffold.model.package import Package
+
+_LOOKUPS = ("locals()", "vars()", "globals()", "eval(", "exec(")
+"""Functions that may read any variable."""
+_ENDING = ".launch.py"
+"""The ending of launch files that no other module can import: their name has a dot."""
+_STRAIGHT = (ast.Assign, ast.AnnAssign, ast.AugAssign, ast.Expr)
+"""Statements after which the next one is executed, if any."""
+_VIEWS = frozenset({"items", "format"})
+"""Methods that only read an object, such as the dictionary of ``launch_arguments``."""
+
+
+@fact
+def is_in_unlaunched_action(package: Package, path: str, line: int, column: int) -> bool:
+    """Tell whether a place is in an action, or a value of one, that is never launched.
+
+    Raises:
+        ViewError: the file cannot be read.
+    """
+    launch = LaunchFile.of(package, path)
+    around = [call for call in launch.module.walk(ast.Call) if _covers(call, line, column)]
+    return any(is_never_used(launch, call) for call in around[-1:] if _makes_object(call))
+
+
+def _covers(node: ast.expr, line: int, column: int) -> bool:
+    start = node.lineno, node.col_offset
+    end = node.end_lineno or node.lineno, node.end_col_offset or 0
+    return start <= (line, column - 1) < end
+
+
+def is_never_used(
+    launch: LaunchFile, node: ast.AST, seen: frozenset[ast.Name] = frozenset()
+) -> bool:
+    """Tell whether a path or an action is only stored in a variable that is never read.
+
+    The variable is a local one, or one of a launch file that no module can import. Classes of
+    launch access files when executed, functions may do so immediately.
+
+    Args:
+        launch: The launch file.
+        node: The path, the action, or a variable with it.
+        seen: The variables followed so far, where they are set.
+    """
+    target = _variable_with(launch, node)
+    if target is None:
+        return False
+    if target in seen:
+        return True
+    reads = _reads(launch, target)
+    following = seen | {target}
+    return reads is not None and all(is_never_used(launch, use, following) for use in reads)
+
+
+def is_unread(launch: LaunchFile, target: ast.Name) -> bool:
+    """Tell whether nothing reads a variable after it is set here, not even to store it again."""
+    return _reads(launch, target) == []
+
+
+def _reads(launch: LaunchFile, target: ast.Name) -> list[ast.Name] | None:
+    """Return the uses of a variable that is set; ``None`` if others may use it."""
+    index = launch.module.index
+    scope = index.scope_of(target)
+    is_local = isinstance(scope, ast.FunctionDef | ast.AsyncFunctionDef)
+    is_of_file = isinstance(scope, ast.Module) and launch.path.endswith(_ENDING)
+    if not (is_local or is_of_file) or launch.module.mentions(*_LOOKUPS):
+        return None
+    reads = [use for use in index.uses_of(target) if isinstance(use.ctx, ast.Load)]
+    return _reached(launch, target, reads)
+
+
+def _variable_with(launch: LaunchFile, node: ast.AST) -> ast.Name | None:
+    """Return the variable that is set to an object with a node, and to nothing else."""
+    for parent in launch.module.parents(node):
+        match parent:
+            case ast.Assign(targets=[ast.Name() as target]):
+                return target
+            case ast.Call() if not _makes_object(parent):
+                return None
+            case ast.stmt() | ast.NamedExpr() | ast.Await() | ast.Yield() | ast.YieldFrom():
+                return None
+    return None
+
+
+def _makes_object(call: ast.Call) -> bool:
+    """Tell whether a call is that of a class, or of a method without effects."""
+    name = call.func.attr if isinstance(call.func, ast.Attribute) else call.func
+    name = name.id if isinstance(name, ast.Name) else name
+    return isinstance(name, str) and (name[:1].isupper() or name in _VIEWS)
+
+
+def _reached(launch: LaunchFile, target: ast.Name, reads: list[ast.Name]) -> list[ast.Name]:
+    """Return the uses of a variable, up to the statement that certainly sets it again."""
+    index = launch.module.index
+    scope = index.scope_of(target)
+    statement = index.parent(target)
+    body = getattr(scope, "body", [])
+    if statement not in body or any(index.scope_of(use) is not scope for use in reads):
+        return reads
+    reached: list[ast.Name] = []
+    for later in body[body.index(statement) + 1 :]:
+        if not isinstance(later, _STRAIGHT):
+            break
+        inside = {*ast.walk(later)}
+        reached += [use for use in reads if use in inside]
+        match later:
+            case ast.Assign(targets=[ast.Name(id=name)]) if name == target.id:
+                return reached
+    return reads
