@@ -206,6 +206,30 @@ def test_uncalled_function_of_a_launch_file(
     }
 
 
+@pytest.mark.parametrize(
+    ("severity", "caller"),
+    [
+        ("warning", "def load_all():\n    return load('a')\n\n\n"),
+        ("error", "def load_all():\n    return load('a')\n\n\nload_all()\n"),
+        ("error", "loaded = load('a')\n\n\n"),
+        ("error", "def load_all():\n    return [load, 'load']\n\n\n"),
+        ("error", "@register\ndef load_all():\n    return load('a')\n\n\n"),
+    ],
+)
+def test_function_of_a_launch_file_called_by_an_uncalled_one(
+    package: Path, capsys: pytest.CaptureFixture[str], severity: str, caller: str
+) -> None:
+    helper = "def load(path):\n    return undefined.read(path)\n\n\n"
+    description = "def generate_launch_description():\n    return None\n"
+    imported = "from launch import register\n\n\n"
+    write(package / "launch" / "a.launch.py", imported + helper + caller + description)
+    assert severities(capsys, "F821") == {"launch/a.launch.py": severity}
+    if severity == "warning":
+        use = "path = 'a.launch.py'\nload_all = getattr(path, 'load_all')\n"
+        write(package / "talker" / "use.py", use)
+        assert severities(capsys, "F821") == {"launch/a.launch.py": "error"}
+
+
 UNLAUNCHED = """from launch import LaunchDescription
 from launch_ros.actions import Node
 

@@ -40,6 +40,8 @@ _CPP = (".cpp", ".hpp")
 _NAMING = (".py", ".cfg", ".toml", *_CPP)
 """The endings of files that may call a function of Python, or tell who does."""
 _LAUNCH = frozenset({"launch", "launch_ros"})
+_MOST_CALLERS = 10
+"""More functions that only call each other are not followed."""
 _LOOKUPS = ("globals(", "locals(", "vars(", "__dict__", "eval(", "exec(")
 """Functions that look up names computed at run time."""
 _MODULES = ("sys.modules", "import_module", "__import__")
@@ -57,6 +59,8 @@ class _Unmentioned(NamedTuple):
     """Whether other packages may use it."""
     is_guard: bool = False
     """Whether it is a main guard, which any of the names starts."""
+    callers: tuple[str, ...] = ()
+    """The functions of the file that mention it, none of which is called in the file."""
 
 
 def is_in_uncalled_function(package: Package, path: str, line: int) -> bool:
@@ -77,7 +81,8 @@ def _is_used_elsewhere(package: Package, path: str, item: _Unmentioned) -> bool:
     if item.is_guard:
         return any(is_named(package, path, name, TEXTS) for name in item.names)
     users = package.workspace if item.is_for_all else [package]
-    return any(_is_named_in(user, path, item.names, item.endings) for user in users)
+    names = (item.names, *((*item.names[:-1], caller) for caller in item.callers))
+    return any(_is_named_in(user, path, each, item.endings) for user in users for each in names)
 
 
 @fact
@@ -102,7 +107,7 @@ def _lines_of_unmentioned(package: Package, path: str) -> tuple[int, ...]:
             text = package.data(path).decode()
         except UnicodeDecodeError:
             return (1,)
-        if path.endswith("launch.py") and "__main__" in text:
+        if _is_launch_file(path) and "__main__" in text:
             return (1,)
         guard = text.find("__main__")
         at_guard = [text.count("\n", 0, guard) + 1] if guard >= 0 else []
@@ -112,23 +117,38 @@ def _lines_of_unmentioned(package: Package, path: str) -> tuple[int, ...]:
             for match in _DEFINITION.finditer(text)
             if count[match[1]] == 1
         )
-        return (*at_guard, *named_once)
+        lines = (*at_guard, *named_once)
+        return (1,) if lines and _is_launch_file(path) else lines  # helpers may come before
 
     return package.remember(("named once", path), find)
 
 
 def _function_at(module: PythonModule, line: int, *, is_helper: bool) -> _Unmentioned | None:
-    """Return the function or method at a line, if its file does not mention it again."""
+    """Return the function or method at a line, if no code of its file that may run mentions it."""
     function = _outermost_function(module, line)
-    if function is None or _is_decorated(function) or not _is_called_by_name(module, function):
+    if module.mentions(*_LOOKUPS):
         return None
-    if module.mentions(*_LOOKUPS) or _may_be_computed(module, function):
-        return None
-    if not _is_named_once(module, function.name):
-        return None
+    functions = [function]
+    for item in functions:  # which grows
+        if item is None or _is_decorated(item) or not _is_called_by_name(module, item):
+            return None
+        if _may_be_computed(module, item):
+            return None
+        uses = module.index.names(item.name) if _is_launch_file(module.path) else ()
+        if _named_in(without_comments(module.source.text), item.name) > 1 + len(uses):
+            return None
+        around = {_outermost_function(module, use.lineno) for use in uses}
+        functions += around.difference(functions)
+        if len(functions) > _MOST_CALLERS:
+            return None
+    name, *callers = (item.name for item in functions if item is not None)
     stem = module.path.rpartition("/")[2].removesuffix(".py")
-    names = (function.name,) if is_helper else (stem, function.name)
-    return _Unmentioned(names, is_for_all=is_helper)
+    names = (name,) if is_helper else (stem, name)
+    return _Unmentioned(names, is_for_all=is_helper, callers=tuple(sorted(callers)))
+
+
+def _is_launch_file(path: str) -> bool:
+    return path.endswith("launch.py")
 
 
 def _may_be_computed(module: PythonModule, function: FunctionNode) -> bool:
@@ -173,7 +193,7 @@ def _has_known_bases(module: PythonModule, class_: ast.ClassDef) -> bool:
 def _is_startable(module: PythonModule) -> bool:
     """Tell whether a module is a launch file, or may be a program."""
     is_program = module.has_main_guard or "main" in module.functions
-    return is_program or module.path.endswith("launch.py")
+    return is_program or _is_launch_file(module.path)
 
 
 def is_unused_module(package: Package, path: str) -> bool:
@@ -239,7 +259,7 @@ def _guard_at(package: Package, module: PythonModule, line: int) -> _Unmentioned
     if guard is None or not guard.lineno <= line <= (guard.end_lineno or guard.lineno):
         return None
     path = module.path
-    if path.endswith("launch.py"):
+    if _is_launch_file(path):
         return None if module.mentions("LaunchService") else _Unmentioned((), is_guard=True)
     if module.in_tests or not _is_only_importable(package, path):
         return None
