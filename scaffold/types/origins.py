@@ -84,9 +84,9 @@ def is_unpacked_of_several(module: PythonModule, value: ast.expr) -> bool:
 
 
 def is_assigned_of_several(module: PythonModule, statement: ast.Assign, value: ast.AST) -> bool:
-    """Tell whether what is assigned, or what it is assigned to, may be another one.
+    """Tell whether the value or a target of an assignment may be one of several objects.
 
-    Of an attribute of ``self`` or the result of its method, the type checker reports all types.
+    The type checker reports all types of attributes of ``self`` and of results of its methods.
     """
     if any(is_of_several(module, target) for target in statement.targets):
         return True

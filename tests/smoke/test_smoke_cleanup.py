@@ -116,12 +116,12 @@ def test_detached_process_is_killed(tmp_path: Path) -> None:
 
 def test_cancellation_does_not_cut_a_cleanup_short() -> None:
     async def run() -> list[str]:
-        may_end, said = asyncio.Event(), list[str]()
+        may_end, steps = asyncio.Event(), list[str]()
 
         async def cleanup() -> None:
-            said.append("begun")
+            steps.append("started")
             await may_end.wait()
-            said.append("ended")
+            steps.append("ended")
 
         task = asyncio.create_task(uninterrupted(cleanup()))
         for _ in range(3):
@@ -130,9 +130,9 @@ def test_cancellation_does_not_cut_a_cleanup_short() -> None:
         may_end.set()
         with pytest.raises(asyncio.CancelledError):
             await task
-        return said
+        return steps
 
-    assert asyncio.run(run()) == ["begun", "ended"]
+    assert asyncio.run(run()) == ["started", "ended"]
 
 
 def test_fork_bomb_is_killed(tmp_path: Path) -> None:

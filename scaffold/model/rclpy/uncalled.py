@@ -199,9 +199,9 @@ def _is_startable(module: PythonModule) -> bool:
 def is_unused_module(package: Package, path: str) -> bool:
     """Tell whether no file mentions a module next to programs, and it is no program itself.
 
-    It is told from the texts of files: none is parsed for this. A module with ``main()`` or a main
-    guard may be started as a file, unless it is installed in a Python package without an entry
-    point, where ``ros2 run`` does not find it.
+    Searches the text of files, without parsing them. A module with ``main()`` or a main guard may
+    be started as a file, unless it is installed in a Python package without an entry point, where
+    ``ros2 run`` does not find it.
 
     Raises:
         ViewError: the file cannot be read.
