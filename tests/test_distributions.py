@@ -400,7 +400,7 @@ def test_each_distribution_has_its_data(name: str) -> None:
 
 
 def test_no_code_compares_distribution_names() -> None:
-    exempt = "(?<!distro=)(?<!moved_from=)(?<!closest: )"  # examples of rules
+    exempt = "(?<!distro=)(?<!moved_from=)(?<!did you mean )"  # examples of rules
     name = "|".join(NAMES)
     pattern = re.compile(rf"""{exempt}(?:"(?:{name})"|'(?:{name})')""")
     asking = {

@@ -79,8 +79,8 @@ class BridgeEntryUnusable(Rule):
                 "a.yaml": _ENTRY.replace("GZ_TO_ROS", "ROS_TO_IGN"),
                 "b.yaml": _ENTRY.replace("GZ_TO_ROS", "both"),
             },
-            "a.yaml:5:14: invalid direction 'ROS_TO_IGN': the bridge drops the entry; closest: "
-            "ROS_TO_GZ",
+            "a.yaml:5:14: invalid direction 'ROS_TO_IGN': the bridge drops the entry; did you "
+            "mean ROS_TO_GZ?",
             "b.yaml:5:14: invalid direction 'both': the bridge drops the entry; known: GZ_TO_ROS, "
             "ROS_TO_GZ, BIDIRECTIONAL",
         ),
@@ -162,10 +162,10 @@ class BridgeEntryUnusable(Rule):
                 "a.yaml": _ENTRY_TYPES.format("sensor_msgs/msg/LaserScans", "gz.msgs.LaserScan"),
                 "b.yaml": _ENTRY_TYPES.format("sensor_msgs/LaserScan", "gz.msgs.LaserScan"),
             },
-            "a.yaml:3:18: unknown type 'sensor_msgs/msg/LaserScans': nothing is bridged; closest: "
-            "'sensor_msgs/msg/LaserScan'",
-            "b.yaml:3:18: unknown type 'sensor_msgs/LaserScan': nothing is bridged; closest: "
-            "'sensor_msgs/msg/LaserScan'",
+            "a.yaml:3:18: unknown type 'sensor_msgs/msg/LaserScans': nothing is bridged; did you "
+            "mean 'sensor_msgs/msg/LaserScan'?",
+            "b.yaml:3:18: unknown type 'sensor_msgs/LaserScan': nothing is bridged; did you mean "
+            "'sensor_msgs/msg/LaserScan'?",
         ),
         Example(
             "types in a launch file",
@@ -215,7 +215,7 @@ class BridgeEntryUnusable(Rule):
         direction = entry.values.get("direction")
         if direction is not None and direction.text not in _DIRECTIONS:
             closest = closest_name(package, direction.text.upper(), _DIRECTIONS, 0.6)
-            hint = f"closest: {closest}" if closest else f"known: {', '.join(_DIRECTIONS)}"
+            hint = f"did you mean {closest}?" if closest else f"known: {', '.join(_DIRECTIONS)}"
             message = f"invalid direction {direction.text!r}: the bridge drops the entry; {hint}"
             yield self.report(direction, message)
         if "service_name" in entry.keys:
@@ -276,7 +276,7 @@ class BridgeEntryUnusable(Rule):
             yield self.report(gz_at, f"{message}; {ros!r} is converted to {' or '.join(of_ros)}")
         elif of_gz and package.workspace.interfaces.find(ros) is None:
             closest = closest_name(package, ros, {name for name, _ in BRIDGED_TYPES}, 0.7)
-            hint = f"; closest: {closest!r}" if closest else ""
+            hint = f"; did you mean {closest!r}?" if closest else ""
             message = f"unknown type {ros!r}: nothing is bridged{hint}"
             yield self.report(ros_at, message)
 

@@ -167,7 +167,7 @@ class CommandOrTargetUndefined(Rule):
         Example(
             "misspelled",
             {"CMakeLists.txt": _CALL.format("ament_pakage")},
-            "3:1: unknown command ament_pakage(): CMake stops; closest: ament_package()",
+            "3:1: unknown command ament_pakage(): CMake stops; did you mean ament_package()?",
         ),
         Example(
             "a command of catkin",
@@ -178,7 +178,7 @@ class CommandOrTargetUndefined(Rule):
         Example(
             "not defined",
             {"CMakeLists.txt": _LISTS_TARGETS.format("talks")},
-            "3:27: undefined target 'talks'; closest: 'talk'",
+            "3:27: undefined target 'talks'; did you mean 'talk'?",
         ),
         Example(
             "a Python script instead of a target",
@@ -200,7 +200,7 @@ class CommandOrTargetUndefined(Rule):
         Example(
             "not defined, but mentioned elsewhere",
             {"CMakeLists.txt": _LISTS_TARGETS.format("talks") + "message(STATUS talks)\n"},
-            "3:27: undefined target 'talks'; closest: 'talk'",
+            "3:27: undefined target 'talks'; did you mean 'talk'?",
         ),
     )
 
@@ -248,7 +248,7 @@ class CommandOrTargetUndefined(Rule):
                 yield self.report(command.name_location, message)
             elif not successor:
                 for closest in _closest(name):
-                    message = f"unknown command {name}(): CMake stops; closest: {closest}()"
+                    message = f"unknown command {name}(): CMake stops; did you mean {closest}()?"
                     yield self.report(command.name_location, message)
 
     def _check_targets(self, package: Package) -> Iterator[Diagnostic]:
@@ -262,7 +262,7 @@ class CommandOrTargetUndefined(Rule):
         never_named = targets_named_once(cmake)
         for target, argument in never_named:
             closest = closest_name(package, target, targets, 0.75)
-            hint = f"; closest: {closest!r}" if closest else ": CMake stops"
+            hint = f"; did you mean {closest!r}?" if closest else ": CMake stops"
             yield self.report(argument, f"undefined target {target!r}{hint}")
         reported = {target for target, _ in never_named}
         for command in cmake.find(*TAKING_TARGETS):
@@ -271,7 +271,7 @@ class CommandOrTargetUndefined(Rule):
                 continue
             closest = closest_name(package, name, targets, 0.75)
             if closest:
-                message = f"undefined target {name!r}; closest: {closest!r}"
+                message = f"undefined target {name!r}; did you mean {closest!r}?"
                 yield self.report(command.arguments[0], message)
 
 

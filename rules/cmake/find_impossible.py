@@ -45,7 +45,7 @@ class FindImpossible(Rule):
             {"CMakeLists.txt": _LISTS.format("std_msg")},
             Report(
                 "2:14",
-                "unknown package 'std_msg'; closest: 'std_msgs'",
+                "unknown package 'std_msg'; did you mean 'std_msgs'?",
                 fix="Replace with std_msgs",
             ),
             fixed={"CMakeLists.txt": _LISTS.format("std_msgs")},
@@ -58,7 +58,7 @@ class FindImpossible(Rule):
             },
             Report(
                 "3:36",
-                "unknown package 'std_msg'; closest: 'std_msgs'",
+                "unknown package 'std_msg'; did you mean 'std_msgs'?",
                 fix="Replace with std_msgs",
             ),
             fixed={
@@ -110,7 +110,7 @@ class FindImpossible(Rule):
         if argument.value == name:
             edit = Edit("CMakeLists.txt", argument.start, argument.end, closest)
             fix = Fix(f"Replace with {closest}", (edit,))
-        yield self.report(at, f"unknown package {name!r}; closest: {closest!r}", fix)
+        yield self.report(at, f"unknown package {name!r}; did you mean {closest!r}?", fix)
 
     def _check_python(self, package: Package) -> Iterator[Diagnostic]:
         for call in package.cmake.found_packages:

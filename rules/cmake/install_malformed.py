@@ -59,7 +59,7 @@ class InstallMalformed(Rule):
             {"CMakeLists.txt": _KIND.format("PROGRAM"), "talker/node.py": "pass\n"},
             Report(
                 "CMakeLists.txt:2:9",
-                "unknown install() keyword 'PROGRAM': CMake stops; closest: PROGRAMS",
+                "unknown install() keyword 'PROGRAM': CMake stops; did you mean PROGRAMS?",
                 fix="Replace with PROGRAMS",
             ),
             fixed={"CMakeLists.txt": _KIND.format("PROGRAMS")},
@@ -69,7 +69,7 @@ class InstallMalformed(Rule):
             {"CMakeLists.txt": _KIND.format("programs"), "talker/node.py": "pass\n"},
             Report(
                 "CMakeLists.txt:2:9",
-                "unknown install() keyword 'programs': CMake stops; closest: PROGRAMS",
+                "unknown install() keyword 'programs': CMake stops; did you mean PROGRAMS?",
                 fix="Replace with PROGRAMS",
             ),
             fixed={"CMakeLists.txt": _KIND.format("PROGRAMS")},
@@ -100,5 +100,6 @@ class InstallMalformed(Rule):
         closest = closest_name(package, kind.value.upper(), _KINDS, 0.7)
         if closest:
             edit = Edit("CMakeLists.txt", kind.start, kind.end, closest)
-            message, fix = f"{message}; closest: {closest}", Fix(f"Replace with {closest}", (edit,))
+            message = f"{message}; did you mean {closest}?"
+            fix = Fix(f"Replace with {closest}", (edit,))
         yield self.report(kind, message, fix)

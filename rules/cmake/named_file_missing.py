@@ -85,7 +85,7 @@ class NamedFileMissing(Rule):
             "CMakeLists.txt:2:19: installs the directory include/, which does not exist: the "
             "build stops",
             "CMakeLists.txt:4:18: installs talker/nod.py, which does not exist: the build stops; "
-            "closest: talker/node.py",
+            "did you mean talker/node.py?",
         ),
         Example(
             "an empty directory",
@@ -126,7 +126,8 @@ class NamedFileMissing(Rule):
         Example(
             "a missing source file",
             {"CMakeLists.txt": _LISTS.format("src/a.cpp"), "src/b.cpp": ""},
-            "CMakeLists.txt:2:23: file src/a.cpp does not exist: CMake stops; closest: src/b.cpp",
+            "CMakeLists.txt:2:23: file src/a.cpp does not exist: CMake stops; did you mean "
+            "src/b.cpp?",
         ),
         Example(
             "a submodule of git, which a clone may not have",
@@ -149,7 +150,7 @@ class NamedFileMissing(Rule):
             "a missing test",
             {"CMakeLists.txt": _LISTS_TESTS.format("test_talks.py"), "test/test_talk.py": ""},
             "CMakeLists.txt:2:28: test file test/test_talks.py does not exist: the test fails; "
-            "closest: test/test_talk.py",
+            "did you mean test/test_talk.py?",
         ),
         Example(
             "interfaces that exist, or that the build generates",
@@ -349,4 +350,4 @@ class NamedFileMissing(Rule):
 
 def _closest(package: Package, path: str, files: Collection[str], cutoff: float) -> str:
     closest = closest_name(package, path, files, cutoff)
-    return f"; closest: {closest}" if closest else ""
+    return f"; did you mean {closest}?" if closest else ""

@@ -55,8 +55,8 @@ class ProjectNameDiffers(Rule):
         Example(
             "an unknown language",
             {"CMakeLists.txt": _LISTS_LANGUAGE.format("DESCRIPTION Talk LANGUAGES CPP PYTHON")},
-            "1:43: unknown language 'CPP': CMake stops; closest: 'CXX'",
-            "1:47: unknown language 'PYTHON': CMake stops; closest: 'NONE'",
+            "1:43: unknown language 'CPP': CMake stops; did you mean 'CXX'?",
+            "1:47: unknown language 'PYTHON': CMake stops; did you mean 'NONE'?",
         ),
         Example(
             "the name of the package",
@@ -106,7 +106,7 @@ class ProjectNameDiffers(Rule):
                     closest = _MEANT.get(argument.value.upper(), "") or closest_name(
                         package, argument.value, _LANGUAGES, 0.6
                     )
-                    hint = f"; closest: {closest!r}" if closest else ""
+                    hint = f"; did you mean {closest!r}?" if closest else ""
                     message = f"unknown language {argument.value!r}: CMake stops{hint}"
                     yield self.report(argument, message)
 

@@ -39,8 +39,8 @@ class TestingConditionWrong(Rule):
             {"CMakeLists.txt": _LISTS.format("CATKIN_ENABLE_TESTING")},
             Report(
                 "2:4",
-                "CATKIN_ENABLE_TESTING is never set, so the tests below never run; "
-                "closest: BUILD_TESTING",
+                "CATKIN_ENABLE_TESTING is never set, so the tests below never run; did "
+                "you mean BUILD_TESTING?",
                 fix="Replace CATKIN_ENABLE_TESTING with BUILD_TESTING",
             ),
             fixed={"CMakeLists.txt": _LISTS.format("BUILD_TESTING")},
@@ -83,7 +83,9 @@ class TestingConditionWrong(Rule):
             if any(name in item.values for item in cmake.commands if item is not condition):
                 continue
             edit = Edit("CMakeLists.txt", argument.start, argument.end, "BUILD_TESTING")
-            message = f"{name} is never set, so the tests below never run; closest: BUILD_TESTING"
+            message = (
+                f"{name} is never set, so the tests below never run; did you mean BUILD_TESTING?"
+            )
             yield self.report(argument, message, Fix(f"Replace {name} with BUILD_TESTING", (edit,)))
 
     def _check_nodes(self, package: Package) -> Iterator[Diagnostic]:

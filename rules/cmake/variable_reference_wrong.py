@@ -47,7 +47,7 @@ class VariableReferenceWrong(Rule):
             {"CMakeLists.txt": _LISTS.format("", "project_name"), "a.yaml": ""},
             Report(
                 "CMakeLists.txt:2:34",
-                "project_name is never set, so it is empty; closest: ${PROJECT_NAME}",
+                "project_name is never set, so it is empty; did you mean ${PROJECT_NAME}?",
                 fix="Replace with PROJECT_NAME",
             ),
             fixed={"CMakeLists.txt": _LISTS.format("", "PROJECT_NAME")},
@@ -82,7 +82,7 @@ class VariableReferenceWrong(Rule):
             start = argument.start + at + 2
             edit = Edit("CMakeLists.txt", start, start + len(name), _WANTED)
             fix = Fix(f"Replace with {_WANTED}", (edit,))
-        message = f"{name} is never set, so it is empty; closest: ${{{_WANTED}}}"
+        message = f"{name} is never set, so it is empty; did you mean ${{{_WANTED}}}?"
         return self.report(argument, message, fix)
 
     def _check_closed(self, package: Package) -> Iterator[Diagnostic]:

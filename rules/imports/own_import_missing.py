@@ -114,7 +114,7 @@ class OwnImportMissing(Rule):
             "an unknown module",
             {**_FILES, "talker/node.py": "from talker.texts import make\n"},
             "talker/node.py:1:1: the package has no module 'talker.texts': ModuleNotFoundError; "
-            "closest: 'talker.text'",
+            "did you mean 'talker.text'?",
         ),
         Example(
             "modules moved to a subdirectory, which is reported once",
@@ -126,9 +126,9 @@ class OwnImportMissing(Rule):
                 "talker/other.py": "from talker.old import run\n",
             },
             "talker/junk/node.py:1:1: the package has no module 'talker.junk.text': "
-            "ModuleNotFoundError; closest: 'talker.text'",
+            "ModuleNotFoundError; did you mean 'talker.text'?",
             "talker/other.py:1:1: the package has no module 'talker.old': ModuleNotFoundError; "
-            "closest: 'talker.junk.old'",
+            "did you mean 'talker.junk.old'?",
         ),
         Example(
             "a module whose package name is repeated",
@@ -138,12 +138,12 @@ class OwnImportMissing(Rule):
                 "test/test_node.py": "def test_node():\n    from talker.talker.node import main\n",
             },
             "test/test_node.py:2:5: the package has no module 'talker.talker.node': "
-            "ModuleNotFoundError; closest: 'talker.node'",
+            "ModuleNotFoundError; did you mean 'talker.node'?",
         ),
         Example(
             "an unknown function",
             {**_FILES, "talker/node.py": "from .text import makes\n"},
-            "talker/node.py:1:19: talker/text.py has no 'makes': ImportError; closest: 'make'",
+            "talker/node.py:1:19: talker/text.py has no 'makes': ImportError; did you mean 'make'?",
         ),
         Example(
             "without the package name, and with the directory",
@@ -151,10 +151,10 @@ class OwnImportMissing(Rule):
                 **_FILES,
                 "talker/node.py": "from text import make\nfrom src.talker.text import make\n",
             },
-            "talker/node.py:1:1: no module 'text' is installed: ModuleNotFoundError; closest: "
-            "'talker.text'",
+            "talker/node.py:1:1: no module 'text' is installed: ModuleNotFoundError; did you mean "
+            "'talker.text'?",
             "talker/node.py:2:1: no module 'src.talker.text' is installed: ModuleNotFoundError; "
-            "closest: 'talker.text'",
+            "did you mean 'talker.text'?",
         ),
         Example(
             "a file that is installed next to the program",
@@ -204,14 +204,14 @@ class OwnImportMissing(Rule):
             if not may_be_made(package, name):
                 modules = [item for item in modules_of(package, root) if "__init__" not in item]
                 closest = closest_name(package, name, modules, 0.6)
-                hint = f"; closest: {closest!r}" if closest else ""
+                hint = f"; did you mean {closest!r}?" if closest else ""
                 message = f"the package has no module {name!r}: ModuleNotFoundError{hint}"
                 yield self.report(node, message, cause=_cause(package, where, node, name))
         elif not node.level:
             intended = intended_module(package, where, name)
             if intended:
                 message = f"no module {name!r} is installed: ModuleNotFoundError"
-                yield self.report(node, f"{message}; closest: {intended!r}")
+                yield self.report(node, f"{message}; did you mean {intended!r}?")
 
     def _check_names(
         self, package: Package, node: Import, name: str, path: str
@@ -229,7 +229,7 @@ class OwnImportMissing(Rule):
             closest = closest_name(
                 package, imported.name, [*exports.functions, *exports.classes], 0.6
             )
-            hint = f"; closest: {closest!r}" if closest else ""
+            hint = f"; did you mean {closest!r}?" if closest else ""
             yield self.report(imported, f"{path} has no {imported.name!r}: ImportError{hint}")
 
 

@@ -86,8 +86,8 @@ class ArgumentsDoNotFit(LaunchRule):
         Example(
             "a keyword of another class",
             {"launch/a.launch.py": _ARGUMENT.format("default")},
-            "9:39: DeclareLaunchArgument has no argument 'default': TypeError; closest: "
-            "'default_value'",
+            "9:39: DeclareLaunchArgument has no argument 'default': TypeError; did you mean "
+            "'default_value'?",
         ),
         Example(
             "keywords in a dictionary, one of them misspelled; and in one that is changed",
@@ -100,7 +100,7 @@ class ArgumentsDoNotFit(LaunchRule):
                 "        Node(executable='a', **common), Node(executable='b', **common),\n"
                 "        Node(executable='c', **more),\n    ])\n"
             },
-            "8:37: Node has no argument 'params': TypeError; closest: 'parameters'",
+            "8:37: Node has no argument 'params': TypeError; did you mean 'parameters'?",
         ),
         Example(
             "keywords of Eloquent, for Eloquent",
@@ -175,7 +175,7 @@ def _unknown(call: LaunchCall, keyword: str) -> str:
     if parameters is None or keyword in parameters.names or keyword in _RENAMED:
         return ""
     closest = get_close_matches(keyword, sorted(parameters.names), 1, 0.6)
-    hint = f"; closest: {closest[0]!r}" if closest else ""
+    hint = f"; did you mean {closest[0]!r}?" if closest else ""
     return f"{call.kind} has no argument {keyword!r}: TypeError{hint}"
 
 

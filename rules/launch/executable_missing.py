@@ -70,7 +70,7 @@ class ExecutableMissing(Rule):
         Example(
             "the name of the module",
             {**_FILES, "launch/a.launch.py": _LAUNCH.format("talk.py")},
-            "launch/a.launch.py:7:43: talker has no program 'talk.py'; closest: 'talk'",
+            "launch/a.launch.py:7:43: talker has no program 'talk.py'; did you mean 'talk'?",
         ),
         Example(
             "a name unlike all others",
@@ -92,8 +92,8 @@ class ExecutableMissing(Rule):
                 "launch/a.launch.xml": '<launch>\n  <node pkg="talker" exec="tlk"/>\n</launch>\n',
                 "launch/b.launch.yaml": "launch:\n- node:\n    pkg: talker\n    exec: tlk\n",
             },
-            "launch/a.launch.xml:2:28: talker has no program 'tlk'; closest: 'talk'",
-            "launch/b.launch.yaml:4:11: talker has no program 'tlk'; closest: 'talk'",
+            "launch/a.launch.xml:2:28: talker has no program 'tlk'; did you mean 'talk'?",
+            "launch/b.launch.yaml:4:11: talker has no program 'tlk'; did you mean 'talk'?",
             neighbors={"talker": _FILES},
         ),
         Example(
@@ -161,7 +161,7 @@ class ExecutableMissing(Rule):
                 continue
             closest = get_close_matches(name, programs.sources, 1, 0.7)
             has = f"it has {listed_names(programs.sources, name)}"
-            hint = f"closest: {closest[0]!r}" if closest else has
+            hint = f"did you mean {closest[0]!r}?" if closest else has
             message = f"{use.name} has no program {name!r}; {hint}"
             cause = "" if programs.sources else f"programs of {use.name}"
             yield self.report(use.executable_location, message, cause=cause)

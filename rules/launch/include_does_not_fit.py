@@ -72,13 +72,13 @@ class IncludeDoesNotFit(LaunchRule):
                 ),
             },
             "launch/a.launch.py:10:14: launch/b.launch.py has no argument 'robot_nam': it is "
-            "ignored; closest: 'robot_name'",
+            "ignored; did you mean 'robot_name'?",
         ),
         Example(
             "misspelled",
             _files("b.launch.py", "{'robot_nam': 'a'}"),
             "launch/a.launch.py:13:31: launch/b.launch.py has no argument 'robot_nam': it is "
-            "ignored; closest: 'robot_name'",
+            "ignored; did you mean 'robot_name'?",
         ),
         Example(
             "a file that includes itself",
@@ -109,7 +109,8 @@ class IncludeDoesNotFit(LaunchRule):
             if name not in other.names and closest and not other.is_open:
                 misspelled = True
                 message = (
-                    f"{other.path} has no argument {name!r}: it is ignored; closest: {closest[0]!r}"
+                    f"{other.path} has no argument {name!r}: it is ignored; did you mean "
+                    f"{closest[0]!r}?"
                 )
                 yield self.report(launch.location(node), message)
         missing = sorted(other.required - names)

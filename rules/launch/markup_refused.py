@@ -94,10 +94,10 @@ class MarkupRefused(Rule):
                 .replace("find-pkg-share", "find-package-share")
                 .replace("name='rate'", "name='rate' if='true'"),
             },
-            "3:27: launch knows no $(find-package-share ...); closest: $(find-pkg-share ...)",
+            "3:27: launch knows no $(find-package-share ...); did you mean $(find-pkg-share ...)?",
             "4:34: <node> has no attribute 'executable', which belongs to Python; XML has exec",
             "5:28: <param> has no attribute 'if'",
-            "7:18: <remap> has no attribute 'form'; closest: 'from'",
+            "7:18: <remap> has no attribute 'form'; did you mean 'from'?",
         ),
         Example(
             "a configuration that nothing sets",
@@ -118,7 +118,7 @@ class MarkupRefused(Rule):
             {
                 "launch/a.launch.xml": _RIGHT.replace(" to='b'", "").replace("<let", "<lett"),
             },
-            "3:4: launch knows no <lett>; closest: <let>",
+            "3:4: launch knows no <lett>; did you mean <let>?",
             "7:6: <remap> needs the attribute 'to'",
         ),
         Example(
@@ -193,7 +193,10 @@ def _problems(element: Element) -> Iterator[tuple[Location, str]]:
     if known is None:
         closest = _closest(element.tag, [*ACTIONS, *PARTS])
         if closest:
-            yield element.name_location, f"launch knows no <{element.tag}>; closest: <{closest}>"
+            yield (
+                element.name_location,
+                f"launch knows no <{element.tag}>; did you mean <{closest}>?",
+            )
     else:
         yield from _of_attributes(element, known)
     for attribute in element.attributes.values():
@@ -224,7 +227,7 @@ def _hint(name: str, known: frozenset[str]) -> str:
     if name in OF_PYTHON:
         return f", which belongs to Python; XML has {OF_PYTHON[name]}"
     closest = _closest(name, known)
-    return f"; closest: {closest!r}" if closest else ""
+    return f"; did you mean {closest!r}?" if closest else ""
 
 
 def _of_substitution(kind: str) -> str:
@@ -232,7 +235,7 @@ def _of_substitution(kind: str) -> str:
     if kind in _SUBSTITUTIONS:
         return f"$({kind} ...) is ROS 1 syntax: the launch stops; use {_SUBSTITUTIONS[kind]}"
     closest = _closest(kind, SUBSTITUTIONS) if kind not in SUBSTITUTIONS else ""
-    return f"launch knows no $({kind} ...); closest: $({closest} ...)" if closest else ""
+    return f"launch knows no $({kind} ...); did you mean $({closest} ...)?" if closest else ""
 
 
 def _closest(word: str, names: Collection[str]) -> str:

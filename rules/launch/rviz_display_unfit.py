@@ -111,8 +111,8 @@ class RvizDisplayUnfit(Rule):
                     "rviz_default_plugins", "rviz"
                 ),
             },
-            "a.rviz:3:14: RViz has no rviz_default_plugins/Laserscan; closest: "
-            "rviz_default_plugins/LaserScan",
+            "a.rviz:3:14: RViz has no rviz_default_plugins/Laserscan; did you mean "
+            "rviz_default_plugins/LaserScan?",
             "a.rviz:9:18: nothing has a frame 'odomm'; did you mean 'odom'?",
             "b.rviz:6:29: laser.py:9 publishes BEST_EFFORT: RViz gets nothing; write Best Effort",
             "c.rviz:7:16: no node has a topic '/frontscan'; did you mean '/front_scan'?",
@@ -155,7 +155,7 @@ def _of_display(package: Package, values: _Values) -> Iterator[tuple[Location, s
     elif f"{area}/" == _PREFIX and name not in known:
         closest = get_close_matches(name, sorted(known), 1, 0.75)
         if closest:
-            yield class_.location, f"RViz has no {class_.text}; closest: {_PREFIX}{closest[0]}"
+            yield class_.location, f"RViz has no {class_.text}; did you mean {_PREFIX}{closest[0]}?"
     elif isinstance(topic, YamlMapping):
         type_ = _TYPES.get(name, "") if f"{area}/" == _PREFIX else ""
         yield from _of_topic(package, type_, {key.text: item for key, item in topic.pairs})

@@ -159,7 +159,7 @@ class SharePathMissing(Rule):
                 ),
             },
             "launch/a.launch.py:10:12: share/talker/config/lights.yaml does not exist: talker has "
-            "no such file; closest: config/talker.yaml",
+            "no such file; did you mean config/talker.yaml?",
         ),
         Example(
             "a file that the node writes",
@@ -220,7 +220,7 @@ class SharePathMissing(Rule):
             "a node",
             {**_FILES, "talker/talk.py": _NODE.format("talk.yaml")},
             "talker/talk.py:6:11: share/talker/config/talk.yaml does not exist: talker has no "
-            "such file; closest: config/talker.yaml",
+            "such file; did you mean config/talker.yaml?",
         ),
         Example(
             "another name; another directory; not installed",
@@ -231,7 +231,7 @@ class SharePathMissing(Rule):
                 "launch/c.launch.py": _LAUNCH.format("'config', 'other.json'"),
             },
             "launch/a.launch.py:12:26: share/talker/config/talk.yaml does not exist: talker has "
-            "no such file; closest: config/talker.yaml",
+            "no such file; did you mean config/talker.yaml?",
             "launch/b.launch.py:12:26: share/talker/talker.yaml does not exist: it is installed "
             "as share/talker/config/talker.yaml",
             "launch/c.launch.py:12:26: share/talker/config/other.json does not exist: setup.py of "

@@ -60,11 +60,11 @@ class StaticTransformMisused(Rule):
                 "launch/c.launch.xml": _XML.format("--tx 1 --frame-id a --child-frame-id b"),
             },
             "launch/a.launch.py:8:25: unknown option '--frame_id': static_transform_publisher "
-            "exits at once; closest: '--frame-id'",
+            "exits at once; did you mean '--frame-id'?",
             "launch/b.launch.py:7:9: missing '--child-frame-id': static_transform_publisher exits "
             "at once",
             "launch/c.launch.xml:2:63: unknown option '--tx': static_transform_publisher exits at "
-            "once; closest: '--x'",
+            "once; did you mean '--x'?",
         ),
         Example(
             "options that Lyrical ignores",
@@ -77,7 +77,7 @@ class StaticTransformMisused(Rule):
                 ),
             },
             "launch/a.launch.py:8:25: unknown option '--tx': static_transform_publisher ignores "
-            "it; closest: '--x'",
+            "it; did you mean '--x'?",
             "launch/b.launch.py:8:25: '0.1' has no option before it: static_transform_publisher "
             "ignores it",
             distro="lyrical",
@@ -180,7 +180,7 @@ class StaticTransformMisused(Rule):
         unknown = [index for index in options if texts[index] not in (*_VALUES, *_FRAMES, "--help")]
         for index in unknown:
             closest = closest_name(package, texts[index], (*_VALUES, *_FRAMES), 0.6)
-            hint = f"; closest: {closest!r}" if closest else ""
+            hint = f"; did you mean {closest!r}?" if closest else ""
             message = f"unknown option {texts[index]!r}: {PROGRAM} {then}{hint}"
             yield self.report(words[index].location, message)
         for index in loose if not unknown else ():

@@ -73,7 +73,7 @@ class XacroArgumentUnknown(LaunchRule):
                 "launch/a.launch.py": _LAUNCH.format("use_simulation"),
             },
             "launch/a.launch.py:9:45: urdf/robot.xacro has no <xacro:arg> 'use_simulation': it is "
-            "ignored; closest: 'use_sim'",
+            "ignored; did you mean 'use_sim'?",
         ),
     )
 
@@ -91,7 +91,7 @@ class XacroArgumentUnknown(LaunchRule):
                 for name in _GIVEN.findall(part.value):
                     if name not in robot.arguments:
                         closest = closest_name(package, name, robot.arguments, 0.5)
-                        hint = f"; closest: {closest!r}" if closest else ""
+                        hint = f"; did you mean {closest!r}?" if closest else ""
                         message = f"{robot.file.path} has no <xacro:arg> {name!r}: it is ignored"
                         yield self.report(launch.location(part), message + hint)
 

@@ -76,8 +76,8 @@ class BuildTypeWrong(Rule):
             },
             Report(
                 "package.xml:2:15",
-                "unknown build type 'ament_pyton': colcon skips the package; closest: "
-                "'ament_python'",
+                "unknown build type 'ament_pyton': colcon skips the package; did you "
+                "mean 'ament_python'?",
                 fix="Replace with ament_python",
             ),
             fixed={
@@ -221,8 +221,8 @@ class BuildTypeWrong(Rule):
             if element.text in KNOWN or not closest:
                 continue
             message = (
-                f"unknown build type {element.text!r}: colcon skips the package; closest: "
-                f"{closest[0]!r}"
+                f"unknown build type {element.text!r}: colcon skips the package; did you "
+                f"mean {closest[0]!r}?"
             )
             edit = Edit("package.xml", *element.text_span, closest[0])
             yield self.report(

@@ -53,7 +53,7 @@ class ConditionMalformed(Rule):
             Report(
                 "2:22",
                 "condition '$ROS_DISTRO == lyrcal': unknown name 'lyrcal': never true; "
-                "closest: 'lyrical'",
+                "did you mean 'lyrical'?",
                 severity=Severity.WARNING,
             ),
         ),
@@ -132,7 +132,7 @@ class ConditionMalformed(Rule):
             for constant in constants(condition)
         ]
         reported += [
-            (f"unknown name {name!r}: never true; closest: {suggestion!r}", None)
+            (f"unknown name {name!r}: never true; did you mean {suggestion!r}?", None)
             for name, suggestion in misspelled(condition)
         ]
         if not reported and is_never_true(condition):

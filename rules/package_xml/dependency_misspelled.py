@@ -48,7 +48,7 @@ class DependencyMisspelled(Rule):
             {"package.xml": "<package>\n  <depend>std_msg</depend>\n</package>\n"},
             Report(
                 "2:11",
-                "unknown package 'std_msg': rosdep stops; closest: 'std_msgs'",
+                "unknown package 'std_msg': rosdep stops; did you mean 'std_msgs'?",
                 fix="Replace with std_msgs",
             ),
             fixed={"package.xml": "<package>\n  <depend>std_msgs</depend>\n</package>\n"},
@@ -63,7 +63,7 @@ class DependencyMisspelled(Rule):
             },
             Report(
                 "package.xml:3:11",
-                "unknown package 'our_arm_msgss': rosdep stops; closest: 'our_arm_msgs'",
+                "unknown package 'our_arm_msgss': rosdep stops; did you mean 'our_arm_msgs'?",
                 fix="Replace with our_arm_msgs",
             ),
             neighbors={
@@ -84,7 +84,7 @@ class DependencyMisspelled(Rule):
             },
             Report(
                 "package.xml:2:11",
-                "unknown package 'std_msg': rosdep stops; closest: 'std_msgs'",
+                "unknown package 'std_msg': rosdep stops; did you mean 'std_msgs'?",
                 fix="Replace with std_msgs",
             ),
             fixed={"package.xml": "<package>\n  <depend>std_msgs</depend>\n</package>\n"},
@@ -106,7 +106,8 @@ class DependencyMisspelled(Rule):
             },
             Report(
                 "3:41",
-                "unknown package 'builtin_interface': rosdep stops; closest: 'builtin_interfaces'",
+                "unknown package 'builtin_interface': rosdep stops; did you mean "
+                "'builtin_interfaces'?",
                 fix="Replace with builtin_interfaces",
             ),
             fixed={
@@ -121,7 +122,8 @@ class DependencyMisspelled(Rule):
             {"package.xml": "<package>\n  <depend>python3-opencvv</depend>\n</package>\n"},
             Report(
                 "2:11",
-                "unknown rosdep key 'python3-opencvv': rosdep stops; closest: 'python3-opencv'",
+                "unknown rosdep key 'python3-opencvv': rosdep stops; did you mean "
+                "'python3-opencv'?",
                 severity=Severity.WARNING,
             ),
         ),
@@ -158,11 +160,11 @@ class DependencyMisspelled(Rule):
                 yield self.report(dependency, message, severity=Severity.WARNING)
             key = similar_key(name)
             if key is not None and not _is_known(package, name):
-                message = f"unknown rosdep key {name!r}: rosdep stops; closest: {key!r}"
+                message = f"unknown rosdep key {name!r}: rosdep stops; did you mean {key!r}?"
                 yield self.report(dependency, message, severity=Severity.WARNING)
             closest = similar_package(name) or _similar_neighbor(package, name)
             if closest is not None and not _has_others(package, name, closest):
-                message = f"unknown package {name!r}: rosdep stops; closest: {closest!r}"
+                message = f"unknown package {name!r}: rosdep stops; did you mean {closest!r}?"
                 edit = Edit("package.xml", *dependency.element.text_span, closest)
                 yield self.report(dependency, message, Fix(f"Replace with {closest}", (edit,)))
 

@@ -88,7 +88,7 @@ class DependencyWithoutKey(Rule):
             "3:16: 'rclpy std_msgs' contains several names: rosdep stops; write an element for "
             "each",
             "4:16: rosdep keys contain dashes, not underscores; use 'python3-numpy'",
-            "5:16: 'python-numpy' is a Python 2 package; closest: 'python3-numpy'",
+            "5:16: 'python-numpy' is a Python 2 package; use 'python3-numpy'",
         ),
         Example(
             "the rosdep key",
@@ -178,7 +178,7 @@ def _problem(name: str) -> str:
     elif name.startswith("python3_"):
         problem = f"rosdep keys contain dashes, not underscores; use {name.replace('_', '-')!r}"
     elif name.startswith("python-") and name[7:] in _OF_PYTHON_2:
-        problem = f"{name!r} is a Python 2 package; closest: {'python3-' + name[7:]!r}"
+        problem = f"{name!r} is a Python 2 package; use {'python3-' + name[7:]!r}"
     elif name in _NO_KEYS:
         problem = f"{name!r} is a build type, not a package: rosdep cannot resolve it; remove it"
     return problem

@@ -40,7 +40,7 @@ class LicenseNotSpdx(Rule):
             {"package.xml": "<package>\n  <license>BBSD-3-Clause</license>\n</package>\n"},
             Report(
                 "2:12",
-                "unknown license 'BBSD-3-Clause'; closest: 'BSD-3-Clause'",
+                "unknown license 'BBSD-3-Clause'; did you mean 'BSD-3-Clause'?",
                 fix="Replace with BSD-3-Clause",
                 severity=Severity.WARNING,
             ),
@@ -63,7 +63,7 @@ class LicenseNotSpdx(Rule):
             identifiers = spdx_of(element.text)
             closest = similar_license(element.text)
             if closest:
-                message = f"unknown license {element.text!r}; closest: {closest!r}"
+                message = f"unknown license {element.text!r}; did you mean {closest!r}?"
                 edit = Edit("package.xml", *element.text_span, closest)
                 fix = Fix(f"Replace with {closest}", (edit,))
                 at = element.text_location

@@ -148,7 +148,7 @@ class ControllerUnfit(Rule):
             "an unknown joint",
             _files(joint="right_wheel_joint"),
             "config/controllers.yaml:10:25: the robot has no joint 'right_wheel_joint': the "
-            "controller fails; closest: 'right_joint'",
+            "controller fails; did you mean 'right_joint'?",
         ),
         Example(
             "an interface that another controller exports to a chained one",
@@ -276,7 +276,7 @@ class ControllerUnfit(Rule):
                     continue  # a reference interface of a controller, for a chained one
                 if item.text not in joints and "$(" not in item.text:
                     closest = closest_name(package, item.text, joints, 0.6)
-                    hint = f"; closest: {closest!r}" if closest else ""
+                    hint = f"; did you mean {closest!r}?" if closest else ""
                     message = f"the robot has no joint {item.text!r}: the controller fails{hint}"
                     yield self.report(item.location, message)
 

@@ -121,8 +121,8 @@ class EntryPointUnusable(Rule):
                 "talker/node.py": "def main():\n    pass\n",
             },
             "setup.py:5:9: `ros2 run` of 'talker' fails: talker/node.py has no 'run'",
-            "setup.py:6:9: `ros2 run` of 'other' fails: there is no talker/nodes.py; closest: "
-            "talker/node.py",
+            "setup.py:6:9: `ros2 run` of 'other' fails: there is no talker/nodes.py; did you mean "
+            "talker/node.py?",
         ),
         Example(
             "a coroutine",
@@ -142,8 +142,8 @@ class EntryPointUnusable(Rule):
                 "talker/walk.py": "",
                 "scripts/talk.py": "",
             },
-            "setup.py:5:9: `ros2 run` of 'talk' fails: there is no talker/talk.py; closest: "
-            "scripts/talk.py",
+            "setup.py:5:9: `ros2 run` of 'talk' fails: there is no talker/talk.py; did you mean "
+            "scripts/talk.py?",
         ),
         Example(
             "packages that do not exist",
@@ -154,8 +154,8 @@ class EntryPointUnusable(Rule):
                 ),
                 "talker/__init__.py": "",
             },
-            "setup.py:5:9: `ros2 run` of 'a' fails: the package has no module 'talkr'; closest: "
-            "talker",
+            "setup.py:5:9: `ros2 run` of 'a' fails: the package has no module 'talkr'; did you "
+            "mean talker?",
             "setup.py:6:9: `ros2 run` of 'b' fails: directory listener/ does not exist",
         ),
         Example(
@@ -165,7 +165,7 @@ class EntryPointUnusable(Rule):
                 "talker/__init__.py": "",
                 "talker/node.py": "def main():\n    pass\n",
             },
-            "setup.py:5:9: no module 'talkr.node' is installed; closest: 'talker.node'",
+            "setup.py:5:9: no module 'talkr.node' is installed; did you mean 'talker.node'?",
         ),
         Example(
             "an existing function",
@@ -174,12 +174,12 @@ class EntryPointUnusable(Rule):
         Example(
             "without the package",
             {"setup.py": _SETUP_USE.format("node"), **_FILES},
-            "setup.py:6:39: no module 'node' is installed; closest: 'talker.node'",
+            "setup.py:6:39: no module 'node' is installed; did you mean 'talker.node'?",
         ),
         Example(
             "another package",
             {"setup.py": _SETUP_USE.format("my_package.node"), **_FILES},
-            "setup.py:6:39: no module 'my_package.node' is installed; closest: 'talker.node'",
+            "setup.py:6:39: no module 'my_package.node' is installed; did you mean 'talker.node'?",
         ),
         Example(
             "an argument",
@@ -227,7 +227,7 @@ class EntryPointUnusable(Rule):
             },
             Report(
                 "setup.py:6:39",
-                "no module 'my_package.node' is installed; closest: 'talker.node'",
+                "no module 'my_package.node' is installed; did you mean 'talker.node'?",
                 severity=Severity.WARNING,
             ),
         ),
@@ -291,7 +291,7 @@ class EntryPointUnusable(Rule):
             modules = [path for path in package.python_files if not path.endswith("__.py")]
             same = [path for path in modules if path.endswith(f"/{base.rpartition('/')[2]}.py")]
             closest = same or get_close_matches(f"{base}.py", modules, n=1)
-            hint = f"; closest: {closest[0]}" if closest else ""
+            hint = f"; did you mean {closest[0]}?" if closest else ""
             return f"{_MISSING} {base}.py{hint}"
         try:
             exports = exports_of(package, path)
@@ -317,7 +317,7 @@ class EntryPointUnusable(Rule):
         if where is not None or package.has(f"{root}.py") or root not in {package.name, *own}:
             closest = get_close_matches(root, own, n=1)
             if where is None and closest and not package.has(f"{root}.py"):
-                return f"the package has no module {root!r}; closest: {closest[0]}"
+                return f"the package has no module {root!r}; did you mean {closest[0]}?"
             return None
         return None if is_elsewhere(package, module) else f"directory {root}/ does not exist"
 
@@ -334,7 +334,7 @@ class EntryPointUnusable(Rule):
                 continue
             closest = _closest_module(package, entry.module)
             if closest:
-                message = f"no module {entry.module!r} is installed; closest: {closest!r}"
+                message = f"no module {entry.module!r} is installed; did you mean {closest!r}?"
                 is_shortened = closest.endswith(f".{entry.module}")
                 cause = "console scripts without their package" if is_shortened else ""
                 yield self.report(entry, message, cause=cause)

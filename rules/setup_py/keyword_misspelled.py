@@ -48,13 +48,13 @@ class KeywordMisspelled(Rule):
         Example(
             "a misspelled keyword",
             {"setup.py": _SETUP.format("entry_point", _GROUP)},
-            "6:5: setup() ignores the unknown keyword 'entry_point'; closest: 'entry_points'",
+            "6:5: setup() ignores the unknown keyword 'entry_point'; did you mean 'entry_points'?",
         ),
         Example(
             "a misspelled group",
             {"setup.py": _SETUP.format("entry_points", "console_script")},
-            "7:9: setuptools ignores the unknown group 'console_script'; closest: "
-            "'console_scripts'",
+            "7:9: setuptools ignores the unknown group 'console_script'; did you mean "
+            "'console_scripts'?",
         ),
     )
 
@@ -66,7 +66,8 @@ class KeywordMisspelled(Rule):
             closest = get_close_matches(word.arg, _KNOWN, 1, 0.8)
             if closest:
                 message = (
-                    f"setup() ignores the unknown keyword {word.arg!r}; closest: {closest[0]!r}"
+                    f"setup() ignores the unknown keyword {word.arg!r}; did you mean "
+                    f"{closest[0]!r}?"
                 )
                 yield self.report(setup.module.location(word), message)
         keyword = setup.keyword("entry_points")
@@ -75,6 +76,7 @@ class KeywordMisspelled(Rule):
             for key in node.keys:
                 if isinstance(key, ast.Constant) and key.value in _WRONG_GROUPS:
                     message = (
-                        f"setuptools ignores the unknown group {key.value!r}; closest: {_GROUP!r}"
+                        f"setuptools ignores the unknown group {key.value!r}; did you mean "
+                        f"{_GROUP!r}?"
                     )
                     yield self.report(setup.module.location(key), message)

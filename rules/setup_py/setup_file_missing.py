@@ -87,8 +87,8 @@ class SetupFileMissing(Rule):
                 "launch/talk.launch.py": "",
             },
             "setup.py:8:42: data_files names LICENCE, which is missing",
-            "setup.py:9:33: the pattern launch/*_launch.py matches no file; closest: "
-            "launch/talk.launch.py",
+            "setup.py:9:33: the pattern launch/*_launch.py matches no file; did you mean "
+            "launch/talk.launch.py?",
         ),
         Example(
             "a file that is read",
@@ -156,7 +156,7 @@ class SetupFileMissing(Rule):
         globs = [source for source in sources if isinstance(source, Glob)]
         if {path for glob in globs for path in matches(glob, package.files)}.issuperset(beside):
             return None  # installed by other lines
-        return f"the pattern {pattern.pattern} matches no file; closest: {beside[0]}"
+        return f"the pattern {pattern.pattern} matches no file; did you mean {beside[0]}?"
 
     def _check_read(self, package: Package) -> Iterator[Diagnostic]:
         setup = package.setup_py

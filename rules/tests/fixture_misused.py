@@ -88,7 +88,7 @@ class FixtureMisused(Rule):
         Example(
             "another name",
             {"test/test_text.py": _TEST.format("return 'a'", "txt", "txt")},
-            "9:5: unknown fixture 'txt': the test fails; closest: 'text'",
+            "9:5: unknown fixture 'txt': the test fails; did you mean 'text'?",
         ),
         Example(
             "used without being requested",
@@ -215,7 +215,7 @@ def _missing(
         return f"{name}() is not a fixture: the test fails; add @pytest.fixture"
     closest = get_close_matches(name, available, 1, 0.75)
     if closest:
-        return f"unknown fixture {name!r}: the test fails; closest: {closest[0]!r}"
+        return f"unknown fixture {name!r}: the test fails; did you mean {closest[0]!r}?"
     unused = _unused(module) if name not in _OF_PLUGINS else []
     return f"there is no fixture {name!r}; no test uses {unused[0]!r}" if unused else ""
 

@@ -48,7 +48,7 @@ class MarkMisused(TestRule):
         Example(
             "misspelled",
             {"test/test_text.py": _TEST.format("parameterize", "[('a', 1)]")},
-            "4:2: unknown mark 'parameterize': pytest stops; closest: 'parametrize'",
+            "4:2: unknown mark 'parameterize': pytest stops; did you mean 'parametrize'?",
         ),
         Example(
             "no reason",
@@ -101,7 +101,7 @@ class MarkMisused(TestRule):
 
 def _mark_problem(module: PythonModule, name: str, decorator: ast.expr) -> str:
     if name in _MEANT:
-        return f"unknown mark {name!r}: pytest stops; closest: {_MEANT[name]!r}"
+        return f"unknown mark {name!r}: pytest stops; did you mean {_MEANT[name]!r}?"
     if not isinstance(decorator, ast.Call):
         return "" if name != "parametrize" else "parametrize requires names and values"
     if name == "parametrize":

@@ -197,8 +197,8 @@ class ElementRefused(Rule):
                 "a.urdf": _ROBOT_VALUES.format('sphere radius="0.1"', "continous", "0 0 0"),
                 "b.urdf": _ROBOT_VALUES.format('sphere radius="0.1"', "ball", "0 0 0"),
             },
-            "a.urdf:8:28: unknown joint type 'continous': urdfdom rejects the whole file; "
-            "closest: 'continuous'",
+            "a.urdf:8:28: unknown joint type 'continous': urdfdom rejects the whole file; did you "
+            "mean 'continuous'?",
             "b.urdf:8:28: unknown joint type 'ball': urdfdom rejects the whole file; known: "
             "revolute, continuous, prismatic, fixed, floating, planar",
         ),
@@ -277,7 +277,7 @@ class ElementRefused(Rule):
             type_ = part.get("type") if (holder, part.tag) == ("robot", "joint") else None
             if type_ is not None and is_known(type_) and type_ not in _TYPES:
                 closest = closest_name(package, type_.lower(), _TYPES, 0.7)
-                hint = f"closest: {closest!r}" if closest else f"known: {', '.join(_TYPES)}"
+                hint = f"did you mean {closest!r}?" if closest else f"known: {', '.join(_TYPES)}"
                 message = f"unknown joint type {type_!r}: urdfdom rejects the whole file; {hint}"
                 yield self.report(part.at("type"), message)
             if holder == "geometry" and part.tag not in _SHAPES and ":" not in part.tag:

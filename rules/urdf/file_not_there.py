@@ -119,7 +119,7 @@ class FileNotThere(Rule):
                 ),
             },
             "urdf/robot.xacro:2:28: share/talker/urdf/wheels.xacro does not exist: talker has no "
-            "such file; closest: urdf/wheel.xacro",
+            "such file; did you mean urdf/wheel.xacro?",
             "urdf/robot.xacro:5:33: share/talker/meshes/base.stl does not exist: it is installed "
             "as share/talker/urdf/base.stl",
         ),
@@ -127,7 +127,7 @@ class FileNotThere(Rule):
             "relative path to a missing file",
             {**_FILES, "urdf/robot.xacro": _ROBOT.format("wheels.xacro", "file:///base.stl")},
             "urdf/robot.xacro:2:28: urdf/wheels.xacro does not exist: xacro stops with 'No such "
-            "file'; closest: 'wheel.xacro'",
+            "file'; did you mean 'wheel.xacro'?",
         ),
         Example(
             "missing mesh in a directory with other meshes",
@@ -138,7 +138,7 @@ class FileNotThere(Rule):
             Report(
                 "urdf/robot.xacro:5:33",
                 "share/talker/urdf/top.stl does not exist: talker has no such file; "
-                "closest: urdf/base.stl",
+                "did you mean urdf/base.stl?",
                 severity=Severity.WARNING,
             ),
         ),
@@ -153,14 +153,14 @@ class FileNotThere(Rule):
             },
             Report(
                 "batch/a/robot.xacro:2:28",
-                "batch/a/parts/wheels.xacro does not exist: xacro stops with 'No "
-                "such file'; closest: 'wheel.xacro'",
+                "batch/a/parts/wheels.xacro does not exist: xacro stops with 'No such "
+                "file'; did you mean 'wheel.xacro'?",
                 severity=Severity.WARNING,
             ),
             Report(
                 "batch/b/robot.xacro:2:28",
-                "batch/b/parts/wheels.xacro does not exist: xacro stops with 'No "
-                "such file'; closest: 'wheel.xacro'",
+                "batch/b/parts/wheels.xacro does not exist: xacro stops with 'No such "
+                "file'; did you mean 'wheel.xacro'?",
                 severity=Severity.WARNING,
             ),
         ),
@@ -186,8 +186,8 @@ class FileNotThere(Rule):
             },
             Report(
                 "urdf/robot.xacro:3:28",
-                "share/talker/urdf/lift.xacro does not exist: talker has no such file; closest: "
-                "urdf/wheel.xacro",
+                "share/talker/urdf/lift.xacro does not exist: talker has no such file; "
+                "did you mean urdf/wheel.xacro?",
                 severity=Severity.WARNING,
             ),
         ),
@@ -254,7 +254,7 @@ class FileNotThere(Rule):
                 name = named.path.rpartition("/")[2]
                 names = [item.rpartition("/")[2] for item in robot_paths(package)]
                 closest = closest_name(package, name, names, 0.7)
-                hint = f"; closest: {closest!r}" if closest else ""
+                hint = f"; did you mean {closest!r}?" if closest else ""
                 message = f"{named.path} does not exist: xacro stops with 'No such file'{hint}"
                 severity = _severity(package, named)
                 yield self.report(named, message, severity=severity, cause=f"missing {name}")

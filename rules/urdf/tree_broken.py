@@ -57,7 +57,7 @@ _INCLUDING = (
     '  <xacro:include filename="simulation.xacro"/>\n  <link name="{}"/>\n</robot>\n'
 )
 _SIMULATION = '<robot>\n  <gazebo reference="camera"><sensor name="a"/></gazebo>\n</robot>\n'
-_CLOSEST = "; closest: "
+_HINT = "; did you mean "
 _SIMULATED = frozenset({"sensor", "plugin"})
 """Elements in gazebo elements that need the link, not only its color or friction."""
 _MIMIC = (
@@ -97,7 +97,7 @@ class TreeBroken(Rule):
             "joint with a child link that does not exist",
             {"robot.urdf": _ROBOT.format("wheel", "wheel2")},
             "11:18: child 'wheel2' of joint 'mount' is not a link of this robot: "
-            "robot_state_publisher exits; closest: 'wheel'",
+            "robot_state_publisher exits; did you mean 'wheel'?",
         ),
         Example(
             "loop of joints",
@@ -146,7 +146,7 @@ class TreeBroken(Rule):
             "misspelled parent link",
             {"robot.urdf": _ROBOT_LINKS.format("base", "wheel")},
             "5:19: parent 'base' of joint 'axis' is not a link of this robot: "
-            "robot_state_publisher exits; closest: 'base_link'",
+            "robot_state_publisher exits; did you mean 'base_link'?",
         ),
         Example(
             "unknown child link without a similar name",
@@ -182,7 +182,7 @@ class TreeBroken(Rule):
                 "pro.xacro": _INCLUDING.format("camera_2"),
             },
             "simulation.xacro:2:22: gazebo reference 'camera' is not a link or joint of this "
-            "robot: Gazebo ignores it; closest: 'camera_1'",
+            "robot: Gazebo ignores it; did you mean 'camera_1'?",
         ),
         Example(
             "<gazebo> elements with known and unknown references",
@@ -196,7 +196,7 @@ class TreeBroken(Rule):
             Report(
                 "10:22",
                 "gazebo reference 'wheels' is not a link or joint of this robot: "
-                "Gazebo ignores it; closest: 'wheel'",
+                "Gazebo ignores it; did you mean 'wheel'?",
                 severity=Severity.WARNING,
             ),
         ),
@@ -217,7 +217,7 @@ class TreeBroken(Rule):
             if robot.file.is_robot and robot.is_complete and _has_root(robot):
                 for diagnostic in self._check_links(package, robot):
                     # several robots include the same file, with different similar names
-                    key = (diagnostic.location, diagnostic.message.partition(_CLOSEST)[0])
+                    key = (diagnostic.location, diagnostic.message.partition(_HINT)[0])
                     if key not in reported:
                         reported.add(key)
                         yield diagnostic
@@ -365,7 +365,7 @@ def _is_here(package: Package, part: Part) -> bool:
 
 def _hint(package: Package, name: str, names: Sequence[str]) -> str:
     closest = closest_name(package, name, [item for item in names if is_known(item)], 0.6)
-    return f"{_CLOSEST}{closest!r}" if closest else ""
+    return f"{_HINT}{closest!r}?" if closest else ""
 
 
 def _is_among(name: str, names: Sequence[str]) -> bool:

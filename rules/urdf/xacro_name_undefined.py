@@ -127,14 +127,15 @@ class XacroNameUndefined(Rule):
                 "b.xacro": _robot(1, "${radius *}"),
                 "c.xacro": _robot(1, "${height}"),
             },
-            "a.xacro:8:35: property 'radus' is not defined here: xacro stops; closest: 'radius'",
+            "a.xacro:8:35: property 'radus' is not defined here: xacro stops; did you mean "
+            "'radius'?",
             "b.xacro:8:35: ${radius *} is not a valid Python expression: xacro stops",
             "c.xacro:8:35: property 'height' is not defined here: xacro stops",
         ),
         Example(
             "misspelled macro name",
             {"robot.xacro": _ROBOT.format(*_GOOD[:2], "xacro:w", "left", "xacro:w")},
-            "12:4: macro 'wwheel' is not defined here: xacro stops; closest: 'wheel'",
+            "12:4: macro 'wwheel' is not defined here: xacro stops; did you mean 'wheel'?",
         ),
         Example(
             "template of a code generator",
@@ -147,7 +148,7 @@ class XacroNameUndefined(Rule):
         Example(
             "misspelled macro name in a condition",
             {"robot.xacro": _CONDITION.format("laserr")},
-            Report("5:6", "macro 'laserr' is not defined here: xacro stops; closest: 'laser'"),
+            "5:6: macro 'laserr' is not defined here: xacro stops; did you mean 'laser'?",
         ),
         Example(
             "undefined block, undefined argument, substitution that only launch has",
@@ -158,7 +159,7 @@ class XacroNameUndefined(Rule):
             },
             "a.xacro:7:35: block 'pose' is not a parameter of this macro: xacro stops; add '*pose'",
             "b.xacro:12:22: argument 'prefx' has no <xacro:arg>: xacro stops unless it is given; "
-            "closest: 'prefix'",
+            "did you mean 'prefix'?",
             "c.xacro:12:22: xacro has no $(var ...): it stops; known: find, env, optenv, dirname, "
             "arg",
         ),
@@ -278,7 +279,7 @@ def _uses_xacro(package: Package) -> bool:
 def _message(package: Package, undefined: Undefined, *, is_used_here: bool) -> str:
     kind, name, _, names = undefined
     closest = closest_name(package, name, names, _FIRST)
-    hint = f"; closest: {closest!r}" if closest else ""
+    hint = f"; did you mean {closest!r}?" if closest else ""
     messages = {
         "property": f"property {name!r} is not defined here: xacro stops{hint}",
         "macro": f"macro {name!r} is not defined here: xacro stops{hint}",
@@ -301,7 +302,7 @@ def _message_calls(package: Package, misfit: Misfit) -> str:
         return f"macro {macro!r} needs {name!r}: xacro stops with 'Undefined parameters'"
     if kind == "unknown":
         closest = closest_name(package, name, names, 0.6)
-        hint = f"closest: {closest!r}" if closest else f"it has {listed_names(names, name)}"
+        hint = f"did you mean {closest!r}?" if closest else f"it has {listed_names(names, name)}"
         return f"macro {macro!r} has no parameter {name!r}: xacro stops; {hint}"
     if kind == "block missing":
         return f"macro {macro!r} needs an element for its block {name!r}: xacro stops"

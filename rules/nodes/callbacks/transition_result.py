@@ -111,7 +111,7 @@ class TransitionResult(RclpyRule):
         Example(
             "another name",
             {"talker.py": _NODE.format("on_activated(self, state)", _RIGHT)},
-            "10:9: rclpy never calls 'on_activated'; closest: 'on_activate'",
+            "10:9: rclpy never calls 'on_activated'; did you mean 'on_activate'?",
         ),
         Example(
             "a plain node",
@@ -186,7 +186,7 @@ class TransitionResult(RclpyRule):
     ) -> Iterator[Diagnostic]:
         left = [name for name in _TRANSITIONS if name not in methods]
         for closest in get_close_matches(function.name, left, 1, 0.85):
-            message = f"rclpy never calls {function.name!r}; closest: {closest!r}"
+            message = f"rclpy never calls {function.name!r}; did you mean {closest!r}?"
             yield self.report(file.module.name_location(function), message)
 
     def _check_publishers(self, file: RclpyFile, class_: NodeClass) -> Iterator[Diagnostic]:

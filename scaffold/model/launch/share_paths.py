@@ -278,7 +278,7 @@ def _reason(owner: Package, path: str, files: dict[str, str]) -> str | None:
     if is_untracked(owner, path) or path.endswith(_DATABASES):
         return None  # created on each machine, a database when opened
     closest = get_close_matches(path, files, 1, 0.6)
-    hint = f"; closest: {closest[0]}" if closest else ""
+    hint = f"; did you mean {closest[0]}?" if closest else ""
     return f"{owner.name} has no such file{hint}"
 
 
@@ -299,7 +299,7 @@ def _installed_alternative(owner: Package, path: str, installed: list[str]) -> s
     if len(installed) == 1:
         return f"it is installed as share/{owner.name}/{installed[0]}"
     closest = get_close_matches(path, installed, 1, 0)
-    return f"{owner.name} has no such file; closest: {closest[0]}"
+    return f"{owner.name} has no such file; did you mean {closest[0]}?"
 
 
 def _nothing_of(path: str, installed: dict[str, str]) -> bool:

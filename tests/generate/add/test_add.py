@@ -775,7 +775,7 @@ def test_existing_finding_may_mention_new_names(
     assert add(demo, "publisher", "talker") == 0
     assert "SP001" not in capsys.readouterr().err
     main(["check", str(demo)])
-    assert "there is no demo/hallo.py; closest: demo/talker.py" in capsys.readouterr().out
+    assert "there is no demo/hallo.py; did you mean demo/talker.py?" in capsys.readouterr().out
 
 
 def test_duplicate_node_name_is_noted(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
