@@ -68,15 +68,9 @@ def package_context(
     """
     context: dict[str, Any] = {
         **answers,
-        "version": VERSION,
-        "date": day.isoformat(),
-        "year": day.year,
-        "tutorial": answers["comments"] == "tutorial",
-        "has_license": True,
+        **_settings(answers, day),
         "subdirectory": subdirectory,
         "target": target.context(targets or [distributions.target()]),
-        "license_text": f"{licenses.DIRECTORY}/{answers['license']}/{licenses.TEXT}",
-        "contributing_text": f"{licenses.DIRECTORY}/{answers['license']}/{licenses.CONTRIBUTING}",
     }
     context["header"] = renderer.license_header(answers["license"], context)
     for role in PARTS:
@@ -92,6 +86,20 @@ def package_context(
     context["groups"] = _texts("groups", scopes, renderer)
     context["share_directories"] = _texts("installs", scopes, renderer)
     return context
+
+
+def _settings(answers: Mapping[str, Any], day: date) -> dict[str, Any]:
+    """Return what follows from the day, the license and the style of the comments."""
+    license_files = f"{licenses.DIRECTORY}/{answers['license']}"
+    return {
+        "version": VERSION,
+        "date": day.isoformat(),
+        "year": day.year,
+        "tutorial": answers["comments"] == "tutorial",
+        "has_license": True,
+        "license_text": f"{license_files}/{licenses.TEXT}",
+        "contributing_text": f"{license_files}/{licenses.CONTRIBUTING}",
+    }
 
 
 def part_scopes(

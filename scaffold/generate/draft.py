@@ -207,19 +207,19 @@ def compose(
     settings = _Settings(given, values, renderer, user.directory)
     made, written = _parts(order.requests, settings, existing.uses)
     parts.refuse_impossible(made, values["package"], values["build_type"], existing.messages)
-    subdirectory = place.subdirectory(values["package"])
-    context = package_context(
-        values, order.layers, made, renderer, day or today(), subdirectory, target.of(given)
-    )
+    day, subdirectory = day or today(), place.subdirectory(values["package"])
+    targets = target.of(given)
+    context = package_context(values, order.layers, made, renderer, day, subdirectory, targets)
+    _refuse_clashes(context, templates)
+    all_written = {**_without_key(answers.written, "node_kind"), parts.ADD: written}
+    return Composed(order.layers, context, renderer, all_written)
+
+
+def _refuse_clashes(context: Mapping[str, Any], templates: Mapping[str, Template]) -> None:
+    """Raise InputError if a service or an action has two types."""
     for clash in clashes(uses(context["nodes"], templates)):
         if clash.first.kind != "topic":  # `new` rejects it, `update` cannot
             raise InputError(str(clash))
-    return Composed(
-        order.layers,
-        context,
-        renderer,
-        {**_without_key(answers.written, "node_kind"), parts.ADD: written},
-    )
 
 
 def _contents(order: Order) -> str:

@@ -8,8 +8,8 @@ import os
 import re
 import shutil
 import time
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
 from scaffold.model.package import Package as Source
@@ -74,9 +74,8 @@ async def build(
     """
     deadline = time.monotonic() + timeout
     done = {} if done is None else done
-    left = list(packages)
+    left, latest = [*packages], layout.log / "latest_build"
     while left:
-        latest = layout.log / "latest_build"
         before = _resolved(latest)
         try:
             build_output, exit_code, left_running = await _run(
@@ -91,18 +90,19 @@ async def build(
                 log = _Log.read(latest, "", succeeded=False)
                 done.update({p.name: log.result(p) for p in left if log.has_ended(p.name)})
             raise
-        in_time = exit_code is not None
-        if not in_time:
+        if exit_code is None:
             build_output += f"\nthe build did not finish within {timeout:g} s\n"
-        log = _Log.read(latest, build_output, succeeded=exit_code == 0)
-        log = replace(log, left_running=tuple(left_running))
-        # A package that makes colcon itself fail also ends the build of later ones.
-        later = [item for item in left if log.had_no_turn(item.name)] if in_time else []
-        if len(later) == len(left):
-            later = []
+        log = _Log.read(latest, build_output, succeeded=exit_code == 0, left_running=left_running)
+        later = [] if exit_code is None else _left_for_later(left, log)
         done.update({item.name: log.result(item) for item in left if item not in later})
         left = later
     return done
+
+
+def _left_for_later(packages: Sequence[Source], log: _Log) -> list[Source]:
+    """Return the packages that colcon did not reach because another one made it fail."""
+    later = [package for package in packages if log.had_no_turn(package.name)]
+    return later if len(later) < len(packages) else []
 
 
 def _resolved(path: Path) -> str:
@@ -242,10 +242,12 @@ class _Log:
     """Processes that survived the build."""
 
     @classmethod
-    def read(cls, directory: Path, text: str, *, succeeded: bool) -> _Log:
+    def read(
+        cls, directory: Path, text: str, *, succeeded: bool, left_running: Iterable[str] = ()
+    ) -> _Log:
         events = directory / "events.log"
         if not events.exists():
-            return cls(directory, None, without_repeats(text), succeeded)
+            return cls(directory, None, without_repeats(text), succeeded, tuple(left_running))
         jobs: dict[str, _Job] = {}
         for line in output.read(events).splitlines():
             event = _JOB.match(line)
@@ -261,7 +263,7 @@ class _Log:
                 job.succeeded = bool(_SUCCESS.search(event["rest"]))
             else:
                 job.skipped = True
-        return cls(directory, jobs, without_repeats(text), succeeded)
+        return cls(directory, jobs, without_repeats(text), succeeded, tuple(left_running))
 
     def has_ended(self, name: str) -> bool:
         """Tell whether the build of a package ended."""

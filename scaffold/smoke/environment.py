@@ -73,6 +73,15 @@ class Environment:
     notes: tuple[str, ...] = ()
     """Why environments that the user may expect were not used."""
 
+    def facts(self) -> dict[str, str]:
+        """Return what a report says about it."""
+        return {
+            "kind": self.kind,
+            "distribution": self.distribution,
+            "prefix": self.prefix,
+            "rmw": self.rmw,
+        }
+
 
 class _UnusableError(Exception):
     """The environment cannot be used; the text says why."""

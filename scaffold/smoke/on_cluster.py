@@ -90,15 +90,7 @@ def smoke_on_cluster(
     """
     begun = time.monotonic()
     wanted = [package for package in packages if options.runs(package.name)]
-    archives = {package.name: sources.pack(package) for package in packages}
-    tasks = {
-        package.name: Task(
-            package.name,
-            {name: archives[name] for name in sorted(with_dependencies(packages, {package.name}))},
-            replace(options, run_only=frozenset({package.name})),
-        )
-        for package in wanted
-    }
+    tasks = _tasks(packages, wanted, options)
     done: dict[str, Done[Outcome]] = {}
     ended_early = ""
     with connected(address, announce) as cluster:
@@ -110,19 +102,38 @@ def smoke_on_cluster(
                     announce(f"{item.name}: {_verdict(item)} ({len(done)} of {len(tasks)})")
         except InterruptedBySignalError as end:
             ended_early = f"interrupted by {Signals(end.number).name}"
-    kinds = {item.result.environment["kind"] for item in done.values() if item.result}
-    names = {item.result.environment["distribution"] for item in done.values() if item.result}
-    middlewares = {item.result.environment["rmw"] for item in done.values() if item.result}
     return Smoke(
         environment={
-            "kind": ", ".join(sorted(kinds)) or "unknown",
-            "distribution": ", ".join(sorted(names)),
+            "kind": _on_workers("kind", done) or "unknown",
+            "distribution": _on_workers("distribution", done),
             "prefix": address,
-            "rmw": ", ".join(sorted(middlewares)) or "unknown",
+            "rmw": _on_workers("rmw", done) or "unknown",
         },
         packages=tuple(_of_package(package, done.get(package.name)) for package in wanted),
         seconds=time.monotonic() - begun,
         ended_early=ended_early,
+    )
+
+
+def _tasks(
+    packages: Sequence[Package], wanted: Sequence[Package], options: Options
+) -> dict[str, Task]:
+    """Return a task for each package to run, by its name."""
+    archives = {package.name: sources.pack(package) for package in packages}
+    return {
+        package.name: Task(
+            package.name,
+            {name: archives[name] for name in sorted(with_dependencies(packages, {package.name}))},
+            replace(options, run_only=frozenset({package.name})),
+        )
+        for package in wanted
+    }
+
+
+def _on_workers(key: str, done: Mapping[str, Done[Outcome]]) -> str:
+    """Return what the environments of the workers have, separated by commas."""
+    return ", ".join(
+        sorted({item.result.environment[key] for item in done.values() if item.result})
     )
 
 

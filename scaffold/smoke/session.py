@@ -77,47 +77,59 @@ def smoke(
     interruption = interruption or Interruption()
     tell = announce or (lambda _: None)
     with ExitStack() as stack:
-        stack.enter_context(interruption)
-        stack.enter_context(interruption.later())
-        stack.enter_context(_subreaper())
+        run = _begun(stack, options, interruption, tell)
         with interruption.at_once():
-            leftovers.sweep()
-            if options.workspace is not None:
-                stack.enter_context(locked(options.workspace, options.workspace_wait, tell))
-        run = stack.enter_context(leftovers.recorded_run(keep=options.keep))
-        with interruption.at_once():
-            selected = environments.select(
-                os.environ if variables is None else variables,
-                forced=options.ros,
-                wanted=options.wanted,
-                paths=[os.path.relpath(source.directory) for source in sources],
-                origin=run.origin,
-            )
-            if options.launch:
-                launching.require(selected, sources, run.origin)
+            selected = _selected(sources, options, variables, run)
         stack.enter_context(distributions.targeting(_distribution_of(selected)))
         session = _Session(selected, run, options, progress, stated, tell)
-        ended_early = ""
-        try:
-            interruption.run(lambda: session.run(sources), session.say_interrupted)
-        except InterruptedBySignalError as end:
-            ended_early = f"interrupted by {signal.Signals(end.number).name}"
-        except OSError as error:
-            ended_early = _system_error_message(error)
-        stack.close()
+        ended_early = _run(session, sources, interruption)
     return Smoke(
-        environment={
-            "kind": selected.kind,
-            "distribution": selected.distribution,
-            "prefix": selected.prefix,
-            "rmw": selected.rmw,
-        },
+        environment=selected.facts(),
         packages=session.results(sources),
         notes=selected.notes,
         scratch=str(run.scratch) if options.keep else None,
         seconds=time.monotonic() - begun,
         ended_early=ended_early,
     )
+
+
+def _begun(stack: ExitStack, options: Options, interruption: Interruption, tell: Progress) -> Run:
+    """Handle signals, adopt orphans, lock the workspace, and record the run."""
+    stack.enter_context(interruption)
+    stack.enter_context(interruption.later())
+    stack.enter_context(_subreaper())
+    with interruption.at_once():
+        leftovers.sweep()
+        if options.workspace is not None:
+            stack.enter_context(locked(options.workspace, options.workspace_wait, tell))
+    return stack.enter_context(leftovers.recorded_run(keep=options.keep))
+
+
+def _selected(
+    sources: Sequence[Source], options: Options, variables: Mapping[str, str] | None, run: Run
+) -> Environment:
+    """Return the environment for the packages, and for their launch files if they are run."""
+    selected = environments.select(
+        os.environ if variables is None else variables,
+        forced=options.ros,
+        wanted=options.wanted,
+        paths=[os.path.relpath(source.directory) for source in sources],
+        origin=run.origin,
+    )
+    if options.launch:
+        launching.require(selected, sources, run.origin)
+    return selected
+
+
+def _run(session: _Session, sources: Sequence[Source], interruption: Interruption) -> str:
+    """Run a session; return why it ended early, or an empty text."""
+    try:
+        interruption.run(lambda: session.run(sources), session.say_interrupted)
+    except InterruptedBySignalError as end:
+        return f"interrupted by {signal.Signals(end.number).name}"
+    except OSError as error:
+        return _system_error_message(error)
+    return ""
 
 
 def _distribution_of(environment: Environment) -> Distribution:

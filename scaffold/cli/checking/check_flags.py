@@ -29,6 +29,27 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--format", choices=NAMES, default="text", help="output format")
     parser.add_argument("--output-file", metavar="FILE", help="write the report to a file")
     distro.add_argument(parser)
+    _add_rule_arguments(parser)
+    _add_fix_arguments(parser)
+    _add_report_arguments(parser)
+    baselines.add_arguments(parser)
+    parser.add_argument(
+        "--add-noqa",
+        action="store_true",
+        help="add `noqa: CODE` comments that silence the findings; with --diff, only show them",
+    )
+    _add_scope_arguments(parser)
+    parser.add_argument(
+        "--content",
+        action="append",
+        default=[],
+        metavar="DIR",
+        help="a directory with your own rules/, which are executed",
+    )
+
+
+def _add_rule_arguments(parser: argparse.ArgumentParser) -> None:
+    """Define the flags that choose rules and their severity."""
     select = parser.add_argument(
         "--select",
         action="append",
@@ -49,6 +70,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         action="store_true",
         help="report what blocks a release as errors, such as names that rosdep does not have",
     )
+
+
+def _add_fix_arguments(parser: argparse.ArgumentParser) -> None:
+    """Define the flags that change files."""
     parser.add_argument(
         "--fix",
         action="store_true",
@@ -67,13 +92,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="check and fix the whole packages that single files belong to, and skip files "
         "without a package",
     )
-    _add_report_arguments(parser)
-    baselines.add_arguments(parser)
-    parser.add_argument(
-        "--add-noqa",
-        action="store_true",
-        help="add `noqa: CODE` comments that silence the findings; with --diff, only show them",
-    )
+
+
+def _add_scope_arguments(parser: argparse.ArgumentParser) -> None:
+    """Define the flags for what is checked, where, and with which reference."""
     parser.add_argument(
         "--since",
         metavar="REV",
@@ -111,16 +133,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="check style with ament's default configuration instead of that of the package's "
         "tests",
     )
-    parser.add_argument(
-        "--content",
-        action="append",
-        default=[],
-        metavar="DIR",
-        help="a directory with your own rules/, which are executed",
-    )
 
 
 def _add_report_arguments(parser: argparse.ArgumentParser) -> None:
+    """Define the flags that only affect how findings are shown."""
     report = parser.add_argument_group(
         "the report", "hidden findings still count for the exit code"
     )

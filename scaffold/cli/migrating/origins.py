@@ -76,20 +76,21 @@ def find(
         else:
             arrived[directory] = candidates[-1]
             assumed += [directory] if recorded is None else []
-    found = Origins(
-        {item: groups[item] for item in distributions.ordered([*groups])},
-        arrived,
-        assumed,
-        guessed,
-        ended,
-    )
-    if not groups and assumed:
-        raise InputError(_assumption(found, target))
-    if not groups and flag:
-        raise InputError(
-            f"{sentence([*arrived.values()], target)}: --from names where they come from"
-        )
+    directories_of = {item: groups[item] for item in distributions.ordered([*groups])}
+    found = Origins(directories_of, arrived, assumed, guessed, ended)
+    _refuse_none(found, target, is_named=bool(flag))
     return found
+
+
+def _refuse_none(found: Origins, target: Distribution, *, is_named: bool) -> None:
+    """Raise InputError if no package is known to move."""
+    if found.directories:
+        return
+    if found.assumed:
+        raise InputError(_assumption(found, target))
+    if is_named:
+        arrived = sentence([*found.arrived.values()], target)
+        raise InputError(f"{arrived}: --from names where they come from")
 
 
 def _unsupported(directory: str) -> list[str]:

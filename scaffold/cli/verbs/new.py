@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from scaffold.cli import terminal
 from scaffold.cli.generating import new_report, package_report
 from scaffold.errors import InputError
+from scaffold.record import NamedTuple
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Mapping, Sequence
@@ -23,6 +24,17 @@ if TYPE_CHECKING:
     from scaffold.generate.repository import Place
     from scaffold.generate.templates.template import Template
     from scaffold.writing.plan import WritePlan
+
+
+class _Plans(NamedTuple):
+    """What is written of a package, and what is left to the user."""
+
+    inside: WritePlan
+    """The files of the package."""
+    above: WritePlan | None
+    """The files at the top of the repository around it."""
+    left: Mapping[str, ByHand | None]
+    """The existing files that may have entries of others."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -80,23 +92,18 @@ def _run(
     from scaffold.cli import distro
     from scaffold.cli.exit_codes import CLEAN, FINDINGS
     from scaffold.errors import ScaffoldError
-    from scaffold.generate import checking, dependency_names, destination, draft, repository
-    from scaffold.generate.questions.defaults import User
+    from scaffold.generate import checking, dependency_names, destination
 
     command = None
     if "package" not in given:
         given, command = _interview(options, roots, templates, given)
     try:
         named, doubts = _dependencies(options, given)
-        user = User(options.destination_directory)
-        around = repository.place_of(options.destination_directory, is_parent=True)
-        made = draft.draft(roots, templates, given, user, place=around)
+        made, around = _drafted(options, roots, templates, given)
         _refuse_conflicts(made.conflicts)
         destination.check(options.destination_directory, made.name)
         check = checking.Check(made, options.rule_process)
-        left = _left_to_owners(options, made, around)
-        plan = _plan(options, made, left)
-        above = _plan_above(made, around, left, force=options.force)
+        plans = _planned(options, made, around)
     except ScaffoldError:
         if command is not None:
             terminal.say_lines(
@@ -107,22 +114,50 @@ def _run(
     if defects:
         return new_report.report_defects(defects, made)
     if not options.dry_run and not options.diff:
-        plan = _write(options, made, plan, above, left)
+        plans = _write(options, made, plans)
     for remark in (*made.remarks, *doubts, *distro.note_of_new(given)):
         terminal.note(remark)
-    if options.diff:
-        terminal.show_patch(new_report.diff(plan, above))
-    else:
-        has_preview = command is not None and not options.dry_run
-        files = f"{plan.root}: written" if has_preview else new_report.files(made, plan, above)
-        terminal.show(new_report.summary(options, files, made, plan, above))
-        if command is not None:
-            terminal.show(f"\nThe same as a command:\n    {command}")
-    by_hand = [item for item in left.values() if item is not None]
+    _show(options, made, plans, command)
+    by_hand = [item for item in plans.left.values() if item is not None]
     directory = os.path.join(options.destination_directory, made.name)
     for line in package_report.by_hand(directory, by_hand):
         terminal.say(line)
     return FINDINGS if by_hand else CLEAN
+
+
+def _drafted(
+    options: argparse.Namespace,
+    roots: list[str],
+    templates: dict[str, Template],
+    given: Mapping[str, Given],
+) -> tuple[Draft, Place]:
+    """Return the package, and the repository that it is for."""
+    from scaffold.generate import draft, repository
+    from scaffold.generate.questions.defaults import User
+
+    around = repository.place_of(options.destination_directory, is_parent=True)
+    user = User(options.destination_directory)
+    return draft.draft(roots, templates, given, user, place=around), around
+
+
+def _show(options: argparse.Namespace, made: Draft, plans: _Plans, command: str | None) -> None:
+    """Show the patch, or the files and the next commands.
+
+    Args:
+        options: The flags.
+        made: The package.
+        plans: What is written.
+        command: The answers to the questions as a command, if they were asked.
+    """
+    plan, above, _ = plans
+    if options.diff:
+        terminal.show_patch(new_report.diff(plan, above))
+        return
+    has_preview = command is not None and not options.dry_run
+    files = f"{plan.root}: written" if has_preview else new_report.files(made, plan, above)
+    terminal.show(new_report.summary(options, files, made, plan, above))
+    if command is not None:
+        terminal.show(f"\nThe same as a command:\n    {command}")
 
 
 def _refuse_conflicts(conflicts: Sequence[str]) -> None:
@@ -142,7 +177,7 @@ def _interview(
     Raises:
         InputError: there is no terminal.
     """
-    from scaffold.generate import connections, destination, draft, repository
+    from scaffold.generate import connections, destination, draft
     from scaffold.generate.questions.defaults import User
 
     if not (sys.stdin.isatty() and sys.stdout.isatty()):
@@ -162,12 +197,9 @@ def _interview(
         return made.answers
 
     def preview(answers: Mapping[str, Given]) -> str:
-        around = repository.place_of(options.destination_directory, is_parent=True)
-        user = User(options.destination_directory)
-        made = draft.draft(roots, templates, answers, user, place=around)
-        left = _left_to_owners(options, made, around)
-        plan = _plan(options, made, left)
-        return new_report.files(made, plan, _plan_above(made, around, left, force=options.force))
+        made, around = _drafted(options, roots, templates, answers)
+        plan, above, _ = _planned(options, made, around)
+        return new_report.files(made, plan, above)
 
     trial = wizard.Trial(try_name, try_package, preview)
     return wizard.ask(templates, given, user, trial, _besides_answers(options))
@@ -243,6 +275,13 @@ def _left_to_owners(
     return repository.left_to_owners(around, made.name, made.rendered.files, there)
 
 
+def _planned(options: argparse.Namespace, made: Draft, around: Place) -> _Plans:
+    """Plan all writes."""
+    left = _left_to_owners(options, made, around)
+    plan = _plan(options, made, left)
+    return _Plans(plan, _plan_above(made, around, left, force=options.force), left)
+
+
 def _plan(options: argparse.Namespace, made: Draft, left: Collection[str]) -> WritePlan:
     """Plan the writes; an existing package is not changed without ``--force``."""
     from scaffold.generate import repository
@@ -258,24 +297,19 @@ def _plan(options: argparse.Namespace, made: Draft, left: Collection[str]) -> Wr
     return WritePlan.of(directory, files, executable=made.rendered.executable)
 
 
-def _write(
-    options: argparse.Namespace,
-    made: Draft,
-    plan: WritePlan,
-    above: WritePlan | None,
-    left: Collection[str],
-) -> WritePlan:
-    """Write; return the plan that was followed."""
+def _write(options: argparse.Namespace, made: Draft, plans: _Plans) -> _Plans:
+    """Write; return the plans that were followed."""
     from scaffold.cli import writing
 
+    plan, above, left = plans
     if plan.is_new:
         plan.write(force=options.force, around=above)
-        return plan
+        return plans
     with writing.held(plan.root, is_dry=False):
         # Locks the existing files.
         plan = _plan(options, made, left)
         plan.write(force=options.force, around=above)
-    return plan
+    return plans._replace(inside=plan)
 
 
 def _plan_above(

@@ -34,6 +34,23 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="PATH",
         help="a package or a workspace (default: the current directory)",
     )
+    _add_selection(parser)
+    _add_further_runs(parser)
+    _add_environment(parser)
+    _add_report(parser)
+    _add_limits(parser)
+    parser.add_argument(
+        "--workspace",
+        metavar="DIR",
+        help="keep build, install and log in this directory instead of a temporary one",
+    )
+    parser.add_argument(
+        "--keep", action="store_true", help="keep the scratch directory and print its path"
+    )
+
+
+def _add_selection(parser: argparse.ArgumentParser) -> None:
+    """Define the flags that choose the packages to run."""
     selection = parser.add_mutually_exclusive_group()
     selection.add_argument(
         "--packages-select",
@@ -52,6 +69,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="REV",
         help="run the packages that differ from this git commit, and those that depend on them",
     )
+
+
+def _add_further_runs(parser: argparse.ArgumentParser) -> None:
+    """Define the flags for what is run besides each executable alone."""
     parser.add_argument(
         "--together",
         action="store_true",
@@ -68,6 +89,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         action="store_true",
         help="also run `colcon test`; failing tests and linters are problems",
     )
+
+
+def _add_environment(parser: argparse.ArgumentParser) -> None:
+    """Define the flags that choose the ROS 2 and the machines to run on."""
     parser.add_argument(
         "--distro",
         action="append",
@@ -88,6 +113,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="run the packages on the workers of a Dask cluster, given the address of its "
         "scheduler, such as tcp://host:8786; sends them the sources",
     )
+
+
+def _add_report(parser: argparse.ArgumentParser) -> None:
+    """Define the flags of the report."""
     parser.add_argument("--format", choices=FORMATS, default="text", help="output format")
     parser.add_argument(
         "--output-file",
@@ -104,6 +133,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         action="store_true",
         help="also show intervals, sizes, quality of service, parameters, logs and resources",
     )
+
+
+def _add_limits(parser: argparse.ArgumentParser) -> None:
+    """Define the flags that say how long and how each executable runs."""
     parser.add_argument(
         "--duration",
         type=_seconds,
@@ -139,14 +172,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         default=4,
         metavar="N",
         help="number of executables to run in parallel (default: 4)",
-    )
-    parser.add_argument(
-        "--workspace",
-        metavar="DIR",
-        help="keep build, install and log in this directory instead of a temporary one",
-    )
-    parser.add_argument(
-        "--keep", action="store_true", help="keep the scratch directory and print its path"
     )
 
 

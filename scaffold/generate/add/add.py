@@ -104,10 +104,7 @@ def add(target: Target, wanted: Wanted) -> Added:
     package = target.package
     with _converted_errors(package):
         _refuse_ros_1(package)
-        old = regenerate.provenance_of(package)
-        if old is not None and old.merged:
-            old = regenerate.joined(target, old)
-        old = old and old.with_roots(target.roots)
+        old = regenerate.provenance_of(target)
         wanted = wanted._replace(given={**regenerate.remembered(old), **wanted.given})
         extended = extension.of(package, wanted)
         wanted = wanted._replace(given={**wanted.given, **extended.given})

@@ -25,12 +25,21 @@ OF_PACKAGES = (
 """Questions of the package that parts ask as well; most are answered by the record."""
 
 
-def provenance_of(package: Package) -> Provenance | None:
+def provenance_of(target: Target) -> Provenance | None:
     """Return the record of how a package was generated, if it was.
 
+    After a merge of branches it has the files of both.
+
     Raises:
-        InputError: the record is damaged.
+        InputError: the record is damaged, or names a template that is not known here.
     """
+    old = _read(target.package)
+    if old is not None and old.merged:
+        old = _joined(target, old)
+    return old and old.with_roots(target.roots)
+
+
+def _read(package: Package) -> Provenance | None:
     if not package.has(NAME):
         return None
     sidecar = package.source(BASES).text if package.has(BASES) else None
@@ -46,12 +55,7 @@ def remembered(old: Provenance | None) -> dict[str, Given]:
     return {name: Given(answers[name], NAME) for name in OF_PACKAGES if name in answers}
 
 
-def joined(target: Target, old: Provenance) -> Provenance:
-    """Return the record of a package; after a merge of branches, with the files of both.
-
-    Raises:
-        InputError: the package was made with a template that is not known here.
-    """
+def _joined(target: Target, old: Provenance) -> Provenance:
     given = update.recorded(old, target.templates, target.package.directory, [])
 
     def drafted(those: branches.Parts) -> Mapping[str, str]:

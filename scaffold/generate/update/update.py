@@ -87,23 +87,18 @@ def update(
 
     made = drafted(given[ADD].value)
     provenance = joined(provenance, lambda parts: drafted(parts).rendered.files)
-    recorded_files = {*provenance.rendered, *provenance.lost}
-    present = _present(tree, where, place, {*recorded_files, *made.rendered.files})
+    paths = {*provenance.rendered, *provenance.lost, *made.rendered.files}
+    present = _present(tree, where, place, paths)
     _refuse_undecided(present, where, made)
     now = {path: text.encode() for path, text in made.rendered.files.items()}
     provenance = provenance.completed(now).completed(present)
     refuse_lost(provenance, where, now.keys() & present.keys())
     files, conflicts = _merged(present, provenance, made, remarks)
-    written = Provenance.of(made)
     is_moved = moved is not None and provenance.answers.get(DISTRO) != made.answers.get(DISTRO)
-    is_as_recorded = provenance.sources == written.sources and provenance.is_canonical
-    if provenance.rendered != made.rendered.files or not is_as_recorded or is_moved:
-        is_new = not provenance.has_sidecar and ATTRIBUTES not in {*files, *tree.files}
-        record = written.files(is_new=is_new)
-        files |= {path: text.encode() for path, text in record.items()}
-    executable = frozenset(path for path in made.rendered.executable if path in files)
-    remarks += made.conflicts
-    return Updated(files, executable, conflicts, tuple(remarks))
+    has_attributes = ATTRIBUTES in {*files, *tree.files}
+    files |= _record(provenance, made, is_moved=is_moved, has_attributes=has_attributes)
+    executable = made.rendered.executable.intersection(files)
+    return Updated(files, executable, conflicts, (*remarks, *made.conflicts))
 
 
 def recorded_content(tree: Tree, where: str, given: Sequence[str]) -> list[str]:
@@ -226,6 +221,18 @@ def _refuse_undecided(present: Mapping[str, bytes], where: str, made: Draft) -> 
                 f"{where}/{path}: has conflict markers on line {line}; resolve the conflict "
                 "first; nothing was changed"
             )
+
+
+def _record(
+    provenance: Provenance, made: Draft, *, is_moved: bool, has_attributes: bool
+) -> dict[str, bytes]:
+    """Return the files of the new record, if it differs from the present one."""
+    written = Provenance.of(made)
+    is_as_recorded = provenance.sources == written.sources and provenance.is_canonical
+    if provenance.rendered == made.rendered.files and is_as_recorded and not is_moved:
+        return {}
+    record = written.files(is_new=not provenance.has_sidecar and not has_attributes)
+    return {path: text.encode() for path, text in record.items()}
 
 
 def _merged(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
+from collections.abc import Container, Iterator, Sequence
 
 from scaffold.configuration.exclusion import Exclusion
 from scaffold.errors import InputError
@@ -77,28 +77,38 @@ def find(
     if foreign is not None:
         foreign.name(disk.real(path) for path in paths if disk.exists(path))
     whole, excluded = _whole_packages(disk, workspace, directories, exclusion or Exclusion())
-    by_configuration = [*excluded]
-    if foreign is not None:
-        _set_apart(disk, workspace, whole, excluded, foreign)
     files = [path for path in paths if path not in directories]
     excluded_files = {path for path in files if exclusion and exclusion.covers(disk, path)}
     if skipped is not None:
-        skipped |= {*by_configuration, *excluded_files}
-    partial, loose = _sort_files(
-        disk, [path for path in files if path not in excluded_files], are_saved=are_saved
-    )
-    targets = list(whole.values())
-    for root, names in partial.items():
-        if disk.real(root) not in whole:
-            targets.append(Target(Package.at(root, workspace), frozenset(names)))
-    for directory, names in loose.items():
-        package = Package(_LooseFiles(directory, sorted(names)), directory=directory)
-        targets.append(Target(package, frozenset(names)))
+        skipped |= {*excluded, *excluded_files}
+    if foreign is not None:
+        _set_apart(disk, workspace, whole, excluded, foreign)
+    checked_files = [path for path in files if path not in excluded_files]
+    targets = [*whole.values()]
+    targets += _targets_of_files(disk, workspace, checked_files, whole, are_saved=are_saved)
     for package in (*(target.package for target in targets), *excluded.values()):
         workspace.add(package)
     top = [disk.real(os.curdir)] if whole_packages else []
     workspace.around = _unchecked_neighbors(disk, workspace, directories, top)
     return sorted(targets, key=lambda target: target.package.directory)
+
+
+def _targets_of_files(
+    disk: Disk,
+    workspace: Workspace,
+    paths: Sequence[str],
+    whole: Container[str],
+    *,
+    are_saved: bool,
+) -> Iterator[Target]:
+    """Yield the packages of single files, unless they are checked as a whole, and loose files."""
+    partial, loose = _sort_files(disk, paths, are_saved=are_saved)
+    for root, names in partial.items():
+        if disk.real(root) not in whole:
+            yield Target(Package.at(root, workspace), frozenset(names))
+    for directory, names in loose.items():
+        package = Package(_LooseFiles(directory, sorted(names)), directory=directory)
+        yield Target(package, frozenset(names))
 
 
 def _whole_packages(

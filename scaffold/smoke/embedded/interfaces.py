@@ -55,14 +55,10 @@ async def provide(
     if environment.kind != "wheels":
         return environment
     bundle = Bundle()
-    own = {package.name for package in packages}
-    available = [*own, *_packages_in(environment.prefix)]
-    missing = bundle.closure(_needed(packages) - own, available)
+    missing = _missing(environment, bundle, packages)
     if not missing:
         return environment
-    # Dependencies of interface packages need the C++ part as well.
-    complete = {*bundle.closure(_needed(filter(_has_interfaces, packages)) - own, available)}
-    places = {name: _place(environment, bundle, complete=name in complete) for name in missing}
+    places = {name: _place(environment, bundle, complete=full) for name, full in missing.items()}
     remembered = [
         place / name for name, place in places.items() if place and (place / name).is_dir()
     ]
@@ -77,17 +73,32 @@ async def provide(
         return ready
     tell(f"building {', '.join(new)}, which the ROS wheels lack; the result is cached")
     layout = Layout.below(scratch / PLACE)
-    sources = []
-    for name in new:
-        directory = scratch / PLACE / "src" / name
-        bundle.write(name, directory, complete=name in complete)
-        sources.append(Package.at(str(directory)))
+    sources = [_written(bundle, name, scratch, complete=missing[name]) for name in new]
     builds = await build(ready, sources, layout, scratch, origin=origin, timeout=timeout)
     for line in _failures(builds):
         announce(line)
     built = [name for name in new if builds[name].ok]
     prefixes = [_moved_to_cache(layout.install / name, places[name]) for name in built]
     return with_prefixes(ready, prefixes)
+
+
+def _missing(
+    environment: Environment, bundle: Bundle, packages: Sequence[Package]
+) -> dict[str, bool]:
+    """Return the packages of interfaces to build, and whether they need their C++ part as well."""
+    own = {package.name for package in packages}
+    available = [*own, *_packages_in(environment.prefix)]
+    # Dependencies of interface packages need the C++ part as well.
+    complete = {*bundle.closure(_needed(filter(_has_interfaces, packages)) - own, available)}
+    names = bundle.closure(_needed(packages) - own, available)
+    return {name: name in complete for name in names}
+
+
+def _written(bundle: Bundle, name: str, scratch: Path, *, complete: bool) -> Package:
+    """Write a package of interfaces, with its C++ part if it is to be complete."""
+    directory = scratch / PLACE / "src" / name
+    bundle.write(name, directory, complete=complete)
+    return Package.at(str(directory))
 
 
 def _needed(packages: Iterable[Package]) -> set[str]:
