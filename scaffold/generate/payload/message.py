@@ -21,7 +21,7 @@ MAX_CHECK = 84
 """Maximum length of an expression in a test."""
 MAX_LOG = 52
 """Maximum length of a log message."""
-MAX_SAYS = 70
+MAX_SUMMARY = 70
 
 
 def of_message(text: str, interfaces: Definitions) -> Payload:
@@ -46,7 +46,7 @@ def of_message(text: str, interfaces: Definitions) -> Payload:
         imports=lines_of_imports,
         statements=tuple(lines),
         log=words_.log,
-        says=words_.says,
+        summary=words_.summary,
         checks=tuple(filter(is_short, words_.checks))[:MAX_CHECKS],
         is_stamped=any("self.frame_id" in line for line in lines),
         is_counted=any("self.count" in line for line in lines),
@@ -119,7 +119,7 @@ def _words_of_part(types: Types) -> Recipe | None:
 def _words_of_fields(types: Types, walk: Walk) -> Recipe:
     names = [words.phrase(field.name) for field in types.interface.fields if field.name != "header"]
     return Recipe(
-        says=enumerated(names, "example values for ", MAX_SAYS) if names else "nothing",
+        summary=enumerated(names, "example values for ", MAX_SUMMARY) if names else "nothing",
         log=joined(walk.logged)
         or (enumerated(names, "", MAX_LOG) if names else "an empty message"),
         frame=walk.frame,

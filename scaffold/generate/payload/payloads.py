@@ -35,7 +35,7 @@ class Payload(NamedTuple):
     log: str
     """The inside of an f-string in single quotes, such as ``{msg.data}``; short for large
     messages, and without braces only for empty ones."""
-    says: str
+    summary: str
     """A description of the content, lower case and without a period."""
     checks: tuple[str, ...]
     """Python expressions that are true for every received ``message``."""
@@ -132,7 +132,7 @@ class SectionPayload(NamedTuple):
     log: str
     """The inside of an f-string in single quotes, such as ``{response.sum}``; without braces
     (then it is not an f-string) if there are no fields."""
-    says: str
+    summary: str
     """A description to follow "the request holds"; empty if there are no fields."""
     checks: tuple[str, ...]
     """Python expressions that are true for it, with the same variables as the statements."""
@@ -181,7 +181,7 @@ class ServicePayload(NamedTuple):
 
     package: str
     name: str
-    says: str
+    summary: str
     """What the service does, to be read after "a service that", such as ``adds two integers``."""
     request: SectionPayload
     """Filled by the client: ``request``; ``self.count`` is the number of requests so far."""
@@ -235,7 +235,7 @@ class ActionPayload(NamedTuple):
 
     package: str
     name: str
-    says: str
+    summary: str
     """What the action does, to be read after "an action that", such as ``computes ...``."""
     goal: SectionPayload
     """Filled by the client: ``goal``; ``self.count`` is the number of goals so far."""

@@ -14,7 +14,7 @@ from scaffold.record import NamedTuple
 class Process(NamedTuple):
     """Code that computes a message from another one."""
 
-    says: str
+    summary: str
     """A description of the output, to follow "publish"."""
     code: str
     """Lines of a method: they fill ``msg`` from ``received``; where both have the same type,
@@ -141,19 +141,19 @@ _TELEOP = """
 _LIMIT = "{target}.angular.z = max(-MAX_TURN, min(MAX_TURN, {target}.angular.z))"
 
 
-def _value(says: str, path: str) -> Process:
+def _value(summary: str, path: str) -> Process:
     """Return how to compute a message from a number of another one."""
     return Process(
-        says,
+        summary,
         f"msg.data = received.{path}",
         f"message.data == pytest.approx(item.{path})",
     )
 
 
-def _copy_part(says: str, target: str, path: str) -> Process:
+def _copy_part(summary: str, target: str, path: str) -> Process:
     """Return how to copy a part of one message to another."""
     return Process(
-        says,
+        summary,
         f"msg.{target} = received.{path}",
         f"message.{target} == item.{path}",
     )

@@ -20,8 +20,8 @@ class Recipe(NamedTuple):
     Names of other messages and of ``math`` and ``struct`` may be used.
     """
 
-    says: str
-    """As in `Payload.says`."""
+    summary: str
+    """As in `Payload.summary`."""
     code: str = ""
     """Lines that fill ``msg``."""
     constants: str = ""
@@ -45,8 +45,8 @@ def find(full_name: str) -> Recipe | None:
 class ServiceRecipe(NamedTuple):
     """How to call and answer a service."""
 
-    says: str
-    """What it does, as in `ServicePayload.says`."""
+    summary: str
+    """What it does, as in `ServicePayload.summary`."""
     request: str = ""
     """Lines that fill ``request``."""
     response: str = ""
@@ -60,8 +60,8 @@ class ServiceRecipe(NamedTuple):
 class ActionRecipe(NamedTuple):
     """How to send a goal of an action and execute it."""
 
-    says: str
-    """What it does, as in `ActionPayload.says`."""
+    summary: str
+    """What it does, as in `ActionPayload.summary`."""
     goal: str
     """Lines that fill ``goal``."""
     refused: str

@@ -160,7 +160,7 @@ def _payload(
     return SectionPayload(
         statements=tuple(lines),
         log=log,
-        says=enumerated(names, "", 60) if names else "",
+        summary=enumerated(names, "", 60) if names else "",
         checks=tuple(filter(is_short, checks)),
         imports=lines_of_imports,
         packages=packages,

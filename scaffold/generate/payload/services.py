@@ -19,7 +19,7 @@ def of_service(text: str, interfaces: Definitions) -> ServicePayload:
     if known_recipe is None:
         request = section.asked(types, own.request)
         response = section.answered(types, own.response, [own.request])
-        says = f"answers {own.name} requests"
+        summary = f"answers {own.name} requests"
     else:
         request = section.by_recipe(
             types, own.request, known_recipe.request, known_recipe.request_log
@@ -31,7 +31,7 @@ def of_service(text: str, interfaces: Definitions) -> ServicePayload:
             known_recipe.response_log,
             known_recipe.checks,
         )
-        says = known_recipe.says
+        summary = known_recipe.summary
     return ServicePayload(
-        own.package, types.own_name, says, request, response, service=types.own_alias
+        own.package, types.own_name, summary, request, response, service=types.own_alias
     )

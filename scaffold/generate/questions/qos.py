@@ -28,7 +28,7 @@ class Qos(NamedTuple):
     expression: str
     """The argument for ``create_publisher`` and ``create_subscription``."""
     imports: tuple[str, ...]
-    says: str
+    summary: str
     """A description in words."""
     constants: tuple[str, ...] = ()
     """Lines of the module that the expression needs."""

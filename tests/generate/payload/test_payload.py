@@ -251,7 +251,7 @@ def test_generated_code_is_short(name: str) -> None:
         assert len(part.statements) <= MAX_LINES
         assert all(len(line) <= 91 for line in part.statements)
         assert len(part.log) <= MAX_LOG
-        assert "\n" not in part.says
+        assert "\n" not in part.summary
         for check in part.checks:
             ast.parse(check)
         assert not any("numpy" in line for line in part.imports)

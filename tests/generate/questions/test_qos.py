@@ -111,7 +111,7 @@ def test_settings_become_a_constant() -> None:
     assert short.constants == (
         "QOS = QoSProfile(depth=5, reliability=ReliabilityPolicy.BEST_EFFORT)",
     )
-    assert short.says == "best effort, depth 5"
+    assert short.summary == "best effort, depth 5"
     long = qos("latched,deadline=0.5")
     assert long.constants == (
         "QOS = QoSProfile(",
@@ -122,8 +122,8 @@ def test_settings_become_a_constant() -> None:
         ")",
     )
     assert "from rclpy.duration import Duration" in long.imports
-    assert long.says == "reliable, transient local, depth 1, deadline 0.5 s"
-    assert qos("latched").says == "latched: reliable, transient local, depth 1"
+    assert long.summary == "reliable, transient local, depth 1, deadline 0.5 s"
+    assert qos("latched").summary == "latched: reliable, transient local, depth 1"
 
 
 def test_settings_as_a_mapping() -> None:

@@ -6,7 +6,7 @@ from scaffold.generate.payload.recipe import Recipe
 
 RECIPES: dict[str, Recipe] = {
     "GoalInfo": Recipe(
-        says="a new goal: a random identifier and the time",
+        summary="a new goal: a random identifier and the time",
         code="""
             msg.goal_id.uuid = list(uuid.uuid4().bytes)
             msg.stamp = self.get_clock().now().to_msg()
@@ -15,7 +15,7 @@ RECIPES: dict[str, Recipe] = {
         checks=("any(message.goal_id.uuid)", "abs(time.time() - message.stamp.sec) < 60"),
     ),
     "GoalStatus": Recipe(
-        says="a goal that is worked on",
+        summary="a goal that is worked on",
         code="""
             msg.goal_info.goal_id.uuid = list(uuid.uuid4().bytes)
             msg.goal_info.stamp = self.get_clock().now().to_msg()
@@ -28,7 +28,7 @@ RECIPES: dict[str, Recipe] = {
         ),
     ),
     "GoalStatusArray": Recipe(
-        says="one goal that is done and another one that is worked on",
+        summary="one goal that is done and another one that is worked on",
         code="""
             for status in (GoalStatus.STATUS_SUCCEEDED, GoalStatus.STATUS_EXECUTING):
                 goal = GoalStatus(status=status)

@@ -6,7 +6,7 @@ from scaffold.generate.payload.recipe import Recipe
 
 RECIPES: dict[str, Recipe] = {
     "GoalID": Recipe(
-        says="the number of a goal and the time",
+        summary="the number of a goal and the time",
         code="""
             msg.stamp = self.get_clock().now().to_msg()
             msg.id = f'goal_{self.count}'
@@ -15,7 +15,7 @@ RECIPES: dict[str, Recipe] = {
         checks=("abs(time.time() - message.stamp.sec) < 60", "message.id.startswith('goal_')"),
     ),
     "GoalStatus": Recipe(
-        says="a goal that is worked on",
+        summary="a goal that is worked on",
         code="""
             msg.goal_id.stamp = self.get_clock().now().to_msg()
             msg.goal_id.id = f'goal_{self.count}'
@@ -26,7 +26,7 @@ RECIPES: dict[str, Recipe] = {
         checks=("message.status == GoalStatus.ACTIVE", "message.goal_id.id.startswith('goal_')"),
     ),
     "GoalStatusArray": Recipe(
-        says="one goal that is done and another one that is worked on",
+        summary="one goal that is done and another one that is worked on",
         code="""
             for status in (GoalStatus.SUCCEEDED, GoalStatus.ACTIVE):
                 goal = GoalStatus(status=status)

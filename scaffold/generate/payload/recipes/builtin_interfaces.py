@@ -6,7 +6,7 @@ from scaffold.generate.payload.recipe import Recipe
 
 RECIPES: dict[str, Recipe] = {
     "Duration": Recipe(
-        says="a duration that grows by half a second each time",
+        summary="a duration that grows by half a second each time",
         code="""
             msg.sec = self.count // 2  # seconds
             msg.nanosec = self.count % 2 * 500_000_000
@@ -15,7 +15,7 @@ RECIPES: dict[str, Recipe] = {
         checks=("message.nanosec < 10**9",),
     ),
     "Time": Recipe(
-        says="the time of publication",
+        summary="the time of publication",
         code="""
             now = self.get_clock().now().to_msg()
             msg.sec = now.sec

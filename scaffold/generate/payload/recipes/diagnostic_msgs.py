@@ -16,7 +16,7 @@ _STATUS = """
 
 RECIPES: dict[str, Recipe] = {
     "DiagnosticArray": Recipe(
-        says="the state of a motor that gets hot now and then",
+        summary="the state of a motor that gets hot now and then",
         code="    status = DiagnosticStatus()"
         + _STATUS.format(status="status")
         + "    msg.status = [status]",
@@ -34,7 +34,7 @@ RECIPES: dict[str, Recipe] = {
         frame="",
     ),
     "DiagnosticStatus": Recipe(
-        says="the state of a motor that gets hot now and then",
+        summary="the state of a motor that gets hot now and then",
         code=_STATUS.format(status="msg"),
         log="{msg.name}: {msg.message}",
         checks=(
@@ -43,7 +43,7 @@ RECIPES: dict[str, Recipe] = {
         ),
     ),
     "KeyValue": Recipe(
-        says="a temperature under its name",
+        summary="a temperature under its name",
         code="""
             temperature = 40.0 + 10.0 * math.sin(self.count / 10.0)  # degrees Celsius
             msg.key = 'temperature'

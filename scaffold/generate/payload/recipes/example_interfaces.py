@@ -15,7 +15,7 @@ RECIPES: dict[str, Recipe] = {
 SERVICES: dict[str, ServiceRecipe] = {
     **{name: std_srvs.SERVICES[name] for name in ("SetBool", "Trigger")},
     "AddTwoInts": ServiceRecipe(
-        says="adds two integers",
+        summary="adds two integers",
         request="""
             request.a = self.count
             request.b = 2
@@ -29,7 +29,7 @@ SERVICES: dict[str, ServiceRecipe] = {
 
 ACTIONS: dict[str, ActionRecipe] = {
     "Fibonacci": ActionRecipe(
-        says="computes the first numbers of the Fibonacci sequence",
+        summary="computes the first numbers of the Fibonacci sequence",
         goal="goal.order = 10  # how many numbers after the first",
         refused="not 1 <= goal.order <= 46",  # int32 holds no more
         start="feedback.sequence = [0, 1]",

@@ -5,7 +5,7 @@ from __future__ import annotations
 from scaffold.generate.payload.recipe import Recipe
 
 _POINT = Recipe(
-    says="a point that moves on a circle of 1 meter radius",
+    summary="a point that moves on a circle of 1 meter radius",
     code="""
         angle = self.count / 10.0  # radians
         msg.x = math.cos(angle)  # meters
@@ -23,13 +23,13 @@ _SQUARE = """
 
 RECIPES: dict[str, Recipe] = {
     "Accel": Recipe(
-        says="the acceleration of a robot that speeds up and slows down",
+        summary="the acceleration of a robot that speeds up and slows down",
         code="msg.linear.x = 0.5 * math.sin(self.count / 10.0)  # meters per second squared",
         log="{msg.linear.x:.2f} m/s^2",
         checks=("-0.5 <= message.linear.x <= 0.5",),
     ),
     "AccelWithCovariance": Recipe(
-        says="the acceleration of a robot that speeds up and slows down",
+        summary="the acceleration of a robot that speeds up and slows down",
         code="""
             msg.accel.linear.x = 0.5 * math.sin(self.count / 10.0)  # meters per second squared
             msg.covariance[::7] = 0.01  # the diagonal
@@ -38,7 +38,7 @@ RECIPES: dict[str, Recipe] = {
         checks=("-0.5 <= message.accel.linear.x <= 0.5", "message.covariance[0] > 0.0"),
     ),
     "Inertia": Recipe(
-        says="the inertia of a solid ball whose mass changes",
+        summary="the inertia of a solid ball whose mass changes",
         code="""
             msg.m = 2.0 + math.sin(self.count / 10.0)  # kilograms
             msg.com.z = 0.1  # meters
@@ -53,21 +53,21 @@ RECIPES: dict[str, Recipe] = {
     "Point": _POINT,
     "Point32": _POINT,
     "Polygon": Recipe(
-        says="a square that grows and shrinks",
+        summary="a square that grows and shrinks",
         code=_SQUARE.format(path=""),
         log="{msg.points[2].x:.2f} m wide",
         checks=("len(message.points) == 4",),
         frame="map",
     ),
     "PolygonInstance": Recipe(
-        says="a square that grows and shrinks, with a number",
+        summary="a square that grows and shrinks, with a number",
         code=_SQUARE.format(path=".polygon") + "    msg.id = 1",
         log="{msg.polygon.points[2].x:.2f} m wide",
         checks=("len(message.polygon.points) == 4",),
         frame="map",
     ),
     "Pose": Recipe(
-        says="a pose on a circle of 1 meter radius, heading along it",
+        summary="a pose on a circle of 1 meter radius, heading along it",
         code="""
             angle = self.count / 10.0  # radians
             msg.position.x = math.cos(angle)  # meters
@@ -88,7 +88,7 @@ RECIPES: dict[str, Recipe] = {
         frame="map",
     ),
     "Pose2D": Recipe(
-        says="a pose on a circle of 1 meter radius, heading along it",
+        summary="a pose on a circle of 1 meter radius, heading along it",
         code="""
             angle = self.count / 10.0  # radians
             msg.x = math.cos(angle)  # meters
@@ -99,7 +99,7 @@ RECIPES: dict[str, Recipe] = {
         checks=("message.x**2 + message.y**2 == pytest.approx(1.0)",),
     ),
     "PoseArray": Recipe(
-        says="poses beside each other that move forward and back",
+        summary="poses beside each other that move forward and back",
         code="""
             for index in range(5):
                 pose = Pose()
@@ -115,7 +115,7 @@ RECIPES: dict[str, Recipe] = {
         frame="map",
     ),
     "PoseWithCovariance": Recipe(
-        says="an uncertain pose on a circle of 1 meter radius, heading along it",
+        summary="an uncertain pose on a circle of 1 meter radius, heading along it",
         code="""
             angle = self.count / 10.0  # radians
             msg.pose.position.x = math.cos(angle)  # meters
@@ -140,7 +140,7 @@ RECIPES: dict[str, Recipe] = {
         frame="map",
     ),
     "Quaternion": Recipe(
-        says="a rotation about the vertical axis",
+        summary="a rotation about the vertical axis",
         code="""
             angle = self.count / 10.0  # radians
             msg.z = math.sin(angle / 2.0)
@@ -151,7 +151,7 @@ RECIPES: dict[str, Recipe] = {
         frame="map",
     ),
     "Transform": Recipe(
-        says="a transform that circles around the origin and turns",
+        summary="a transform that circles around the origin and turns",
         code="""
             angle = self.count / 10.0  # radians
             msg.translation.x = math.cos(angle)  # meters
@@ -164,7 +164,7 @@ RECIPES: dict[str, Recipe] = {
         frame="map",
     ),
     "TransformStamped": Recipe(
-        says="where a frame is that circles around the origin and turns",
+        summary="where a frame is that circles around the origin and turns",
         code="""
             msg.child_frame_id = 'base_link'
             angle = self.count / 10.0  # radians
@@ -181,7 +181,7 @@ RECIPES: dict[str, Recipe] = {
         frame="map",
     ),
     "Twist": Recipe(
-        says="the velocity of a robot that drives forward in curves",
+        summary="the velocity of a robot that drives forward in curves",
         code="""
             msg.linear.x = 0.5  # meters per second
             msg.angular.z = math.sin(self.count / 10.0)  # radians per second
@@ -190,7 +190,7 @@ RECIPES: dict[str, Recipe] = {
         checks=("message.linear.x == 0.5", "-1.0 <= message.angular.z <= 1.0"),
     ),
     "TwistWithCovariance": Recipe(
-        says="the measured velocity of a robot that drives forward in curves",
+        summary="the measured velocity of a robot that drives forward in curves",
         code="""
             msg.twist.linear.x = 0.5  # meters per second
             msg.twist.angular.z = math.sin(self.count / 10.0)  # radians per second
@@ -200,7 +200,7 @@ RECIPES: dict[str, Recipe] = {
         checks=("-1.0 <= message.twist.angular.z <= 1.0", "message.covariance[35] > 0.0"),
     ),
     "Vector3": Recipe(
-        says="a vector of length 1 that turns about the vertical axis",
+        summary="a vector of length 1 that turns about the vertical axis",
         code="""
             angle = self.count / 10.0  # radians
             msg.x = math.cos(angle)
@@ -210,7 +210,7 @@ RECIPES: dict[str, Recipe] = {
         checks=("message.x**2 + message.y**2 == pytest.approx(1.0)",),
     ),
     "VelocityStamped": Recipe(
-        says="the velocity of a robot that drives forward in curves",
+        summary="the velocity of a robot that drives forward in curves",
         code="""
             msg.body_frame_id = 'base_link'
             msg.reference_frame_id = 'odom'
@@ -221,7 +221,7 @@ RECIPES: dict[str, Recipe] = {
         checks=("-1.0 <= message.velocity.angular.z <= 1.0",),
     ),
     "Wrench": Recipe(
-        says="the weight of a load that swings",
+        summary="the weight of a load that swings",
         code="""
             msg.force.x = math.sin(self.count / 10.0)  # newtons
             msg.force.z = -9.81  # newtons: 1 kilogram

@@ -15,7 +15,7 @@ _POSES = """
 
 RECIPES: dict[str, Recipe] = {
     "Goals": Recipe(
-        says="five places to drive to, which sway",
+        summary="five places to drive to, which sway",
         code=_POSES.format(field="goals"),
         log="{len(msg.goals)} goals",
         checks=(
@@ -25,7 +25,7 @@ RECIPES: dict[str, Recipe] = {
         frame="map",
     ),
     "GridCells": Recipe(
-        says="a row of occupied cells that moves sideways",
+        summary="a row of occupied cells that moves sideways",
         code="""
             msg.cell_width = 0.5  # meters
             msg.cell_height = 0.5
@@ -37,7 +37,7 @@ RECIPES: dict[str, Recipe] = {
         frame="map",
     ),
     "MapMetaData": Recipe(
-        says="the size and the place of a map",
+        summary="the size and the place of a map",
         code="""
             msg.map_load_time = self.get_clock().now().to_msg()
             msg.resolution = 0.05  # meters per cell
@@ -50,7 +50,7 @@ RECIPES: dict[str, Recipe] = {
         checks=("(message.width, message.height) == (100, 60)", "message.map_load_time.sec > 0"),
     ),
     "OccupancyGrid": Recipe(
-        says="a map with a wall that moves to the right",
+        summary="a map with a wall that moves to the right",
         constants="""
             WIDTH = 20  # cells
             HEIGHT = 10
@@ -71,7 +71,7 @@ RECIPES: dict[str, Recipe] = {
         ),
     ),
     "Odometry": Recipe(
-        says="the pose and the velocity of a robot that drives on a circle",
+        summary="the pose and the velocity of a robot that drives on a circle",
         code="""
             msg.child_frame_id = 'base_link'
             seconds = msg.header.stamp.sec + msg.header.stamp.nanosec / 1e9
@@ -107,7 +107,7 @@ RECIPES: dict[str, Recipe] = {
         ),
     ),
     "Path": Recipe(
-        says="a path of five poses that sways",
+        summary="a path of five poses that sways",
         code=_POSES.format(field="poses"),
         log="{len(msg.poses)} poses",
         checks=(

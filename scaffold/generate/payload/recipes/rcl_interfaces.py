@@ -8,7 +8,7 @@ _SPEED = "ParameterValue(type=ParameterType.PARAMETER_DOUBLE, double_value=value
 
 RECIPES: dict[str, Recipe] = {
     "FloatingPointRange": Recipe(
-        says="a range of numbers whose end moves",
+        summary="a range of numbers whose end moves",
         code="""
             msg.from_value = 0.0
             msg.to_value = 2.0 + math.sin(self.count / 10.0)
@@ -18,7 +18,7 @@ RECIPES: dict[str, Recipe] = {
         checks=("message.from_value < message.to_value",),
     ),
     "IntegerRange": Recipe(
-        says="a range of whole numbers whose end moves",
+        summary="a range of whole numbers whose end moves",
         code="""
             msg.from_value = 0
             msg.to_value = 10 + self.count % 10
@@ -28,7 +28,7 @@ RECIPES: dict[str, Recipe] = {
         checks=("message.from_value < message.to_value",),
     ),
     "ListParametersResult": Recipe(
-        says="the names of parameters, one more each time up to ten",
+        summary="the names of parameters, one more each time up to ten",
         code="""
             msg.names = [f'motor.gain_{number}' for number in range(self.count % 10 + 1)]
             msg.prefixes = ['motor']
@@ -37,7 +37,7 @@ RECIPES: dict[str, Recipe] = {
         checks=("1 <= len(message.names) <= 10", "message.prefixes == ['motor']"),
     ),
     "Log": Recipe(
-        says="a line of a log",
+        summary="a line of a log",
         code="""
             msg.stamp = self.get_clock().now().to_msg()
             msg.level = Log.INFO
@@ -51,7 +51,7 @@ RECIPES: dict[str, Recipe] = {
         checks=("message.level == Log.INFO", "message.msg.startswith('Hello World: ')"),
     ),
     "LoggerLevel": Recipe(
-        says="a logger that talks more and less in turn",
+        summary="a logger that talks more and less in turn",
         code="""
             is_verbose = self.count % 2 == 0
             msg.name = self.get_name()
@@ -61,7 +61,7 @@ RECIPES: dict[str, Recipe] = {
         checks=("message.name", "message.level in (10, 20)"),
     ),
     "Parameter": Recipe(
-        says="a parameter with a speed that changes",
+        summary="a parameter with a speed that changes",
         code="""
             msg.name = 'speed'
             msg.value.type = ParameterType.PARAMETER_DOUBLE
@@ -71,7 +71,7 @@ RECIPES: dict[str, Recipe] = {
         checks=("message.name == 'speed'", "0.4 <= message.value.double_value <= 0.6"),
     ),
     "ParameterDescriptor": Recipe(
-        says="what a parameter means, and its range, whose end moves",
+        summary="what a parameter means, and its range, whose end moves",
         code="""
             msg.name = 'speed'
             msg.type = ParameterType.PARAMETER_DOUBLE
@@ -83,7 +83,7 @@ RECIPES: dict[str, Recipe] = {
         checks=("message.name == 'speed'", "len(message.floating_point_range) == 1"),
     ),
     "ParameterEvent": Recipe(
-        says="a parameter that changes",
+        summary="a parameter that changes",
         code=f"""
             msg.stamp = self.get_clock().now().to_msg()
             msg.node = self.get_fully_qualified_name()
@@ -98,7 +98,7 @@ RECIPES: dict[str, Recipe] = {
         ),
     ),
     "ParameterEventDescriptors": Recipe(
-        says="the description of a parameter that changed",
+        summary="the description of a parameter that changed",
         code="""
             speed = ParameterDescriptor()
             speed.name = 'speed'
@@ -109,9 +109,9 @@ RECIPES: dict[str, Recipe] = {
         log="{msg.changed_parameters[0].description}",
         checks=("message.changed_parameters[0].name == 'speed'",),
     ),
-    "ParameterType": Recipe(says="nothing: the type has only constants", log="an empty message"),
+    "ParameterType": Recipe(summary="nothing: the type has only constants", log="an empty message"),
     "ParameterValue": Recipe(
-        says="a number that moves up and down",
+        summary="a number that moves up and down",
         code="""
             msg.type = ParameterType.PARAMETER_DOUBLE
             msg.double_value = 0.5 + 0.1 * math.sin(self.count / 10.0)
@@ -120,7 +120,7 @@ RECIPES: dict[str, Recipe] = {
         checks=("0.4 <= message.double_value <= 0.6",),
     ),
     "SetLoggerLevelsResult": Recipe(
-        says="success and failure in turn",
+        summary="success and failure in turn",
         code="""
             msg.successful = self.count % 2 == 0
             msg.reason = '' if msg.successful else 'the logger is not known'
@@ -129,7 +129,7 @@ RECIPES: dict[str, Recipe] = {
         checks=("message.successful == (not message.reason)",),
     ),
     "SetParametersResult": Recipe(
-        says="success and failure in turn",
+        summary="success and failure in turn",
         code="""
             msg.successful = self.count % 2 == 0
             msg.reason = '' if msg.successful else 'the value is out of range'

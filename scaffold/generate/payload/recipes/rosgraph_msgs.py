@@ -6,7 +6,7 @@ from scaffold.generate.payload.recipe import Recipe
 
 RECIPES: dict[str, Recipe] = {
     "Clock": Recipe(
-        says="a simulated time that starts at zero and moves by 0.1 seconds",
+        summary="a simulated time that starts at zero and moves by 0.1 seconds",
         code="""
             msg.clock.sec = self.count // 10
             msg.clock.nanosec = self.count % 10 * 100_000_000

@@ -16,7 +16,7 @@ _SCAN = """
 
 RECIPES: dict[str, Recipe] = {
     "BatteryState": Recipe(
-        says="the state of a battery of three cells that discharges",
+        summary="the state of a battery of three cells that discharges",
         code="""
             msg.percentage = 1.0 - self.count % 1000 / 1000.0  # 0.0 to 1.0
             msg.cell_voltage = [3.3 + 0.9 * msg.percentage] * 3  # volts
@@ -43,7 +43,7 @@ RECIPES: dict[str, Recipe] = {
         ),
     ),
     "CameraInfo": Recipe(
-        says="the calibration of a camera without distortion",
+        summary="the calibration of a camera without distortion",
         constants="""
             WIDTH = 640  # pixels
             HEIGHT = 480
@@ -67,7 +67,7 @@ RECIPES: dict[str, Recipe] = {
         ),
     ),
     "ChannelFloat32": Recipe(
-        says="the intensities of three points",
+        summary="the intensities of three points",
         code="""
             msg.name = 'intensity'
             msg.values = [abs(math.sin(self.count / 10.0 + index)) for index in range(3)]
@@ -76,7 +76,7 @@ RECIPES: dict[str, Recipe] = {
         checks=("len(message.values) == 3",),
     ),
     "CompressedImage": Recipe(
-        says="a gray PNG image with a pattern that moves to the left",
+        summary="a gray PNG image with a pattern that moves to the left",
         constants="""
             WIDTH = 64  # pixels
             HEIGHT = 48
@@ -99,7 +99,7 @@ RECIPES: dict[str, Recipe] = {
         checks=("message.format == 'png'", "bytes(message.data[1:4]) == b'PNG'"),
     ),
     "FluidPressure": Recipe(
-        says="the pressure of the air",
+        summary="the pressure of the air",
         code="""
             msg.fluid_pressure = 101325.0 + 50.0 * math.sin(self.count / 10.0)  # pascals
             msg.variance = 4.0  # pascals squared
@@ -108,7 +108,7 @@ RECIPES: dict[str, Recipe] = {
         checks=("101275.0 <= message.fluid_pressure <= 101375.0", "message.variance == 4.0"),
     ),
     "Illuminance": Recipe(
-        says="the light in a room",
+        summary="the light in a room",
         code="""
             msg.illuminance = 300.0 + 50.0 * math.sin(self.count / 10.0)  # lux
             msg.variance = 1.0  # lux squared
@@ -117,7 +117,7 @@ RECIPES: dict[str, Recipe] = {
         checks=("250.0 <= message.illuminance <= 350.0", "message.variance == 1.0"),
     ),
     "Image": Recipe(
-        says="a gray image with a pattern that moves to the left",
+        summary="a gray image with a pattern that moves to the left",
         constants="""
             WIDTH = 64  # pixels
             HEIGHT = 48
@@ -137,7 +137,7 @@ RECIPES: dict[str, Recipe] = {
         ),
     ),
     "Imu": Recipe(
-        says="the motion of a sensor that turns about the vertical axis",
+        summary="the motion of a sensor that turns about the vertical axis",
         code="""
             seconds = msg.header.stamp.sec + msg.header.stamp.nanosec / 1e9
             angle = 0.2 * seconds  # radians
@@ -163,7 +163,7 @@ RECIPES: dict[str, Recipe] = {
         ),
     ),
     "JointState": Recipe(
-        says="the state of two joints that swing",
+        summary="the state of two joints that swing",
         code="""
             msg.name = ['shoulder', 'elbow']
             seconds = msg.header.stamp.sec + msg.header.stamp.nanosec / 1e9
@@ -189,7 +189,7 @@ RECIPES: dict[str, Recipe] = {
         frame="",
     ),
     "Joy": Recipe(
-        says="the axes and buttons of a gamepad that is played with",
+        summary="the axes and buttons of a gamepad that is played with",
         code="""
             wave = math.sin(self.count / 10.0)
             msg.axes = [wave, -wave, 0.0, 0.0]  # -1.0 to 1.0
@@ -205,7 +205,7 @@ RECIPES: dict[str, Recipe] = {
         frame="",
     ),
     "JoyFeedback": Recipe(
-        says="a rumble that swells and fades",
+        summary="a rumble that swells and fades",
         code="""
             msg.type = JoyFeedback.TYPE_RUMBLE
             msg.intensity = 0.5 + 0.5 * math.sin(self.count / 10.0)  # 0.0 to 1.0
@@ -214,7 +214,7 @@ RECIPES: dict[str, Recipe] = {
         checks=("message.type == JoyFeedback.TYPE_RUMBLE", "0.0 <= message.intensity <= 1.0"),
     ),
     "JoyFeedbackArray": Recipe(
-        says="a rumble that swells and fades, and a light",
+        summary="a rumble that swells and fades, and a light",
         code="""
             intensity = 0.5 + 0.5 * math.sin(self.count / 10.0)  # 0.0 to 1.0
             msg.array = [
@@ -226,7 +226,7 @@ RECIPES: dict[str, Recipe] = {
         checks=("len(message.array) == 2",),
     ),
     "LaserEcho": Recipe(
-        says="three echoes of one ray of a laser",
+        summary="three echoes of one ray of a laser",
         code="""
             distance = 2.0 + math.sin(self.count / 10.0)  # meters
             msg.echoes = [distance, distance + 0.5, distance + 1.0]
@@ -235,7 +235,7 @@ RECIPES: dict[str, Recipe] = {
         checks=("len(message.echoes) == 3",),
     ),
     "LaserScan": Recipe(
-        says="a scan of a round room whose wall moves in and out",
+        summary="a scan of a round room whose wall moves in and out",
         constants="RAYS = 360  # of one scan",
         code=f"""{_SCAN}
     distance = 2.0 + math.sin(self.count / 10.0)  # meters
@@ -254,7 +254,7 @@ RECIPES: dict[str, Recipe] = {
         ),
     ),
     "MagneticField": Recipe(
-        says="the magnetic field of the earth, seen by a sensor that turns",
+        summary="the magnetic field of the earth, seen by a sensor that turns",
         code="""
             angle = self.count / 10.0  # radians
             msg.magnetic_field.x = 2e-5 * math.cos(angle)  # tesla
@@ -270,7 +270,7 @@ RECIPES: dict[str, Recipe] = {
         ),
     ),
     "MultiDOFJointState": Recipe(
-        says="the state of a joint that floats and circles",
+        summary="the state of a joint that floats and circles",
         code="""
             seconds = msg.header.stamp.sec + msg.header.stamp.nanosec / 1e9
             angle = 0.2 * seconds  # radians
@@ -298,7 +298,7 @@ RECIPES: dict[str, Recipe] = {
         ),
     ),
     "MultiEchoLaserScan": Recipe(
-        says="a scan of a round room with a window, two echoes for each ray",
+        summary="a scan of a round room with a window, two echoes for each ray",
         constants="RAYS = 360  # of one scan",
         code=f"""{_SCAN}
     distance = 2.0 + math.sin(self.count / 10.0)  # meters
@@ -309,7 +309,7 @@ RECIPES: dict[str, Recipe] = {
         checks=("len(message.ranges) == len(message.intensities) == 360",),
     ),
     "NavSatFix": Recipe(
-        says="the position of a receiver that is carried around a place in Munich",
+        summary="the position of a receiver that is carried around a place in Munich",
         code="""
             angle = self.count / 10.0  # radians
             msg.status.status = NavSatStatus.STATUS_FIX
@@ -331,7 +331,7 @@ RECIPES: dict[str, Recipe] = {
         ),
     ),
     "NavSatStatus": Recipe(
-        says="a fix that is lost and found in turn",
+        summary="a fix that is lost and found in turn",
         code="""
             has_fix = self.count % 2 == 0
             msg.status = NavSatStatus.STATUS_FIX if has_fix else NavSatStatus.STATUS_NO_FIX
@@ -341,7 +341,7 @@ RECIPES: dict[str, Recipe] = {
         checks=("message.status in (NavSatStatus.STATUS_FIX, NavSatStatus.STATUS_NO_FIX)",),
     ),
     "PointCloud": Recipe(
-        says="a row of points that moves up and down, with intensities",
+        summary="a row of points that moves up and down, with intensities",
         code="""
             height = math.sin(self.count / 10.0)  # meters
             msg.points = [Point32(x=float(x), z=height) for x in range(10)]
@@ -351,7 +351,7 @@ RECIPES: dict[str, Recipe] = {
         checks=("len(message.points) == len(message.channels[0].values) == 10",),
     ),
     "PointCloud2": Recipe(
-        says="a ring of points that moves up and down",
+        summary="a ring of points that moves up and down",
         constants="POINTS = 100",
         code="""
             height = math.sin(self.count / 10.0)  # meters
@@ -368,7 +368,7 @@ RECIPES: dict[str, Recipe] = {
         ),
     ),
     "PointField": Recipe(
-        says="the description of a coordinate in the data of a point: x, y and z in turn",
+        summary="the description of a coordinate in the data of a point: x, y and z in turn",
         code="""
             index = self.count % 3
             msg.name = 'xyz'[index]
@@ -380,7 +380,7 @@ RECIPES: dict[str, Recipe] = {
         checks=("message.name in ('x', 'y', 'z')", "message.datatype == PointField.FLOAT32"),
     ),
     "Range": Recipe(
-        says="the distance to something that comes and goes",
+        summary="the distance to something that comes and goes",
         code="""
             msg.radiation_type = Range.ULTRASOUND
             msg.field_of_view = 0.5  # radians
@@ -395,7 +395,7 @@ RECIPES: dict[str, Recipe] = {
         ),
     ),
     "RegionOfInterest": Recipe(
-        says="a window of an image that moves to the right",
+        summary="a window of an image that moves to the right",
         code="""
             msg.x_offset = self.count % 320  # pixels
             msg.y_offset = 120
@@ -406,7 +406,7 @@ RECIPES: dict[str, Recipe] = {
         checks=("(message.width, message.height) == (320, 240)", "message.x_offset < 320"),
     ),
     "RelativeHumidity": Recipe(
-        says="the humidity of the air",
+        summary="the humidity of the air",
         code="""
             msg.relative_humidity = 0.5 + 0.1 * math.sin(self.count / 10.0)  # 0.0 to 1.0
             msg.variance = 0.0001
@@ -415,7 +415,7 @@ RECIPES: dict[str, Recipe] = {
         checks=("0.4 <= message.relative_humidity <= 0.6",),
     ),
     "Temperature": Recipe(
-        says="the temperature of a room",
+        summary="the temperature of a room",
         code="""
             msg.temperature = 20.0 + 2.0 * math.sin(self.count / 10.0)  # degrees Celsius
             msg.variance = 0.01
@@ -424,7 +424,7 @@ RECIPES: dict[str, Recipe] = {
         checks=("18.0 <= message.temperature <= 22.0",),
     ),
     "TimeReference": Recipe(
-        says="the time of another clock, here the same one",
+        summary="the time of another clock, here the same one",
         code="""
             msg.time_ref = self.get_clock().now().to_msg()
             msg.source = 'gps'

@@ -6,7 +6,7 @@ from scaffold.generate.payload.recipe import Recipe
 
 RECIPES: dict[str, Recipe] = {
     "ServiceEventInfo": Recipe(
-        says="a request that a client with a fixed identifier sends",
+        summary="a request that a client with a fixed identifier sends",
         code="""
             msg.event_type = ServiceEventInfo.REQUEST_SENT
             msg.stamp = self.get_clock().now().to_msg()

@@ -6,7 +6,7 @@ from scaffold.generate.payload.recipe import Recipe
 
 RECIPES: dict[str, Recipe] = {
     "Mesh": Recipe(
-        says="a triangle that grows and shrinks",
+        summary="a triangle that grows and shrinks",
         code="""
             size = 2.0 + math.sin(self.count / 10.0)  # meters
             msg.vertices = [Point(), Point(x=size), Point(y=size)]
@@ -16,7 +16,7 @@ RECIPES: dict[str, Recipe] = {
         checks=("len(message.vertices) == 3", "len(message.triangles) == 1"),
     ),
     "MeshTriangle": Recipe(
-        says="the numbers of three vertices that follow each other",
+        summary="the numbers of three vertices that follow each other",
         code="""
             first = 3 * (self.count % 100)
             msg.vertex_indices = [first, first + 1, first + 2]
@@ -25,7 +25,7 @@ RECIPES: dict[str, Recipe] = {
         checks=("message.vertex_indices[2] == message.vertex_indices[0] + 2",),
     ),
     "Plane": Recipe(
-        says="a floor that moves up and down",
+        summary="a floor that moves up and down",
         code="""
             height = math.sin(self.count / 10.0)  # meters
             msg.coef = [0.0, 0.0, 1.0, -height]  # ax + by + cz + d = 0
@@ -34,7 +34,7 @@ RECIPES: dict[str, Recipe] = {
         checks=("message.coef[2] == 1.0",),
     ),
     "SolidPrimitive": Recipe(
-        says="a box that grows and shrinks",
+        summary="a box that grows and shrinks",
         code="""
             msg.type = SolidPrimitive.BOX
             length = 2.0 + math.sin(self.count / 10.0)  # meters

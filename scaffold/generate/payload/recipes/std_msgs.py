@@ -5,7 +5,7 @@ from __future__ import annotations
 from scaffold.generate.payload.recipe import Recipe
 
 _SINE = Recipe(
-    says="a sine wave",
+    summary="a sine wave",
     code="msg.data = math.sin(self.count / 10.0)",
     log="{msg.data:.3f}",
     checks=("-1.0 <= message.data <= 1.0",),
@@ -17,7 +17,7 @@ def _counter(bits: int) -> Recipe:
     end = 2**bits - 1
     limit = str(end + 1) if bits <= 16 else f"2**{bits}"  # noqa: PLR2004  readable up to 65536
     return Recipe(
-        says=f"a counter from 0 to {end}",
+        summary=f"a counter from 0 to {end}",
         code=f"msg.data = self.count % {limit}",
         log="{msg.data}",
         checks=(f"0 <= message.data < {limit}",),
@@ -25,7 +25,7 @@ def _counter(bits: int) -> Recipe:
 
 
 _ENDLESS = Recipe(
-    says="a counter",
+    summary="a counter",
     code="msg.data = self.count",
     log="{msg.data}",
     checks=("0 <= message.data",),
@@ -34,7 +34,7 @@ _ENDLESS = Recipe(
 
 def _matrix(value: str, words: str, form: str = "") -> Recipe:
     return Recipe(
-        says=f"a matrix of 2 rows and 3 columns with {words}",
+        summary=f"a matrix of 2 rows and 3 columns with {words}",
         code=f"""
             msg.layout.dim = [
                 MultiArrayDimension(label='rows', size=2, stride=6),
@@ -52,13 +52,13 @@ _WAVES = _matrix("math.sin(self.count / 10.0 + index)", "sine waves", ":.2f")
 
 RECIPES: dict[str, Recipe] = {
     "Bool": Recipe(
-        says="true and false in turn",
+        summary="true and false in turn",
         code="msg.data = self.count % 2 == 0",
         log="{msg.data}",
         checks=("isinstance(message.data, bool)",),
     ),
     "Byte": Recipe(
-        says="a counter from 0 to 255 in one byte",
+        summary="a counter from 0 to 255 in one byte",
         code="msg.data = bytes([self.count % 256])",
         log="{msg.data}",
         checks=("len(message.data) == 1",),
@@ -66,7 +66,7 @@ RECIPES: dict[str, Recipe] = {
     "ByteMultiArray": _matrix("bytes([(self.count + index) % 256])", "counters of one byte each"),
     "Char": _counter(8),
     "ColorRGBA": Recipe(
-        says="a color that goes from blue to red and back",
+        summary="a color that goes from blue to red and back",
         code="""
             msg.r = 0.5 + 0.5 * math.sin(self.count / 10.0)  # 0.0 to 1.0
             msg.b = 1.0 - msg.r
@@ -75,13 +75,13 @@ RECIPES: dict[str, Recipe] = {
         log="red {msg.r:.2f}, blue {msg.b:.2f}",
         checks=("0.0 <= message.r <= 1.0", "message.a == 1.0"),
     ),
-    "Empty": Recipe(says="nothing: an event without data", log="an empty message"),
+    "Empty": Recipe(summary="nothing: an event without data", log="an empty message"),
     "Float32": _SINE,
     "Float64": _SINE,
     "Float32MultiArray": _WAVES,
     "Float64MultiArray": _WAVES,
     "Header": Recipe(
-        says="the time of publication and the name of a frame",
+        summary="the time of publication and the name of a frame",
         code="""
             msg.stamp = self.get_clock().now().to_msg()
             msg.frame_id = self.frame_id
@@ -95,7 +95,7 @@ RECIPES: dict[str, Recipe] = {
     "UInt64": _ENDLESS,
     **{f"{sign}Int{bits}MultiArray": _COUNTERS for sign in ("", "U") for bits in (8, 16, 32, 64)},
     "MultiArrayDimension": Recipe(
-        says="a dimension of an array that grows",
+        summary="a dimension of an array that grows",
         code="""
             msg.label = 'rows'
             msg.size = self.count % 100 + 1
@@ -105,7 +105,7 @@ RECIPES: dict[str, Recipe] = {
         checks=("message.stride == 3 * message.size",),
     ),
     "MultiArrayLayout": Recipe(
-        says="the layout of an array with a growing number of rows and 3 columns",
+        summary="the layout of an array with a growing number of rows and 3 columns",
         code="""
             rows = self.count % 100 + 1
             msg.dim = [
@@ -117,7 +117,7 @@ RECIPES: dict[str, Recipe] = {
         checks=("[dim.label for dim in message.dim] == ['rows', 'columns']",),
     ),
     "String": Recipe(
-        says="a greeting with a counter",
+        summary="a greeting with a counter",
         code="msg.data = f'Hello World: {self.count}'",
         log="{msg.data}",
         checks=("message.data.startswith('Hello World: ')",),

@@ -6,12 +6,12 @@ from scaffold.generate.payload.recipe import ServiceRecipe
 
 SERVICES: dict[str, ServiceRecipe] = {
     "Empty": ServiceRecipe(
-        says="does something without saying more",
+        summary="does something without saying more",
         request_log="an empty request",
         response_log="done",
     ),
     "SetBool": ServiceRecipe(
-        says="switches something on or off",
+        summary="switches something on or off",
         request="request.data = self.count % 2 == 0  # on and off in turn",
         response="""
             response.success = True
@@ -25,7 +25,7 @@ SERVICES: dict[str, ServiceRecipe] = {
         ),
     ),
     "Trigger": ServiceRecipe(
-        says="starts something and tells whether that worked",
+        summary="starts something and tells whether that worked",
         response="""
             response.success = True
             response.message = f'started for the {self.count + 1}. time'

@@ -6,7 +6,7 @@ from scaffold.generate.payload.recipe import Recipe
 
 RECIPES: dict[str, Recipe] = {
     "DisparityImage": Recipe(
-        says="the disparity of a wall that moves to and from two cameras",
+        summary="the disparity of a wall that moves to and from two cameras",
         constants="""
             WIDTH = 64  # pixels
             HEIGHT = 48

@@ -6,7 +6,7 @@ from scaffold.generate.payload.recipe import Recipe
 
 RECIPES: dict[str, Recipe] = {
     "TF2Error": Recipe(
-        says="a lookup that works and fails in turn",
+        summary="a lookup that works and fails in turn",
         code="""
             if self.count % 2 == 0:
                 msg.error = TF2Error.NO_ERROR
@@ -18,7 +18,7 @@ RECIPES: dict[str, Recipe] = {
         checks=("message.error in (TF2Error.NO_ERROR, TF2Error.LOOKUP_ERROR)",),
     ),
     "TFMessage": Recipe(
-        says="where a frame is that circles around the origin and turns",
+        summary="where a frame is that circles around the origin and turns",
         code="""
             angle = self.count / 10.0  # radians
             transform = TransformStamped()

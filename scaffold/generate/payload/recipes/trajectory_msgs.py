@@ -6,7 +6,7 @@ from scaffold.generate.payload.recipe import Recipe
 
 RECIPES: dict[str, Recipe] = {
     "JointTrajectory": Recipe(
-        says="a motion of two joints to a target and back",
+        summary="a motion of two joints to a target and back",
         code="""
             msg.joint_names = ['shoulder', 'elbow']
             target = math.sin(self.count / 10.0)  # radians
@@ -26,7 +26,7 @@ RECIPES: dict[str, Recipe] = {
         ),
     ),
     "JointTrajectoryPoint": Recipe(
-        says="where two joints are to be after one second",
+        summary="where two joints are to be after one second",
         code="""
             angle = math.sin(self.count / 10.0)  # radians
             msg.positions = [angle, -angle]
@@ -37,7 +37,7 @@ RECIPES: dict[str, Recipe] = {
         checks=("len(message.positions) == len(message.velocities) == 2",),
     ),
     "MultiDOFJointTrajectory": Recipe(
-        says="a flight to a height and back",
+        summary="a flight to a height and back",
         code="""
             msg.joint_names = ['base']
             target = 2.0 + math.sin(self.count / 10.0)  # meters
@@ -54,7 +54,7 @@ RECIPES: dict[str, Recipe] = {
         frame="map",
     ),
     "MultiDOFJointTrajectoryPoint": Recipe(
-        says="a height that is to be reached after one second",
+        summary="a height that is to be reached after one second",
         code="""
             transform = Transform()
             transform.translation.z = 2.0 + math.sin(self.count / 10.0)  # meters

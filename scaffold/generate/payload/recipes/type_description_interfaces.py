@@ -6,7 +6,7 @@ from scaffold.generate.payload.recipe import Recipe
 
 RECIPES: dict[str, Recipe] = {
     "Field": Recipe(
-        says="a field with a number, whose default grows",
+        summary="a field with a number, whose default grows",
         code="""
             msg.name = 'number'
             msg.type.type_id = FieldType.FIELD_TYPE_INT32
@@ -19,7 +19,7 @@ RECIPES: dict[str, Recipe] = {
         ),
     ),
     "FieldType": Recipe(
-        says="the type of an array of numbers, whose size grows",
+        summary="the type of an array of numbers, whose size grows",
         code="""
             msg.type_id = FieldType.FIELD_TYPE_INT32_ARRAY
             msg.capacity = self.count % 100 + 1
@@ -31,7 +31,7 @@ RECIPES: dict[str, Recipe] = {
         ),
     ),
     "IndividualTypeDescription": Recipe(
-        says="a type with one field, whose default grows",
+        summary="a type with one field, whose default grows",
         code="""
             field = Field(name='number', default_value=str(self.count))
             field.type.type_id = FieldType.FIELD_TYPE_INT32
@@ -42,7 +42,7 @@ RECIPES: dict[str, Recipe] = {
         checks=("message.type_name == 'example/msg/Number'", "len(message.fields) == 1"),
     ),
     "KeyValue": Recipe(
-        says="a number under its name",
+        summary="a number under its name",
         code="""
             msg.key = 'number'
             msg.value = str(self.count)
@@ -51,7 +51,7 @@ RECIPES: dict[str, Recipe] = {
         checks=("message.key == 'number'", "message.value.isdigit()"),
     ),
     "TypeDescription": Recipe(
-        says="a type with one field, whose default grows",
+        summary="a type with one field, whose default grows",
         code="""
             field = Field(name='number', default_value=str(self.count))
             field.type.type_id = FieldType.FIELD_TYPE_INT32
@@ -65,7 +65,7 @@ RECIPES: dict[str, Recipe] = {
         ),
     ),
     "TypeSource": Recipe(
-        says="the text of a type with one field, whose default grows",
+        summary="the text of a type with one field, whose default grows",
         code="""
             msg.type_name = 'example/msg/Number'
             msg.encoding = 'msg'

@@ -6,7 +6,7 @@ from scaffold.generate.payload.recipe import Recipe
 
 RECIPES: dict[str, Recipe] = {
     "UUID": Recipe(
-        says="a random identifier, another one each time",
+        summary="a random identifier, another one each time",
         code="msg.uuid = list(uuid.uuid4().bytes)",
         log="{uuid.UUID(bytes=bytes(msg.uuid))}",
         checks=("len(message.uuid) == 16", "any(message.uuid)"),

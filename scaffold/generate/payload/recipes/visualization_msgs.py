@@ -17,7 +17,7 @@ _MARKER = """
 
 RECIPES: dict[str, Recipe] = {
     "ImageMarker": Recipe(
-        says="a red circle around a place in an image that moves",
+        summary="a red circle around a place in an image that moves",
         code="""
             msg.ns = 'example'
             msg.type = ImageMarker.CIRCLE
@@ -32,7 +32,7 @@ RECIPES: dict[str, Recipe] = {
         frame="camera_optical_frame",
     ),
     "InteractiveMarker": Recipe(
-        says="a marker that can be moved along an axis, and circles by itself",
+        summary="a marker that can be moved along an axis, and circles by itself",
         code="""
             msg.name = 'target'
             msg.description = 'Where to go'
@@ -50,7 +50,7 @@ RECIPES: dict[str, Recipe] = {
         frame="map",
     ),
     "InteractiveMarkerControl": Recipe(
-        says="a handle that moves a marker along an axis",
+        summary="a handle that moves a marker along an axis",
         code="""
             angle = self.count / 10.0  # radians
             msg.name = 'move'
@@ -64,7 +64,7 @@ RECIPES: dict[str, Recipe] = {
         checks=("message.interaction_mode == InteractiveMarkerControl.MOVE_AXIS",),
     ),
     "InteractiveMarkerFeedback": Recipe(
-        says="a marker that a user drags on a circle",
+        summary="a marker that a user drags on a circle",
         code="""
             msg.client_id = 'example'
             msg.marker_name = 'target'
@@ -79,7 +79,7 @@ RECIPES: dict[str, Recipe] = {
         frame="map",
     ),
     "InteractiveMarkerInit": Recipe(
-        says="all markers of a server: one that circles",
+        summary="all markers of a server: one that circles",
         code="""
             msg.server_id = 'example'
             msg.seq_num = self.count
@@ -98,7 +98,7 @@ RECIPES: dict[str, Recipe] = {
         frame="map",
     ),
     "InteractiveMarkerPose": Recipe(
-        says="the pose of a marker that circles",
+        summary="the pose of a marker that circles",
         code="""
             msg.name = 'target'
             angle = self.count / 10.0  # radians
@@ -110,7 +110,7 @@ RECIPES: dict[str, Recipe] = {
         frame="map",
     ),
     "InteractiveMarkerUpdate": Recipe(
-        says="the new pose of a marker that circles",
+        summary="the new pose of a marker that circles",
         code="""
             msg.server_id = 'example'
             msg.seq_num = self.count
@@ -128,13 +128,13 @@ RECIPES: dict[str, Recipe] = {
         frame="map",
     ),
     "Marker": Recipe(
-        says="a red ball that moves on a circle",
+        summary="a red ball that moves on a circle",
         code=_MARKER.format(marker="msg", package="example"),
         log="a ball at x {msg.pose.position.x:.2f} m",
         checks=("message.type == Marker.SPHERE", "message.color.a == 1.0"),
     ),
     "MarkerArray": Recipe(
-        says="three balls that move on a circle",
+        summary="three balls that move on a circle",
         code="""
             stamp = self.get_clock().now().to_msg()
             for index in range(3):
@@ -162,7 +162,7 @@ RECIPES: dict[str, Recipe] = {
         ),
     ),
     "MenuEntry": Recipe(
-        says="an entry of a menu",
+        summary="an entry of a menu",
         code="""
             msg.id = self.count % 100 + 1
             msg.parent_id = 0  # on the first level
@@ -173,7 +173,7 @@ RECIPES: dict[str, Recipe] = {
         checks=("message.title == f'Entry {message.id}'",),
     ),
     "MeshFile": Recipe(
-        says="a file with a triangle that grows",
+        summary="a file with a triangle that grows",
         code="""
             size = self.count % 10 + 1  # meters
             lines = ['solid triangle', 'facet normal 0 0 1', 'outer loop', 'vertex 0 0 0']
@@ -186,7 +186,7 @@ RECIPES: dict[str, Recipe] = {
         checks=("message.filename == 'triangle.stl'", "bytes(message.data[:5]) == b'solid'"),
     ),
     "UVCoordinate": Recipe(
-        says="a place on a texture that moves",
+        summary="a place on a texture that moves",
         code="""
             msg.u = 0.5 + 0.5 * math.sin(self.count / 10.0)  # 0.0 to 1.0
             msg.v = 0.5
