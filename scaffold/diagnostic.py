@@ -27,17 +27,19 @@ class Effect(IntEnum):
     """A file cannot be read, or the package is not built."""
     STOPS_PROGRAM = 1
     """A program does not start, stops or hangs."""
-    WRONG_BEHAVIOR = 2
+    STOPS_ROSDEP = 2
+    """rosdep stops at a name, so that it installs nothing for any package."""
+    WRONG_BEHAVIOR = 3
     """A program runs, but does the wrong thing, such as waiting for messages that never arrive."""
-    IGNORED = 3
+    IGNORED = 4
     """Code or a setting has no effect."""
-    SPOILS_INSTALL = 4
+    SPOILS_INSTALL = 5
     """The build or installation is incomplete; a program that needs it stops later."""
-    MISSING_ELSEWHERE = 5
+    MISSING_ELSEWHERE = 6
     """A program stops on a machine that lacks a package."""
-    DECLARED_WRONG = 6
+    DECLARED_WRONG = 7
     """The manifest, a name or a test is wrong; nothing stops here."""
-    UNPUBLISHABLE = 7
+    UNPUBLISHABLE = 8
     """Nothing stops, but a license or a notice is missing that others need."""
 
 

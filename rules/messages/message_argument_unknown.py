@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator, Sequence
 
-from scaffold.api import Diagnostic, Effect, Example, MessageRule
+from scaffold.api import Diagnostic, Example, MessageRule
 from scaffold.api.distributions import target
 from scaffold.api.interfaces import closest_word
 from scaffold.api.messages import MessageClass, MessageTypes, is_error_expected
@@ -27,7 +27,6 @@ class MessageArgumentUnknown(MessageRule):
 
     code = "MS003"
     name = "message-argument-unknown"
-    effect = Effect.IGNORED
     examples = (
         Example("keyword that is a field", {"talker.py": _PREFIX.format("data='hello'")}),
         Example(

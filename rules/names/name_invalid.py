@@ -6,7 +6,7 @@ import ast
 import re
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, RclpyRule, Report, Severity
+from scaffold.api import Diagnostic, Effect, Example, RclpyRule, Report, Severity
 from scaffold.api.python import is_guarded_by
 from scaffold.api.rclpy import (
     RclpyFile,
@@ -62,6 +62,7 @@ class NameInvalid(RclpyRule):
 
     code = "NM001"
     name = "name-invalid"
+    effect = Effect.STOPS_PROGRAM
     other_severities = {Severity.WARNING: "it has a double underscore, which no tool rejects"}
     examples = (
         Example("valid topic names", {"talker.py": _NODE.format("~/scan_2d/front")}),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Fix, Package, Report, Rule
+from scaffold.api import Diagnostic, Effect, Example, Fix, Package, Report, Rule
 from scaffold.api.manifest import way_back
 
 _TALKER = '<package format="3">\n  <name>talker</name>\n  <depend>listener</depend>\n</package>\n'
@@ -26,6 +26,7 @@ class DependencyCycle(Rule):
 
     code = "PX009"
     name = "dependency-cycle"
+    effect = Effect.STOPS_BUILD
     examples = (
         Example(
             "one direction",

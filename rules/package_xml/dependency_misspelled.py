@@ -33,7 +33,7 @@ class DependencyMisspelled(Rule):
         Severity.WARNING: "the name follows the pattern of other packages, such as rclpy_action, "
         "or is a Python key",
     }
-    effect = Effect.SPOILS_INSTALL
+    effect = Effect.STOPS_ROSDEP
     release_refused = "bloom finds no rosdep rule for the name"
     examples = (
         Example(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Effect, Example, Package, Rule
 from scaffold.api.catalog import ROS1_PACKAGES
 from scaffold.api.cmake import is_built_for_ros1
 from scaffold.api.distributions import target
@@ -26,6 +26,7 @@ class DependencyOfRos1(Rule):
 
     code = "PX024"
     name = "dependency-of-ros1"
+    effect = Effect.STOPS_ROSDEP
     examples = (
         Example("a ROS 2 package", {"package.xml": "<package><depend>rclpy</depend></package>\n"}),
         Example(

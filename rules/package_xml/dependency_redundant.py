@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Fix, Package, Report, Rule, Severity
+from scaffold.api import Diagnostic, Effect, Example, Fix, Package, Report, Rule, Severity
 
 COVERED = ("build_depend", "build_export_depend", "exec_depend")
 _MANIFEST = (
@@ -29,6 +29,7 @@ class DependencyRedundant(Rule):
 
     code = "PX025"
     name = "dependency-redundant"
+    effect = Effect.STOPS_BUILD
     other_severities = {Severity.WARNING: "colcon accepts the repetition"}
     examples = (
         Example(

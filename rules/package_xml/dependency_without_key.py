@@ -37,7 +37,7 @@ class DependencyWithoutKey(Rule):
 
     code = "PX081"
     name = "dependency-without-key"
-    effect = Effect.SPOILS_INSTALL
+    effect = Effect.STOPS_ROSDEP
     examples = (
         Example("a package", {"package.xml": _MANIFEST.format("std_msgs")}),
         Example(

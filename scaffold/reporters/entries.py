@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Hashable, Mapping, Sequence
 
 from scaffold.ament.codes import STYLE
 from scaffold.check.result import Result
@@ -73,14 +73,15 @@ def by_cause(result: Result, *, everything: bool = False) -> list[Entry]:
     without dependencies and a file without imports are one cause as well, unless everything is
     shown.
     """
+    rules = registry.loaded()
     bare: set[str] = set() if everything else _without_imports(result.diagnostics)
     causes: dict[tuple[str, ...], list[Place]] = {}
     for diagnostic in result.diagnostics:
         key: tuple[str, ...] = (diagnostic.code, diagnostic.message, diagnostic.severity.value)
         if diagnostic.code == _UNDEFINED and diagnostic.location.path in bare:
             key = (diagnostic.code, diagnostic.location.path)
-        elif diagnostic.cause.startswith(DEPENDENCY) and not everything:
-            key = (DEPENDENCY, diagnostic.severity.value)
+        elif _is_dependency(diagnostic) and not everything:
+            key = (DEPENDENCY, diagnostic.severity.value, _effect(diagnostic, rules).name)
         elif diagnostic.cause:
             key = (diagnostic.cause,)
         causes.setdefault(key, []).append(Place(result.package, diagnostic))
@@ -104,18 +105,50 @@ def merged(entries: Sequence[Entry]) -> list[Entry]:
 
     Copied packages have copied mistakes; two entries are equal if their messages are.
     """
-    same: dict[frozenset[tuple[str, str, Severity]], list[Place]] = {}
-    for entry in entries:
-        findings = [item.finding for item in entry.places]
-        key = frozenset((item.code, item.message, item.severity) for item in findings)
+    return _merged(entries, [_content(entry) for entry in entries])
+
+
+def merged_causes(entries: Sequence[Entry]) -> list[Entry]:
+    """Merge entries of several packages with one cause and message, and missing dependencies."""
+    rules = registry.loaded()
+    return _merged(entries, [_cause(entry, rules) for entry in entries])
+
+
+def _cause(entry: Entry, rules: Mapping[str, type[Rule]]) -> Hashable:
+    first = entry.first
+    if _is_dependency(first):
+        return first.severity, _effect(first, rules)
+    return (first.severity, first.cause, first.message) if first.cause else _content(entry)
+
+
+def _content(entry: Entry) -> Hashable:
+    findings = [item.finding for item in entry.places]
+    return frozenset((item.code, item.message, item.severity) for item in findings)
+
+
+def _merged(entries: Sequence[Entry], keys: Sequence[Hashable]) -> list[Entry]:
+    same: dict[Hashable, list[Place]] = {}
+    for entry, key in zip(entries, keys, strict=True):
         same.setdefault(key, []).extend(entry.places)
     return [Entry(tuple(places)) for places in same.values()]
+
+
+def dependency_of(diagnostic: Diagnostic) -> str:
+    """Return the name of the dependency that a finding is about; empty if it is about none."""
+    return diagnostic.cause.removeprefix(DEPENDENCY) if _is_dependency(diagnostic) else ""
+
+
+def names_dependencies(entry: Entry) -> bool:
+    """Tell whether an entry is about several dependencies, possibly of several packages."""
+    names = {(id(item.package), dependency_of(item.finding)) for item in entry.places}
+    return len(names) > 1 and all(name for _, name in names)
 
 
 def in_order(entries: Sequence[Entry]) -> list[Entry]:
     """Return entries by severity; within one, files that cannot be read or built come first.
 
-    Then come crashes, wrong behavior, code without effect, wrong builds, and declarations.
+    Then come crashes, names at which rosdep stops, wrong behavior, code without effect, wrong
+    builds, missing dependencies, and declarations.
 
     Directories such as ``archive`` or ``old`` come last.
     """
@@ -128,7 +161,11 @@ def is_style(diagnostic: Diagnostic) -> bool:
     return diagnostic.code in STYLE and diagnostic.severity is not Severity.ERROR
 
 
-def _is_set_aside(entry: Entry) -> bool:
+def _is_dependency(diagnostic: Diagnostic) -> bool:
+    return diagnostic.cause.startswith(DEPENDENCY)
+
+
+def is_set_aside(entry: Entry) -> bool:
     """Tell whether all places of an entry are in directories with code that is kept, not used."""
     return all(
         any(_SET_ASIDE.fullmatch(name) for name in shown(package, path).split(os.sep)[:-1])
@@ -138,7 +175,7 @@ def _is_set_aside(entry: Entry) -> bool:
 
 def _rank(entry: Entry, rules: Mapping[str, type[Rule]]) -> tuple[int, bool, bool, Effect]:
     level = SEVERITIES.index(entry.severity)
-    return level, is_style(entry.first), _is_set_aside(entry), _effect(entry.first, rules)
+    return level, is_style(entry.first), is_set_aside(entry), _effect(entry.first, rules)
 
 
 def _effect(first: Diagnostic, rules: Mapping[str, type[Rule]]) -> Effect:
@@ -148,7 +185,7 @@ def _effect(first: Diagnostic, rules: Mapping[str, type[Rule]]) -> Effect:
         return Effect.STOPS_BUILD if code.startswith("E9") else Effect.STOPS_PROGRAM
     rule = rules.get(code)
     effect = rule.usual_effect() if rule else Effect.STOPS_PROGRAM
-    if first.cause.startswith(DEPENDENCY):
+    if _is_dependency(first) and effect is not Effect.STOPS_ROSDEP:
         return Effect.MISSING_ELSEWHERE
     if effect in _AT_RUN_TIME and _TESTS.search(first.location.path):
         return Effect.SPOILS_INSTALL

@@ -4,12 +4,10 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
-from textwrap import shorten
 from types import MappingProxyType
 from typing import TextIO
 
 from rich.console import Console
-from rich.style import Style
 from rich.text import Text
 
 from scaffold.check.adjustments import runs_linter
@@ -17,25 +15,19 @@ from scaffold.check.result import Result
 from scaffold.diagnostic import Diagnostic, Severity
 from scaffold.printable import printable
 from scaffold.record import NamedTuple
-from scaffold.reporters import ReportOptions, rule_pages
+from scaffold.reporters import ReportOptions, crowded, rule_pages
 from scaffold.reporters.entries import (
     SEVERITIES,
     Entry,
-    Place,
     by_cause,
     in_order,
     is_style,
     merged,
+    merged_causes,
 )
-from scaffold.reporters.excerpt import excerpt
-from scaffold.reporters.paths import place
+from scaffold.reporters.entry_text import full, height
 from scaffold.reporters.summary import by_severity, count, fixable, summary
 
-_COLORS = {Severity.ERROR: "bold red", Severity.WARNING: "bold yellow", Severity.INFO: "bold cyan"}
-_MAX_PLACES = 3
-"""The maximum number of further places of an entry; the others are counted."""
-MAX_MESSAGE = 300
-"""The maximum length of a message, as it may end in a long list."""
 _MAX_NAMED = 4
 """The maximum number of packages or codes listed with counts."""
 _MIN_LINES = 12
@@ -61,8 +53,8 @@ def report(results: Sequence[Result], out: TextIO, options: ReportOptions) -> No
     """
     console = Console(file=out, highlight=False, soft_wrap=True)
     folded = _fold(results, options)
-    hidden = {id(result.package): set(result.diagnostics) for result in folded.results}
-    kept = [_without_hidden(result, hidden.get(id(result.package), set())) for result in results]
+    style = {id(result.package): set(result.diagnostics) for result in folded.results}
+    kept = [_without(result, style.get(id(result.package), set())) for result in results]
     entries = merged(
         in_order(
             [
@@ -74,24 +66,46 @@ def report(results: Sequence[Result], out: TextIO, options: ReportOptions) -> No
         )
     )
     footer = [] if options.quiet else _footer(results, folded, options)
-    blocks = _blocks(entries, options)
-    room = len(blocks)
-    if not options.everything:
-        room = _fitting_blocks(
-            blocks, max(_MIN_LINES, console.height - len(footer) - 6), console.width
-        )
-    links = rule_pages.links({entry.first.code for entry in entries[:room]})
-    for block in _blocks(entries[:room], options, links):
+    room = max(_MIN_LINES, console.height - len(footer) - 6)
+    shown, hidden = _shown(entries, room, console.width, options)
+    for block in shown:
         console.print(block)
-    if room < len(blocks) and not options.quiet:
-        footer = [*_hidden_lines(entries[room:]), *footer]
-    if blocks and footer:
+    if hidden and not options.quiet:
+        footer = [*_hidden_lines(hidden), *footer]
+    if shown and footer:
         console.print()
     for text in footer:
         console.print(text)
 
 
-def _without_hidden(result: Result, hidden: set[Diagnostic]) -> Result:
+def _shown(
+    entries: Sequence[Entry], room: int, width: int, options: ReportOptions
+) -> tuple[list[Text], Sequence[Entry]]:
+    """Return the texts of the entries that fit, and the other entries.
+
+    If those of the highest severity do not fit, they are shown briefly.
+    """
+    blocks = _blocks(entries, options, width)
+    fitting = len(blocks) if options.everything else _fitting_blocks(blocks, room, width)
+    rest = entries[fitting:]
+    if rest and rest[0].severity is entries[0].severity:
+        return _crowded(entries, room, width, options)
+    links = rule_pages.links({entry.first.code for entry in entries[:fitting]})
+    return _blocks(entries[:fitting], options, width, links), rest
+
+
+def _crowded(
+    entries: Sequence[Entry], room: int, width: int, options: ReportOptions
+) -> tuple[list[Text], Sequence[Entry]]:
+    """Return the texts of as many of the worst entries as possible, and the other entries."""
+    worst = [entry for entry in entries if entry.severity is entries[0].severity]
+    shown, hidden = crowded.choose(merged_causes(worst), room, width, options)
+    links = rule_pages.links({item.entry.first.code for item in shown})
+    texts = [item.text(width, options, links.get(item.entry.first.code)) for item in shown]
+    return texts, [*hidden, *entries[len(worst) :]]
+
+
+def _without(result: Result, hidden: set[Diagnostic]) -> Result:
     kept = [diagnostic for diagnostic in result.diagnostics if diagnostic not in hidden]
     return Result(result.package, result.files, kept)
 
@@ -123,88 +137,35 @@ def _fold(results: Sequence[Result], options: ReportOptions) -> _Folded:
 def _blocks(
     entries: Sequence[Entry],
     options: ReportOptions,
+    width: int,
     links: Mapping[str, str] = MappingProxyType({}),
 ) -> list[Text]:
-    """Return the lines of each entry, with the name of the package above them.
+    """Return the text of each entry, with the name of the package above the first of each.
 
     Args:
         entries: The entries in order.
         options: The display options.
+        width: The number of columns.
         links: The pages of codes; terminals without links ignore them.
     """
     blocks: list[Text] = []
     package = None
     for entry in entries:
-        lines: list[Text] = []
+        text = full(entry, options, width, links.get(entry.first.code))
         if entry.package is not package:
             package = entry.package
-            lines += [Text(), Text(printable(package.name), style="bold underline")]
-        lines += _lines(entry, options, links.get(entry.first.code))
-        blocks.append(Text("\n").join(lines))
-    if blocks:
-        blocks[0] = blocks[0][1:]  # no empty line above the first package
+            name = Text(printable(package.name), style="bold underline")
+            text = Text("\n").join([*([Text()] if blocks else []), name, text])
+        blocks.append(text)
     return blocks
 
 
-def _lines(entry: Entry, options: ReportOptions, link: str | None) -> list[Text]:
-    first = entry.first
-    message = printable(first.text)
-    if not options.everything:
-        message = shorten(message, MAX_MESSAGE, placeholder=" …")
-    lines = [
-        Text.assemble(
-            (place(entry.package, first), "cyan"),
-            ": ",
-            (first.severity.value, _COLORS[first.severity]),
-            " ",
-            (first.code, Style(bold=True, link=link)),
-            f" {message} ",
-            (f"[{first.name}]", "dim"),
-        )
-    ]
-    if options.source is not False:
-        for text, style in zip(excerpt(entry.package, first.location), ("", "red"), strict=False):
-            lines.append(Text(f"    {text}", style=style))
-    if len(entry.places) > 1:
-        lines += _other_places(entry)
-    return lines
-
-
-def _other_places(entry: Entry) -> list[Text]:
-    """Return the other places, in one line if all have the same message."""
-    first = entry.first
-    others = _new_first(entry)
-    shown = others[:_MAX_PLACES]
-    rest = len(others) - len(shown)
-    more = f" and {count(rest, 'more place')}" if rest else ""
-    places = [place(item.package, item.finding) for item in shown]
-    findings = [item.finding for item in shown]
-    if all((item.code, item.text) == (first.code, first.text) for item in findings):
-        return [Text(f"    also at {', '.join(places)}{more}", style="dim")]
-    lines = [
-        f"    also {at}: {item.code} {shorten(printable(item.text), 80, placeholder=' …')}"
-        for at, item in zip(places, findings, strict=True)
-    ]
-    return [Text(line, style="dim") for line in (*lines, *([f"   {more}"] if rest else []))]
-
-
-def _new_first(entry: Entry) -> list[Place]:
-    """Return the further places of an entry, those with repeated messages last."""
-    messages = {entry.first.text}
-    new: list[Place] = []
-    repeated: list[Place] = []
-    for item in entry.places[1:]:
-        (repeated if item.finding.text in messages else new).append(item)
-        messages.add(item.finding.text)
-    return [*new, *repeated]
-
-
-def _fitting_blocks(blocks: Sequence[Text], height: int, width: int) -> int:
+def _fitting_blocks(blocks: Sequence[Text], room: int, width: int) -> int:
     """Return the number of blocks that fit on the screen, at least one."""
     used = 0
     for at, block in enumerate(blocks):
-        used += sum(max(1, -(-len(item) // width)) for item in block.plain.split("\n"))
-        if used > height:
+        used += height(block, width)
+        if used > room:
             return max(1, at)
     return len(blocks)
 

@@ -168,6 +168,15 @@ def test_terminal_shows_one_screen_and_counts_the_rest(crowded: Path) -> None:
     assert len([line for line in findings(everything) if " TY003 " in line]) == 40
 
 
+def test_crowded_terminal_shows_every_kind_of_error(crowded: Path) -> None:
+    (crowded / "robot" / "robot" / "client.py").write_text("value = 1\n")
+    _, lines = on_terminal(crowded, "robot", lines=30)
+    shown = [line.split()[2] for line in findings(lines)]
+    assert shown.count("TY003") > 5
+    assert shown[0] == "TY003"
+    assert "LY020" in shown
+
+
 def test_report_fits_the_height_of_the_terminal(crowded: Path) -> None:
     _, small = on_terminal(crowded, "robot", lines=30)
     _, large = on_terminal(crowded, "robot", lines=90)

@@ -1,0 +1,109 @@
+"""The choice of entries for a screen that is too small."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from scaffold.check.result import Result
+from scaffold.check.rules import registry
+from scaffold.configuration import content
+from scaffold.diagnostic import Diagnostic, Severity
+from scaffold.model.package import Package
+from scaffold.reporters import ReportOptions
+from scaffold.reporters.crowded import choose
+from scaffold.reporters.entries import Entry, by_cause, in_order, merged_causes
+from scaffold.source import Location
+
+WIDTH = 80
+
+
+@pytest.fixture(autouse=True)
+def workspace(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Load the rules, which declare the effects of findings, and enter an empty directory."""
+    registry.load(content.roots("rules"))
+    monkeypatch.chdir(tmp_path)
+
+
+def _entries(findings: list[tuple[str, str]], package: str = ".", cause: str = "{}") -> list[Entry]:
+    """Return the entries of findings, each with a code and a message."""
+    diagnostics = []
+    for line, (code, message) in enumerate(findings, 1):
+        at = Location("node.py", line, 1, line, 6)
+        name = cause.format(message)
+        diagnostics.append(Diagnostic(code, "a-name", Severity.ERROR, at, message, None, name))
+    return by_cause(Result(Package.at(package), 1, diagnostics))
+
+
+def _shown(entries: list[Entry], room: int, width: int = WIDTH) -> tuple[list[str], int]:
+    """Return the lines on the screen, and the number of hidden entries."""
+    shown, hidden = choose(entries, room, width, ReportOptions())
+    texts = [item.text(width, ReportOptions()).plain for item in shown]
+    return "\n".join(texts).split("\n"), len(hidden)
+
+
+def test_each_code_is_shown_once_before_any_is_shown_twice() -> None:
+    names = [("TY003", f"name {number}") for number in range(9)]
+    entries = _entries([*names, ("ND001", "some words"), ("CM014", "other words")])
+    lines, hidden = _shown(in_order(entries), room=4)
+    assert [line.split()[2:5] for line in lines] == [
+        ["TY003", "name", "0"],
+        ["TY003", "name", "1"],
+        ["ND001", "some", "words"],
+        ["CM014", "other", "words"],
+    ]
+    assert hidden == 7
+
+
+def test_first_entries_have_a_source_line_if_there_is_room() -> None:
+    Path("package.xml").write_text("<package><name>talker</name></package>\n")
+    Path("node.py").write_text("first()\nsecond()\n")
+    entries = _entries([("TY003", "one"), ("TY003", "two")])
+    source = "       1 | first()"
+    assert source not in _shown(entries, room=2)[0]
+    lines, hidden = _shown(entries, room=4)
+    assert (source in lines, "       2 | second()" in lines, hidden) == (True, False, 0)
+
+
+def test_long_messages_have_two_lines_if_there_is_room() -> None:
+    entries = _entries([("TY003", "word " * 40), ("ND001", "other " * 40)])
+    assert [len(line) for line in _shown(entries, room=2)[0]] == [WIDTH, WIDTH]
+    assert [len(line) > WIDTH for line in _shown(entries, room=3)[0]] == [True, False]
+
+
+def test_further_places_are_counted() -> None:
+    entries = _entries([("TY003", "same"), ("TY003", "same"), ("TY003", "same")])
+    (line,), _ = _shown(entries, room=1)
+    assert line == "node.py:1:1: error TY003 same and 2 more places"
+
+
+def test_missing_dependencies_of_all_packages_are_one_entry_with_their_names() -> None:
+    names = [("PX020", name) for name in ("rclpy", "std_msgs", "yaml")]
+    talker = _entries(names, "talker", "dependency {}")
+    listener = _entries([*names, ("LF005", "rviz2")], "listener", "dependency {}")
+    lines, hidden = _shown(merged_causes([*talker, *listener]), room=3)
+    assert hidden == 0
+    assert lines == [
+        "talker/node.py:1:1: error PX020 rclpy [a-name]",
+        "    also std_msgs, yaml; in listener: rclpy, std_msgs, yaml, rviz2",
+    ]
+
+
+def test_many_missing_dependencies_are_counted_by_package() -> None:
+    names = [("PX020", f"some_long_name_{number}") for number in range(20)]
+    talker = _entries(names, "talker", "dependency {}")
+    listener = _entries(names, "listener", "dependency {}")
+    lines, _ = _shown(merged_causes([*talker, *listener]), room=3)
+    assert lines[1] == "    also 19 in talker, 20 in listener"
+
+
+def test_names_that_rosdep_rejects_are_separate_from_missing_dependencies() -> None:
+    entries = _entries(
+        [("PX020", "rclpy"), ("PX081", "cv2"), ("PX081", "torch")], cause="dependency {}"
+    )
+    ordered = in_order(merged_causes(entries))
+    assert [[item.finding.message for item in entry.places] for entry in ordered] == [
+        ["cv2", "torch"],
+        ["rclpy"],
+    ]
