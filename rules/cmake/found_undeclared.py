@@ -62,7 +62,8 @@ class FoundUndeclared(Rule):
     release_refused = "the build farm does not install the package before it builds"
     other_severities = {
         Severity.WARNING: "it is declared as a run dependency only; or it is only looked for "
-        "under a condition that need not hold"
+        "under a condition that need not hold; or an unknown dependency with a related name may "
+        "bring it"
     }
     examples = (
         Example(
@@ -167,6 +168,26 @@ class FoundUndeclared(Rule):
             },
         ),
         Example(
+            "messages that unknown messages may bring",
+            {
+                "package.xml": _MANIFEST.format("  <depend>arm_msgs</depend>\n"),
+                "CMakeLists.txt": _LISTS.format("std_msgs"),
+            },
+            Report(
+                "CMakeLists.txt:3:14",
+                "finds 'std_msgs', which package.xml does not declare; add "
+                "<build_depend>std_msgs</build_depend>",
+                fix="Declare std_msgs",
+                severity=Severity.WARNING,
+            ),
+            fixed={
+                "package.xml": _MANIFEST.format("  <depend>arm_msgs</depend>\n").replace(
+                    "  <depend>rclcpp</depend>\n",
+                    "  <build_depend>std_msgs</build_depend>\n  <depend>rclcpp</depend>\n",
+                )
+            },
+        ),
+        Example(
             "not declared",
             {"package.xml": _MANIFEST.format(""), "CMakeLists.txt": _LISTS.format("std_msgs")},
             Report(
@@ -226,6 +247,7 @@ class FoundUndeclared(Rule):
     def check(self, package: Package) -> Iterator[Diagnostic]:
         yield from self._check_run_only(package)
         manifest = package.manifest
+        dependencies = requirements.declared(package, for_tests=True)
         reported: set[str] = set()
         always_first = sorted(
             _undeclared(package), key=lambda found: not _is_always_found(package, found)
@@ -249,7 +271,9 @@ class FoundUndeclared(Rule):
             reported.add(name)
             needed = declaring(package, _tag(found), name)
             message = f"finds {name!r}, which package.xml does not declare; {needed.advice}"
-            severity = None if _is_always_found(package, found) else Severity.WARNING
+            is_certain = _is_always_found(package, found)
+            is_certain = is_certain and not dependencies.may_bring(package, name)
+            severity = None if is_certain else Severity.WARNING
             cause = f"dependency {name}"
             yield self.report(found, message, needed.fix, severity=severity, cause=cause)
 

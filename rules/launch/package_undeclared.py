@@ -38,7 +38,8 @@ class PackageUndeclared(Rule):
     code = "LF005"
     name = "package-undeclared"
     other_severities = {
-        Severity.WARNING: "the package is in the workspace, or provides a ros2 command"
+        Severity.WARNING: "the package is in the workspace, provides a ros2 command, or may come "
+        "with an unknown dependency, whose name is related"
     }
     examples = (
         Example(
@@ -133,6 +134,28 @@ class PackageUndeclared(Rule):
             fixed={
                 "package.xml": _MANIFEST.format(
                     "  <exec_depend>arm</exec_depend>\n  <exec_depend>launch_ros</exec_depend>\n"
+                )
+            },
+        ),
+        Example(
+            "a package that an unknown dependency of the same family may bring",
+            {
+                "package.xml": _MANIFEST.format(
+                    "  <exec_depend>rviz2_arm_displays</exec_depend>\n"
+                ),
+                "launch/a.launch.py": _LAUNCH,
+            },
+            Report(
+                "launch/a.launch.py:8:22",
+                "starts a node of 'rviz2', which package.xml does not declare; add "
+                "<exec_depend>rviz2</exec_depend>",
+                fix="Declare rviz2",
+                severity=Severity.WARNING,
+            ),
+            fixed={
+                "package.xml": _MANIFEST.format(
+                    "  <exec_depend>rviz2</exec_depend>\n"
+                    "  <exec_depend>rviz2_arm_displays</exec_depend>\n"
                 )
             },
         ),
@@ -241,6 +264,7 @@ class PackageUndeclared(Rule):
                 yield self.report(use.location, f"{message}; use {replacement}")
                 continue
             is_near = package.workspace.get(use.name) is not None or use.name.startswith("ros2")
+            is_near = is_near or dependencies.may_bring(package, use.name)
             severity = Severity.WARNING if is_near else Severity.ERROR
             other = next((item for item in manifest.dependencies if item.name == use.name), None)
             if other is not None:

@@ -57,7 +57,8 @@ class ImportUndeclared(Rule):
     other_severities = {
         Severity.WARNING: "it is installed with `ros2 launch` and only imported by launch files, "
         "only scripts in the share directory import it, requirements.txt or pyproject.toml lists "
-        "it, or it is torch, which is often installed with pip",
+        "it, an unknown dependency with a related name may bring it, or it is torch, which is "
+        "often installed with pip",
     }
     examples = (
         Example(
@@ -315,6 +316,28 @@ class ImportUndeclared(Rule):
             fixed={"package.xml": _manifest("python3-torch")},
         ),
         Example(
+            "messages that an unknown dependency of the same family may bring",
+            {
+                "package.xml": _manifest("arm_bringup"),
+                "talker/__init__.py": "",
+                "talker/node.py": "import rclpy\nfrom arm_msgs.msg import State\n",
+            },
+            Report(
+                "talker/node.py:1:1",
+                "imports 'rclpy', which package.xml does not declare; add "
+                "<exec_depend>rclpy</exec_depend>",
+                fix="Declare rclpy",
+            ),
+            Report(
+                "talker/node.py:2:1",
+                "imports 'arm_msgs', which package.xml does not declare; add "
+                "<exec_depend>arm_msgs</exec_depend>",
+                fix="Declare arm_msgs",
+                severity=Severity.WARNING,
+            ),
+            fixed={"package.xml": _manifest("arm_bringup", "arm_msgs", "rclpy")},
+        ),
+        Example(
             "a package that is installed with `ros2 launch`",
             {
                 "package.xml": _manifest(),
@@ -461,6 +484,7 @@ class ImportUndeclared(Rule):
                 continue  # reported by module-of-ros1-imported
             comes_otherwise = _comes_with_launch(need) or need.module in _INDEX or need.in_data
             comes_otherwise = comes_otherwise or is_from_pip
+            comes_otherwise = comes_otherwise or dependencies.may_bring(package, need.keys[0])
             severity = Severity.WARNING if comes_otherwise else Severity.ERROR
             purposes = ("run", "test") if need.for_tests else ("run",)
             other = manifest.left_out(need.keys, *purposes)

@@ -8,12 +8,18 @@ from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from scaffold.formats.hash_comments import without_comments
-from scaffold.model.catalog import ROS1_PACKAGES, keys_brought, keys_of_module
+from scaffold.model.catalog import (
+    ROS1_PACKAGES,
+    ROS_PACKAGES,
+    keys_brought,
+    keys_of_module,
+    module_of_key,
+)
 from scaffold.model.cmake.ament import programs
 from scaffold.model.cmake.rosidl import generations
 from scaffold.model.python.facts import imports_by_path
 from scaffold.model.python.module import is_collected, is_in_tests
-from scaffold.model.released import transitive_dependencies
+from scaffold.model.released import is_released, transitive_dependencies
 from scaffold.record import NamedTuple
 from scaffold.source import ViewError
 
@@ -32,6 +38,10 @@ _NOT_INSTALLING = re.compile(
     r"|\bPYTHONPATH=[^\s)]*"
 )
 """Matches CMake calls with C++ directories, and the search path of tests."""
+_OF_MESSAGES = ("_msgs", "_interfaces", "_msg")
+"""The last parts of names of interface packages, which often use those of ROS."""
+_COMMON_WORDS = frozenset({"ament", "my", "python", "python3", "ros", "ros2"})
+"""First parts of names that do not make packages related."""
 _OLD_STANDARD_LIBRARY = frozenset({"distutils", "imp", "asynchat", "asyncore", "smtpd"})
 
 
@@ -61,6 +71,18 @@ class Declared(NamedTuple):
 
     direct: set[str]
     along: set[str]
+    unknown: frozenset[str]
+    """Packages that are neither released nor in the workspace; what they bring is not known."""
+
+    def may_bring(self, package: Package, name: str) -> bool:
+        """Tell whether an unknown dependency may bring a package from outside of the workspace.
+
+        Their names are related: ``arm_bringup`` may bring ``arm_msgs``, and ``arm_msgs`` may bring
+        ``sensor_msgs``.
+        """
+        return package.workspace.get(name) is None and any(
+            _are_related(dependency, name) for dependency in self.unknown
+        )
 
 
 def required_packages(package: Package) -> list[Requirement]:
@@ -124,7 +146,23 @@ def _declared(package: Package, for_tests: bool) -> Declared:  # noqa: FBT001  a
             along |= brought
             pending += sorted(brought)
     along |= transitive_dependencies(along)
-    return Declared(direct, along | keys_brought(direct | along))
+    unknown = frozenset(name for name in direct | along if _is_unknown(package, name))
+    return Declared(direct, along | keys_brought(direct | along), unknown)
+
+
+def _is_unknown(package: Package, name: str) -> bool:
+    """Tell whether a dependency is a package that is neither released nor in the workspace."""
+    is_known = is_released(name) or name in ROS_PACKAGES or name in ROS1_PACKAGES
+    is_module = name in sys.stdlib_module_names or keys_of_module(name) or module_of_key(name)
+    return not (is_known or is_module) and package.workspace.get(name) is None
+
+
+def _are_related(dependency: str, name: str) -> bool:
+    """Tell whether two packages are of one family, or both contain interfaces."""
+    first = dependency.partition("_")[0]
+    if first == name.partition("_")[0] and first not in _COMMON_WORDS:
+        return True
+    return dependency.endswith(_OF_MESSAGES) and name.endswith(_OF_MESSAGES)
 
 
 def is_shipped(package: Package, path: str) -> bool:
