@@ -171,7 +171,9 @@ class TextReadAsYaml(Rule):
                 cause = f"command read as YAML in {path}"
                 yield self.report(at, message, severity=Severity.ERROR, cause=cause)
         for node in started_nodes(package):
-            given = [x for x in node.parameters if x.is_configuration and not x.has_choices]
+            given = [
+                x for x in node.parameters if x.configuration is not None and not x.has_choices
+            ]
             owner = node.owner(package) if given else None
             declared = declared_by(owner, package) if owner is not None else None
             for item in given if declared is not None else ():

@@ -44,6 +44,14 @@ _NODE = (
     "        self.declare_parameter('rate', 2.0)\n"
     "        self.declare_parameter('limits.high', 3)\n"
 )
+_LAUNCH = (
+    "from launch import LaunchDescription\nfrom launch.substitutions import LaunchConfiguration\n"
+    "from launch_ros.actions import Node\n\n\n"
+    "def generate_launch_description():\n    return LaunchDescription([\n"
+    "        Node(package='demo', executable='talk', parameters=[{\n"
+    "            'rate': LaunchConfiguration('rate'), 'rates': LaunchConfiguration('rate'),\n"
+    "            'raet': LaunchConfiguration('speed')}]),\n    ])\n"
+)
 _FILE = "talker:\n  ros__parameters:\n    rate: 1.0\n    use_sim_time: true\n    {}\n"
 
 
@@ -162,6 +170,28 @@ class ParameterUndeclared(Rule):
             ),
         ),
         Example(
+            "one launch argument set under both names",
+            {
+                "package.xml": "<package><name>demo</name><export>"
+                "<build_type>ament_python</build_type></export></package>\n",
+                "setup.py": "from setuptools import setup\n\nsetup(entry_points={\n"
+                "    'console_scripts': ['talk = demo.talker:main']})\n",
+                "demo/__init__.py": "",
+                "demo/talker.py": "import rclpy\n"
+                + _NODE.format("")
+                + "\n\ndef main():\n    rclpy.spin(Talker())\n",
+                "launch/a.launch.py": _LAUNCH,
+            },
+            Report(
+                "launch/a.launch.py:9:50",
+                "node 'talker' declares no parameter 'rates': the value is ignored; "
+                "did you mean 'rate'?",
+                severity=Severity.WARNING,
+            ),
+            "launch/a.launch.py:10:13: node 'talker' declares no parameter 'raet': the value is "
+            "ignored; did you mean 'rate'?",
+        ),
+        Example(
             "misspelled, and missing",
             {
                 "talker.py": _NODE.format(""),
@@ -269,7 +299,9 @@ class _Ignored(NamedTuple):
 def _comparable_in_launch(given: GivenParameter) -> str:
     """Return the comparable part of a value from a launch file; empty if there is none."""
     value = given.value
-    if value is None or given.is_configuration:
+    if isinstance(given.configuration, str):
+        return f"$(var {given.configuration})"
+    if value is None or given.configuration is not None:
         return ""
     return value.text if value.number is None else comparable(value.number)
 

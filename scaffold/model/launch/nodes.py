@@ -39,8 +39,8 @@ class GivenParameter(NamedTuple):
     location: Location
     """The location of the value."""
     value: GivenValue | None
-    is_configuration: bool
-    """Whether the value is a launch configuration."""
+    configuration: str | Unknown | None
+    """The name of the launch configuration that is the value, if it is one."""
     has_choices: bool
     """Whether it has choices, all of which are strings in YAML."""
 
@@ -242,12 +242,13 @@ def _given_in(
 def _given(launch: LaunchFile, name: str, key: ast.expr, value: ast.expr) -> GivenParameter:
     call = launch.call_of(value)
     is_configuration = call is not None and call.kind == "LaunchConfiguration"
+    configuration = launch.text(call, "variable_name") if call and is_configuration else None
     return GivenParameter(
         name,
         launch.location(key),
         launch.location(value),
         value_given(launch, value),
-        is_configuration,
+        configuration,
         call is not None and is_configuration and _has_choices(launch, call),
     )
 
