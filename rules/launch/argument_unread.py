@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import ast
-import re
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, LaunchRule, Package, Severity, ViewError
-from scaffold.api.launch import BY_LAUNCH, LaunchCall, LaunchFile, included, is_named_elsewhere
+from scaffold.api import Diagnostic, Example, LaunchRule, Package, Severity
+from scaffold.api.launch import LaunchFile, unread_arguments
 
 _LAUNCH = (
     "from launch import LaunchDescription\nfrom launch.actions import DeclareLaunchArgument\n"
@@ -70,47 +68,6 @@ class ArgumentUnread(LaunchRule):
     )
 
     def check_in(self, package: Package, launch: LaunchFile) -> Iterator[Diagnostic]:
-        if launch.function is None or _is_open(package, launch):
-            return
-        for call in launch.find("DeclareLaunchArgument"):
-            name = launch.text(call, "name")
-            if not isinstance(name, str) or name in BY_LAUNCH or _is_mentioned(launch, call, name):
-                continue
-            if is_named_elsewhere(package, launch.path, name) or _is_in_yaml(package, name):
-                continue
+        for call, name in unread_arguments(package, launch):
             message = f"nothing reads the argument {name!r}: another value changes nothing"
             yield self.report(call, message)
-
-
-def _is_open(package: Package, launch: LaunchFile) -> bool:
-    """Tell whether a file may read arguments by computed names, or unknown files may."""
-    if launch.module.mentions("launch_configurations"):
-        return True
-    names = [launch.text(call, "variable_name") for call in launch.find("LaunchConfiguration")]
-    includes = launch.find("IncludeLaunchDescription")
-    return not all(isinstance(name, str) for name in names) or any(
-        included(package, launch, call) is None for call in includes
-    )
-
-
-def _is_mentioned(launch: LaunchFile, declaration: LaunchCall, name: str) -> bool:
-    """Tell whether a string outside of a declaration contains the name of the argument."""
-    whole = re.compile(rf"(?<!\w){re.escape(name)}(?!\w)")
-    return any(
-        isinstance(node.value, str)
-        and whole.search(node.value)
-        and not launch.module.is_inside(node, declaration.call)
-        for node in launch.module.walk(ast.Constant)
-    )
-
-
-def _is_in_yaml(package: Package, name: str) -> bool:
-    """Tell whether a file with substitutions, such as a parameter file, has the argument."""
-    for path in package.files:
-        if path.endswith((".yaml", ".yml")):
-            try:
-                if f"$(var {name})" in package.source(path).text:
-                    return True
-            except ViewError:
-                continue
-    return False

@@ -5,7 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
-from scaffold.api.launch import is_left_to_the_user, missing_in, paths_of, why_missing
+from scaffold.api.launch import (
+    is_left_to_the_user,
+    is_of_unread_argument,
+    missing_in,
+    paths_of,
+    why_missing,
+)
 
 _LAUNCH = (
     "import os\n\nfrom ament_index_python.packages import get_package_share_directory\n"
@@ -15,6 +21,10 @@ _LAUNCH = (
     "    return LaunchDescription([\n"
     "        Node(package='talker', executable='talk',\n"
     "             parameters=[os.path.join(share, {})]),\n    ])\n"
+)
+_IMPORTS = (
+    "\nfrom launch.actions import DeclareLaunchArgument, LogInfo\n"
+    "from launch.substitutions import LaunchConfiguration\nfrom launch_ros"
 )
 _NODE = (
     "import os\n\nfrom ament_index_python.packages import get_package_share_directory\n\n"
@@ -52,7 +62,10 @@ class SharePathMissing(Rule):
 
     code = "LF015"
     name = "share-path-missing"
-    other_severities = {Severity.WARNING: "its directory contains only a README or .gitkeep"}
+    other_severities = {
+        Severity.WARNING: "its directory contains only a README or .gitkeep; or it is the default "
+        "of a launch argument that nothing reads"
+    }
     examples = (
         Example(
             "installed", {**_FILES, "launch/a.launch.py": _LAUNCH.format("'config', 'talker.yaml'")}
@@ -67,6 +80,35 @@ class SharePathMissing(Rule):
             Report(
                 "launch/a.launch.py:12:26",
                 "share/talker/models/best.pt does not exist: talker has no such file",
+                severity=Severity.WARNING,
+            ),
+        ),
+        Example(
+            "the default of an argument that nothing reads, and of one that a node reads",
+            {
+                **_FILES,
+                **{
+                    f"launch/{name}.launch.py": _LAUNCH.format("'config', 'talker.yaml'")
+                    .replace(
+                        "    return LaunchDescription([",
+                        "    config = os.path.join(share, 'config', 'talk.yaml')\n"
+                        "    return LaunchDescription([\n"
+                        f"        DeclareLaunchArgument('{name}_file', default_value=config),"
+                        + read,
+                    )
+                    .replace("\nfrom launch_ros", _IMPORTS)
+                    for name, read in {
+                        "talk": "",
+                        "hear": "\n        LogInfo(msg=LaunchConfiguration('hear_file')),",
+                    }.items()
+                },
+            },
+            "launch/hear.launch.py:12:14: share/talker/config/talk.yaml does not exist: talker "
+            "has no such file; did you mean config/talker.yaml?",
+            Report(
+                "launch/talk.launch.py:12:14",
+                "share/talker/config/talk.yaml does not exist: talker has no such "
+                "file; did you mean config/talker.yaml?",
                 severity=Severity.WARNING,
             ),
         ),
@@ -244,7 +286,8 @@ class SharePathMissing(Rule):
             why = why_missing(package, path)
             if why is not None:
                 message = f"share/{path.package}/{path.path} does not exist: {why}"
-                is_expected = is_left_to_the_user(package, path)
-                severity = Severity.WARNING if is_expected else Severity.ERROR
+                is_harmless = is_left_to_the_user(package, path)
+                is_harmless = is_harmless or is_of_unread_argument(package, path.location)
+                severity = Severity.WARNING if is_harmless else Severity.ERROR
                 cause = missing_in(package, path)
                 yield self.report(path.location, message, severity=severity, cause=cause)

@@ -78,6 +78,7 @@ from scaffold.model.launch.substitutions import (
     truth_tests,
 )
 from scaffold.model.launch.unlaunched import is_unread
+from scaffold.model.launch.unread_arguments import is_of_unread_argument, unread_arguments
 
 __all__ = [
     "ACTIONS",
@@ -121,6 +122,7 @@ __all__ = [
     "is_loaded",
     "is_named",
     "is_named_elsewhere",
+    "is_of_unread_argument",
     "is_reversed",
     "is_unread",
     "later_declarations",
@@ -153,6 +155,7 @@ __all__ = [
     "steps",
     "text_uses",
     "truth_tests",
+    "unread_arguments",
     "use_of",
     "values_in_files",
     "why_missing",

@@ -29,18 +29,22 @@ def is_in_unlaunched_action(package: Package, path: str, line: int, column: int)
         ViewError: the file cannot be read.
     """
     launch = LaunchFile.of(package, path)
-    around = [call for call in launch.module.walk(ast.Call) if _covers(call, line, column)]
+    around = [call for call in launch.module.walk(ast.Call) if covers(call, line, column)]
     return any(is_never_used(launch, call) for call in around[-1:] if _makes_object(call))
 
 
-def _covers(node: ast.expr, line: int, column: int) -> bool:
+def covers(node: ast.expr, line: int, column: int) -> bool:
+    """Tell whether an expression contains a place."""
     start = node.lineno, node.col_offset
     end = node.end_lineno or node.lineno, node.end_col_offset or 0
     return start <= (line, column - 1) < end
 
 
 def is_never_used(
-    launch: LaunchFile, node: ast.AST, seen: frozenset[ast.Name] = frozenset()
+    launch: LaunchFile,
+    node: ast.AST,
+    seen: frozenset[ast.Name] = frozenset(),
+    ignored: frozenset[ast.AST] = frozenset(),
 ) -> bool:
     """Tell whether a path or an action is only stored in a variable that is never read.
 
@@ -51,7 +55,10 @@ def is_never_used(
         launch: The launch file.
         node: The path, the action, or a variable with it.
         seen: The variables followed so far, where they are set.
+        ignored: The actions that do not count as a use.
     """
+    if not ignored.isdisjoint(launch.module.parents(node)):
+        return True
     target = _variable_with(launch, node)
     if target is None:
         return False
@@ -59,7 +66,9 @@ def is_never_used(
         return True
     reads = _reads(launch, target)
     following = seen | {target}
-    return reads is not None and all(is_never_used(launch, use, following) for use in reads)
+    return reads is not None and all(
+        is_never_used(launch, use, following, ignored) for use in reads
+    )
 
 
 def is_unread(launch: LaunchFile, target: ast.Name) -> bool:
