@@ -24,8 +24,12 @@ _FIELDS = ("frame_id", "child_frame_id")
 _LOOKUPS = frozenset({"lookup_transform", "can_transform", "lookup_transform_async"})
 _FRAMES = ("target_frame", "source_frame")
 _TRANSFORM = "geometry_msgs/msg/TransformStamped"
-_SHOWN = "visualization_msgs/"
+_MARKERS = "visualization_msgs/"
 """What RViz shows; it removes the slash."""
+_POSES = ("nav_msgs/", "geometry_msgs/")
+"""What mostly RViz shows; AMCL removes the slash of its initial pose, too."""
+_MOVING = ("nav2_", "goal_pose", "moveit", "move_group")
+"""Words of files with goals for Nav2 and MoveIt, which transform poses and paths."""
 _CODE = (
     "from geometry_msgs.msg import TransformStamped\n\n\n"
     "def make(buffer, time):\n"
@@ -49,6 +53,14 @@ _MARKER = (
     "from visualization_msgs.msg import Marker\n\n\n"
     "def make():\n    marker = Marker()\n    marker.header.frame_id = '{}'\n    return marker\n"
 )
+_POSE = (
+    "from geometry_msgs.msg import PoseStamped\nfrom rclpy.node import Node\n\n\n"
+    "class Planner(Node):\n"
+    "    def send(self):\n"
+    "        publisher = self.create_publisher(PoseStamped, '{}', 1)\n"
+    "        pose = PoseStamped()\n        pose.header.frame_id = '/map'\n"
+    "        publisher.publish(pose)\n"
+)
 _UNKNOWN = "a message of a type that is not known"
 _OF_UNKNOWN = (
     "from motor_driver_msgs.msg import State\n\n\n"
@@ -60,8 +72,9 @@ _OF_UNKNOWN = (
 class FrameWithSlash(MessageRule):
     """A frame name starts with a slash.
 
-    A warning in transforms, where tf2 removes the slash, in markers, where RViz removes it, and in
-    messages of packages outside ROS, whose frames may never be looked up.
+    A warning in transforms, where tf2 removes the slash, in markers, poses, paths and maps, where
+    RViz and AMCL remove it, unless they are for Nav2 or MoveIt, and in messages of packages outside
+    ROS, whose frames may never be looked up.
 
     **Why.** Every lookup of the frame fails: ``Invalid argument "/base_link" passed to
     lookupTransform ... frame_ids cannot start with a '/'``.
@@ -74,7 +87,8 @@ class FrameWithSlash(MessageRule):
     code = "MS007"
     name = "frame-with-slash"
     other_severities = {
-        Severity.WARNING: "it is in a transform, a marker, or a message of a package outside ROS"
+        Severity.WARNING: "it is in a transform, in a marker, pose or path for RViz, or in a "
+        "message of a package outside ROS"
     }
     effect = Effect.WRONG_BEHAVIOR
     examples = (
@@ -150,6 +164,29 @@ class FrameWithSlash(MessageRule):
             fixed={"node.py": _MARKER.format("world")},
         ),
         Example(
+            "slash in the frame of a pose for RViz, and of one for Nav2",
+            {
+                "show.py": _POSE.format("pose"),
+                "drive.py": _POSE.format("goal_pose"),
+            },
+            Report(
+                "drive.py:9:32",
+                "frame '/map' starts with '/': tf2 rejects it; remove the slash",
+                fix="Remove the slash",
+            ),
+            Report(
+                "show.py:9:32",
+                "frame '/map' starts with '/': tf2 rejects it where the frame is "
+                "looked up; remove the slash",
+                fix="Remove the slash",
+                severity=Severity.WARNING,
+            ),
+            fixed={
+                "show.py": _POSE.format("pose").replace("/map", "map"),
+                "drive.py": _POSE.format("goal_pose").replace("/map", "map"),
+            },
+        ),
+        Example(
             "slash in the frame of an unknown message type",
             {"node.py": "import rclpy\n" + _OF_UNKNOWN.format("/world")},
             Report(
@@ -183,12 +220,18 @@ class FrameWithSlash(MessageRule):
             effect = "tf2 rejects it"
             if owner == _TRANSFORM:
                 severity, effect = Severity.WARNING, "tf2 knows the frame without it"
-            elif owner and (
-                owner.partition("/")[0] not in ROS_PACKAGES or owner.startswith(_SHOWN)
-            ):
+            elif owner and _may_only_be_shown(types, owner):
                 severity, effect = Severity.WARNING, "tf2 rejects it where the frame is looked up"
             message = f"frame {value!r} starts with '/': {effect}; remove the slash"
             yield self.report(types.module.location(node), message, fix, severity=severity)
+
+
+def _may_only_be_shown(types: MessageTypes, message: str) -> bool:
+    """Tell whether the readers of a message may all remove the slash, or never use the frame."""
+    if message.partition("/")[0] not in ROS_PACKAGES:
+        return True
+    is_pose = message.startswith(_POSES) and not types.module.mentions(*_MOVING)
+    return is_pose or message.startswith(_MARKERS)
 
 
 def _frames(types: MessageTypes) -> Iterator[tuple[ast.expr, str]]:
