@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator, Mapping
 
+from scaffold.api.catalog import ROS_PACKAGES
 from scaffold.api.messages import MessageTypes
 
 Flaw = tuple[ast.expr, str]
@@ -14,6 +15,7 @@ _PARTS: Mapping[str, str] = {
     **{f"geometry_msgs/msg/{name}": "xyz" for name in ("Point", "Point32", "Vector3")},
     _QUATERNION: "xyzw",
 }
+_SHOWN = "visualization_msgs"
 _UNIFORM = frozenset({"scale", "dimensions", "size"})
 """Fields that may use one component of another vector for several components."""
 _DIRECTIONS = 3
@@ -23,7 +25,30 @@ _Parts = dict[str, ast.expr]
 
 def flaws(types: MessageTypes) -> Iterator[Flaw]:
     """Yield components copied from one of another letter, and quaternions without w."""
+    for holder, owner, parts in _vectors(types):
+        if types.module.text(holder).rpartition(".")[2] not in _UNIFORM:
+            yield from _taken_twice(types, parts, _PARTS[owner])
+        if owner == _QUATERNION:
+            yield from _without_w(types, parts)
+
+
+def zero_quaternions(types: MessageTypes) -> Iterator[tuple[ast.expr, bool]]:
+    """Yield the w of quaternions of zeros, and whether they are certainly used as rotations.
+
+    Not in markers, which RViz shows anyway, nor in messages of packages outside of ROS.
+    """
+    for holder, owner, parts in _vectors(types):
+        if owner == _QUATERNION and _is_zero(types, parts):
+            message = types.type_of(_message_of(holder))
+            name = message.name if message is not None else ""
+            package = name.partition("/")[0]
+            yield parts["w"], package != _SHOWN and (not name or package in ROS_PACKAGES)
+
+
+def _vectors(types: MessageTypes) -> Iterator[tuple[ast.expr, str, _Parts]]:
+    """Yield vectors that are set part by part, each part once, with their types."""
     groups: dict[tuple[ast.AST | None, str, str], _Parts] = {}
+    holders: dict[tuple[ast.AST | None, str, str], ast.expr] = {}
     written: set[tuple[ast.AST | None, str, str]] = set()
     for item in types.assigned:
         letters = _PARTS.get(item.owner.name, "")
@@ -35,15 +60,21 @@ def flaws(types: MessageTypes) -> Iterator[Flaw]:
             if item.field.name in groups.get(key, {}):
                 written.add(key)
             groups.setdefault(key, {})[item.field.name] = item.value
+            holders.setdefault(key, item.holder)
     for key, parts in groups.items():
-        if key in written:
-            continue
-        name = key[1].rpartition(".")[2]
-        if name not in _UNIFORM:
-            yield from _taken_twice(types, parts, _PARTS[key[2]])
-        if key[2] == _QUATERNION:
-            yield from _without_w(types, parts)
-            yield from _of_zeros(types, parts)
+        if key not in written:
+            yield holders[key], key[2], parts
+
+
+def _message_of(field: ast.expr) -> ast.expr:
+    """Return the message that a nested field is in: ``pose`` of ``pose.position.x``."""
+    while isinstance(field, ast.Attribute) and not _is_attribute_of_self(field):
+        field = field.value
+    return field
+
+
+def _is_attribute_of_self(node: ast.Attribute) -> bool:
+    return isinstance(node.value, ast.Name) and node.value.id == "self"
 
 
 def _source(types: MessageTypes, value: ast.expr, letters: str) -> tuple[str, str]:
@@ -95,9 +126,8 @@ def _without_w(types: MessageTypes, parts: _Parts) -> Iterator[Flaw]:
             return
 
 
-def _of_zeros(types: MessageTypes, parts: _Parts) -> Iterator[Flaw]:
+def _is_zero(types: MessageTypes, parts: _Parts) -> bool:
     """Find ``q.w = 0.0`` where the other parts are zero as well; an IMU may have no orientation."""
     values = [types.file.evaluator.evaluate(value) for value in parts.values()]
     is_zero = all(value == 0 and isinstance(value, int | float) for value in values)
-    if "w" in parts and is_zero and not types.module.mentions("orientation_covariance"):
-        yield parts["w"], "a quaternion of zeros is not a rotation; write w=1.0 for the identity"
+    return "w" in parts and is_zero and not types.module.mentions("orientation_covariance")

@@ -47,6 +47,7 @@ _RANGES: Mapping[tuple[str, str], tuple[float, float, str]] = {
 """From the comments of the definitions."""
 _SHARES = frozenset(key for key, (low, high, _) in _RANGES.items() if (low, high) == (0, 1))
 _PERCENT = 100
+_OF_ZEROS = "a quaternion of zeros is not a rotation; write w=1.0 for the identity"
 
 
 class ValueImplausible(MessageRule):
@@ -66,7 +67,8 @@ class ValueImplausible(MessageRule):
     code = "MS026"
     name = "value-implausible"
     other_severities = {
-        Severity.WARNING: "the value is out of range, or an encoding that other programs may accept"
+        Severity.WARNING: "the value is out of range, or an encoding that other programs may "
+        "accept, or a quaternion of zeros is in a marker or in a message of a package outside ROS"
     }
     effect = Effect.WRONG_BEHAVIOR
     examples = (
@@ -264,6 +266,11 @@ class ValueImplausible(MessageRule):
                 "    pose.pose.orientation.z = 0.0\n"
                 "    pose.pose.orientation.w = 0.0\n"
                 "    return pose, Quaternion(x=1.0, w=0.0), Quaternion(w=w)\n",
+                "mark.py": "from visualization_msgs.msg import Marker\n\n\n"
+                "def mark():\n"
+                "    marker = Marker()\n"
+                "    marker.pose.orientation.w = 0.0\n"
+                "    return marker\n",
                 "imu.py": "from sensor_msgs.msg import Imu\n\n\n"
                 "def reading():\n"
                 "    imu = Imu()\n"
@@ -274,6 +281,11 @@ class ValueImplausible(MessageRule):
             "copy_pose.py:8:27: z is copied from pose.position.y, which is for y",
             "grow.py:12:25: w of this quaternion is still 1.0, which is another rotation; set it "
             "as well",
+            Report(
+                "mark.py:6:33",
+                "a quaternion of zeros is not a rotation; write w=1.0 for the identity",
+                severity=Severity.WARNING,
+            ),
             "zero.py:7:31: a quaternion of zeros is not a rotation; write w=1.0 for the identity",
         ),
         Example(
@@ -346,6 +358,9 @@ class ValueImplausible(MessageRule):
         for part in (_angles, _components, _constants, _fractions, _images, _matrices):
             for at, message in part.flaws(types):
                 yield self.report(module.location(at), message)
+        for at, is_used in _components.zero_quaternions(types):
+            severity = Severity.ERROR if is_used else Severity.WARNING
+            yield self.report(module.location(at), _OF_ZEROS, severity=severity)
         for item in types.assigned:
             problem = _problem(types, item.owner.name, item.field.name, item.value)
             if problem:
