@@ -52,6 +52,24 @@ _LAUNCH = (
     "            'rate': LaunchConfiguration('rate'), 'rates': LaunchConfiguration('rate'),\n"
     "            'raet': LaunchConfiguration('speed')}]),\n    ])\n"
 )
+_LAUNCH_FILE = (
+    "from launch import LaunchDescription\nfrom launch.substitutions import PathJoinSubstitution\n"
+    "from launch_ros.actions import Node\nfrom launch_ros.substitutions import FindPackageShare\n"
+    "\n\ndef generate_launch_description():\n"
+    "    config = PathJoinSubstitution([FindPackageShare('demo'), 'config', 'a.yaml'])\n"
+    "    return LaunchDescription([\n"
+    "        Node(package='demo', executable='talk', parameters=[config]),\n    ])\n"
+)
+_PACKAGE = {
+    "package.xml": "<package><name>demo</name><export>"
+    "<build_type>ament_python</build_type></export></package>\n",
+    "setup.py": "from setuptools import setup\n\nsetup(entry_points={\n"
+    "    'console_scripts': ['talk = demo.talker:main']})\n",
+    "demo/__init__.py": "",
+    "demo/talker.py": "import rclpy\n"
+    + _NODE.format("")
+    + "\n\ndef main():\n    rclpy.spin(Talker())\n",
+}
 _FILE = "talker:\n  ros__parameters:\n    rate: 1.0\n    use_sim_time: true\n    {}\n"
 
 
@@ -123,6 +141,18 @@ class ParameterUndeclared(Rule):
             },
         ),
         Example(
+            "a key that other code reads from the file, which the node gets as well",
+            {
+                **_PACKAGE,
+                "demo/tool.py": "import yaml\n\n"
+                "settings = yaml.safe_load(open('a.yaml'))\nprint(settings['host'])\n",
+                "launch/a.launch.py": _LAUNCH_FILE,
+                "config/a.yaml": _FILE.format("host: robot\n    port: 80"),
+            },
+            "config/a.yaml:6:5: node 'talker' declares no parameter 'port': the value is ignored; "
+            "it has limits.high, rate",
+        ),
+        Example(
             "the default value of the node",
             {
                 "talker.py": _NODE.format("")
@@ -172,14 +202,7 @@ class ParameterUndeclared(Rule):
         Example(
             "one launch argument set under both names",
             {
-                "package.xml": "<package><name>demo</name><export>"
-                "<build_type>ament_python</build_type></export></package>\n",
-                "setup.py": "from setuptools import setup\n\nsetup(entry_points={\n"
-                "    'console_scripts': ['talk = demo.talker:main']})\n",
-                "demo/__init__.py": "",
-                "demo/talker.py": "import rclpy\n"
-                + _NODE.format("")
-                + "\n\ndef main():\n    rclpy.spin(Talker())\n",
+                **_PACKAGE,
                 "launch/a.launch.py": _LAUNCH,
             },
             Report(
@@ -218,7 +241,9 @@ class ParameterUndeclared(Rule):
                 if not use_of(package, file.path).nodes and is_loaded(package, file.path, owners):
                     continue
                 for entry in section.entries:
-                    if not any(node.has(entry.name) for node in declarations):
+                    is_declared = any(node.has(entry.name) for node in declarations)
+                    key = entry.name.rpartition(".")[2]
+                    if not is_declared and not is_loaded(package, file.path, owners, key):
                         value = comparable_in_file(entry.value)
                         others = {
                             other.name: comparable_in_file(other.value) for other in section.entries

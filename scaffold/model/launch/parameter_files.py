@@ -103,20 +103,32 @@ _LOADERS = ("yaml.safe_load", "yaml.load", "yaml.full_load", "ruamel")
 """Words in code that reads YAML itself."""
 
 
-def is_loaded(package: Package, path: str, owners: Sequence[KnownNode] = ()) -> bool:
+def is_loaded(package: Package, path: str, owners: Sequence[KnownNode] = (), key: str = "") -> bool:
     """Tell whether Python code of the workspace loads a parameter file itself, as YAML.
 
     Then it may have values only for that code. The code mentions the file, or is that of the nodes
     of the file, which may get its name as a parameter.
+
+    Args:
+        package: The package.
+        path: The parameter file.
+        owners: The nodes of the file.
+        key: A string that the code has as well, such as the name of a parameter.
     """
-    if any(owner.path in _code_loading_yaml(owner.home(package)) for owner in owners):
+    homes = [(owner.home(package), owner.path) for owner in owners]
+    if any(code in _code_loading_yaml(home) and _has(home, code, key) for home, code in homes):
         return True
     name = path.rpartition("/")[2]
     return any(
-        mentions(other, code, name)
+        mentions(other, code, name) and _has(other, code, key)
         for other in package.workspace
         for code in _code_loading_yaml(other)
     )
+
+
+def _has(package: Package, code: str, key: str) -> bool:
+    """Tell whether code contains a string; any code has the empty key."""
+    return not key or any(mentions(package, code, f"{quote}{key}{quote}") for quote in "'\"")
 
 
 def _code_loading_yaml(package: Package) -> list[str]:
