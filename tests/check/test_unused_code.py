@@ -302,6 +302,15 @@ def test_main_guard_of_a_launch_file(package: Path, capsys: pytest.CaptureFixtur
         ("warning", "    def tell", "    @property\n    def tell"),
         ("error", "def main", "def talk"),
         ("warning", "# nothing", "# tell"),
+        ("warning", "    def tell", "    def tell_all(self):\n        self.tell()\n\n    def tell"),
+        (
+            "error",
+            "    def tell",
+            "    def tell_all(self):\n        self.tell()\n\n    __call__ = "
+            "tell_all\n\n    def tell",
+        ),
+        ("warning", "# nothing", "\n        print('node' in locals())"),
+        ("error", "# nothing", "\n        print(locals()['node'])"),
     ],
 )
 def test_uncalled_method(

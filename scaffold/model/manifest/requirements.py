@@ -19,7 +19,7 @@ from scaffold.model.cmake.ament import programs
 from scaffold.model.cmake.rosidl import generations
 from scaffold.model.python.facts import imports_by_path
 from scaffold.model.python.module import is_collected, is_in_tests
-from scaffold.model.released import is_released, transitive_dependencies
+from scaffold.model.released import dependencies, is_released, transitive_dependencies
 from scaffold.record import NamedTuple
 from scaffold.source import ViewError
 
@@ -162,7 +162,14 @@ def _are_related(dependency: str, name: str) -> bool:
     first = dependency.partition("_")[0]
     if first == name.partition("_")[0] and first not in _COMMON_WORDS:
         return True
-    return dependency.endswith(_OF_MESSAGES) and name.endswith(_OF_MESSAGES)
+    return dependency.endswith(_OF_MESSAGES) and _has_messages(name)
+
+
+def _has_messages(name: str) -> bool:
+    """Tell whether a package has interfaces alone; ``tf2_geometry_msgs`` converts those of ROS."""
+    needed = dependencies(name)
+    is_generated = not needed or any(item.startswith("rosidl_") for item in needed)
+    return name.endswith(_OF_MESSAGES) and is_generated
 
 
 def is_shipped(package: Package, path: str) -> bool:

@@ -44,6 +44,8 @@ _MOST_CALLERS = 10
 """More functions that only call each other are not followed."""
 _LOOKUPS = ("globals(", "locals(", "vars(", "__dict__", "eval(", "exec(")
 """Functions that look up names computed at run time."""
+_TEST_OF_NAME = re.compile(r"[\"']\w+[\"'] (?:not )?in (?:globals|locals|vars)\(\)")
+"""Matches a test whether a variable is set, ``'node' in locals()``."""
 _MODULES = ("sys.modules", "import_module", "__import__")
 """Expressions that return a module, whose functions are its attributes."""
 
@@ -112,13 +114,8 @@ def _lines_of_unmentioned(package: Package, path: str) -> tuple[int, ...]:
         guard = text.find("__main__")
         at_guard = [text.count("\n", 0, guard) + 1] if guard >= 0 else []
         count = Counter(_WORD.findall(without_comments(text)))
-        named_once = (
-            text.count("\n", 0, match.start()) + 1
-            for match in _DEFINITION.finditer(text)
-            if count[match[1]] == 1
-        )
-        lines = (*at_guard, *named_once)
-        return (1,) if lines and _is_launch_file(path) else lines  # helpers may come before
+        is_any = any(count[match[1]] == 1 for match in _DEFINITION.finditer(text))
+        return (1,) if is_any else tuple(at_guard)  # helpers may come before
 
     return package.remember(("named once", path), find)
 
@@ -126,7 +123,7 @@ def _lines_of_unmentioned(package: Package, path: str) -> tuple[int, ...]:
 def _function_at(module: PythonModule, line: int, *, is_helper: bool) -> _Unmentioned | None:
     """Return the function or method at a line, if no code of its file that may run mentions it."""
     function = _outermost_function(module, line)
-    if module.mentions(*_LOOKUPS):
+    if _looks_up_names(module):
         return None
     functions = [function]
     for item in functions:  # which grows
@@ -134,7 +131,9 @@ def _function_at(module: PythonModule, line: int, *, is_helper: bool) -> _Unment
             return None
         if _may_be_computed(module, item):
             return None
-        uses = module.index.names(item.name) if _is_launch_file(module.path) else ()
+        is_method = module.enclosing_class(item) is not None
+        index = module.index
+        uses = index.attributes(item.name) if is_method else index.names(item.name)
         if _named_in(without_comments(module.source.text), item.name) > 1 + len(uses):
             return None
         around = {_outermost_function(module, use.lineno) for use in uses}
@@ -149,6 +148,14 @@ def _function_at(module: PythonModule, line: int, *, is_helper: bool) -> _Unment
 
 def _is_launch_file(path: str) -> bool:
     return path.endswith("launch.py")
+
+
+def _looks_up_names(module: PythonModule) -> bool:
+    """Tell whether a file may look up a function or class by a name computed at run time."""
+    if not module.mentions(*_LOOKUPS):
+        return False
+    text = _TEST_OF_NAME.sub("", module.source.text)
+    return any(lookup in text for lookup in _LOOKUPS)
 
 
 def _may_be_computed(module: PythonModule, function: FunctionNode) -> bool:
@@ -169,7 +176,7 @@ def _class_at(module: PythonModule, line: int) -> _Unmentioned | None:
         )
         if not is_run_later or class_.decorator_list or class_.keywords:
             return None
-        if not _has_known_bases(module, class_) or module.mentions(*_LOOKUPS):
+        if not _has_known_bases(module, class_) or _looks_up_names(module):
             return None
         if _is_named_once(module, class_.name):
             return _Unmentioned((class_.name,), (*_NAMING, ".xml"))
