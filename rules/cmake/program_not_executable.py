@@ -14,6 +14,7 @@ from scaffold.api import (
     Report,
     Rule,
     Safety,
+    ViewError,
 )
 from scaffold.api.cmake import Install, is_only_imported, programs, runs_with_python
 from scaffold.api.install import paths_imported_by
@@ -61,6 +62,15 @@ class ProgramNotExecutable(Rule):
         Example(
             "a module that other scripts import",
             {"CMakeLists.txt": _LISTS, "talker/node.py": "def rate():\n    return 2.0\n"},
+        ),
+        Example(
+            "a module without main() that an installed program imports",
+            {
+                "CMakeLists.txt": _LISTS.replace(".py", ".py talker/words.py"),
+                "talker/node.py": f"{_NODE}from words import *\n",
+                "talker/words.py": "SIZE = 2\nassert SIZE == 2\n",
+            },
+            executable=("talker/node.py",),
         ),
         Example(
             "a module that adds methods to a class in a loop",
@@ -224,6 +234,7 @@ class ProgramNotExecutable(Rule):
         cmake = package.cmake
         wanted = f"lib/{cmake.project_name}"
         reported: set[str] = set()
+        imported = _imported(package)
         for program in programs(package):
             path = program.path
             if path in reported or program.destination != wanted or not package.has(path):
@@ -236,6 +247,7 @@ class ProgramNotExecutable(Rule):
                 or not path.endswith(".py")
                 or path.endswith("__init__.py")
                 or is_only_imported(package, path)
+                or (f"/{path}".endswith(imported) and not _has_main(package, path))
             ):
                 continue
             message = (
@@ -300,7 +312,7 @@ class ProgramNotExecutable(Rule):
 
     def _check_shebang(self, package: Package) -> Iterator[Diagnostic]:
         paths = {program.path for program in programs(package)}
-        imported = tuple(f"/{path}" for path in paths_imported_by(package, paths))
+        imported = _imported(package)
         for path in sorted(paths):
             if not path.endswith(".py") or path.endswith("__init__.py") or not package.has(path):
                 continue
@@ -341,6 +353,21 @@ class ProgramNotExecutable(Rule):
             is_crlf = problem.startswith("CRLF")
             at = package.start_of(path)
             yield self.report(at, problem, None if is_crlf else fix, cause=_CAUSE)
+
+
+def _imported(package: Package) -> tuple[str, ...]:
+    """Return the ends of the paths of modules that installed programs import."""
+    paths = {program.path for program in programs(package)}
+    return tuple(f"/{path}" for path in paths_imported_by(package, paths))
+
+
+def _has_main(package: Package, path: str) -> bool:
+    """Tell whether a file may be a program: it has ``main()`` or a main guard, or is broken."""
+    try:
+        module = package.module(path)
+    except ViewError:
+        return True
+    return module.has_main_guard or "main" in module.functions
 
 
 def _is_run_by_cmake(package: Package, path: str) -> bool:
