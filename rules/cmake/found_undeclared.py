@@ -110,6 +110,19 @@ class FoundUndeclared(Rule):
             },
         ),
         Example(
+            "a tool that a package of the workspace is built with",
+            {
+                "package.xml": _MANIFEST.format("  <depend>my_msgs</depend>\n"),
+                "CMakeLists.txt": _LISTS.format("rosidl_default_generators"),
+            },
+            neighbors={
+                "my_msgs": {
+                    "package.xml": '<package format="3">\n  <name>my_msgs</name>\n'
+                    "  <buildtool_depend>rosidl_default_generators</buildtool_depend>\n</package>\n"
+                }
+            },
+        ),
+        Example(
             "found only if an option is on",
             {
                 "package.xml": _MANIFEST.format(""),
@@ -312,7 +325,7 @@ def _undeclared(package: Package) -> Iterator[FoundPackage]:
     declared = {item.name for item in package.manifest.dependencies if item.may_be_active}
     dependencies = requirements.declared(package, for_tests=True)
     names = {package.name, *declared, *transitive_dependencies(declared), *dependencies.along}
-    names |= dependencies.direct
+    names |= dependencies.direct | _built_with(package)
     for found in package.cmake.found_packages:
         name, neighbor = found.name, package.workspace.get(found.name)
         if name == "rosidl_default_generators" and package.cmake.find("rosidl_generate_interfaces"):
@@ -322,6 +335,19 @@ def _undeclared(package: Package) -> Iterator[FoundPackage]:
         if neighbor is None and (name not in ROS_PACKAGES or removed_package(name)):
             continue  # unknown, or reported by package-removed
         yield found
+
+
+def _built_with(package: Package) -> set[str]:
+    """Return what the declared packages of the workspace are built with, which is installed."""
+    result: set[str] = set()
+    for dependency in package.manifest.dependencies:
+        neighbor = package.workspace.get(dependency.name)
+        try:
+            others = neighbor.manifest.dependencies if neighbor is not None else ()
+        except ViewError:
+            continue
+        result |= {other.name for other in others if other.kind.startswith("build")}
+    return result | transitive_dependencies(result)
 
 
 def _is_always_found(package: Package, found: FoundPackage) -> bool:
