@@ -50,6 +50,8 @@ _UNDECLARED = "PX020"
 """Codes of undeclared dependencies, reported at an import."""
 _OF_ROS1 = "IM044"
 """The code of imports from ROS 1."""
+_FALSE = frozenset({"false", "none", "null"})
+"""Names of other languages, or misspelled ones, for what is not true."""
 _PLATFORMS = ("os.name", "sys.platform", "platform.system")
 """Words of conditions on the platform."""
 
@@ -246,8 +248,13 @@ def _is_hardly_reached(package: Package, undefined: Diagnostic) -> bool:
 
 
 def _is_raised(module: PythonModule, name: ast.expr) -> bool:
-    """Tell whether a name is that of an exception, so that a NameError is raised instead."""
+    """Tell whether a name is that of an exception, so that a NameError is raised instead.
+
+    ``assert false`` fails anyway.
+    """
     above = module.parent(name)
+    if isinstance(above, ast.Assert) and isinstance(name, ast.Name):
+        return name is above.test and name.id.lower() in _FALSE
     if isinstance(above, ast.Call) and above.func is name:
         above = module.parent(above)
     return isinstance(above, ast.Raise)

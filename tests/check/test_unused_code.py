@@ -303,12 +303,7 @@ def test_main_guard_of_a_launch_file(package: Path, capsys: pytest.CaptureFixtur
         ("error", "def main", "def talk"),
         ("warning", "# nothing", "# tell"),
         ("warning", "    def tell", "    def tell_all(self):\n        self.tell()\n\n    def tell"),
-        (
-            "error",
-            "    def tell",
-            "    def tell_all(self):\n        self.tell()\n\n    __call__ = "
-            "tell_all\n\n    def tell",
-        ),
+        ("error", "self.say)", "self.tell_all)\n\n    def tell_all(self):\n        self.tell()"),
         ("warning", "# nothing", "\n        print('node' in locals())"),
         ("error", "# nothing", "\n        print(locals()['node'])"),
     ],
@@ -525,6 +520,12 @@ def test_exception_that_is_no_exception(package: Path, capsys: pytest.CaptureFix
     write(package / "talker" / "node.py", "raise NotThere('later')\n")
     assert severities(capsys, "F901") == {"talker/talk.py": "warning"}
     assert severities(capsys, "F821") == {"talker/node.py": "warning"}
+
+
+def test_assertion_of_an_undefined_false(package: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    write(package / "talker" / "talk.py", "def talk():\n    assert false, 'not here'\n\n\ntalk()\n")
+    write(package / "talker" / "node.py", "assert true\n")
+    assert severities(capsys, "F821") == {"talker/talk.py": "warning", "talker/node.py": "error"}
 
 
 def test_uncalled_launch_helper(package: Path, capsys: pytest.CaptureFixture[str]) -> None:
