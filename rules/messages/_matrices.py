@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import re
 from collections.abc import Iterator
 
 from scaffold.api.messages import MessageTypes
@@ -21,14 +22,18 @@ _ACROSS = frozenset({"w", "width", "cols", "columns", "img_w", "img_width", "ima
 _DOWN = frozenset({"h", "height", "rows", "img_h", "img_height", "image_height"})
 _MAX_ARRAYS = 20
 """The maximum number of arrays to trace an array through."""
-_SHAPED = (".shape = ", "reshape((w", "reshape(w")
-"""Words in code that creates arrays with the width first."""
+_SHAPED = re.compile(
+    r"\.shape = |reshape\(w"
+    r"|(?:zeros|ones|full|empty|reshape)\(\(\s{0,9}(?:self\.)?(?:w\b|\w{0,20}(?:width|cols)\b)"
+)
+"""Matches code that creates arrays with the width first."""
 
 
 def flaws(types: MessageTypes) -> Iterator[Flaw]:
     """Yield swapped widths and heights, shapes with the width first, and variances in a row."""
     module = types.module
-    for item in types.assigned:
+    is_across = _SHAPED.search(module.source.text) is not None
+    for item in () if is_across else types.assigned:
         key = (item.owner.name, item.field.name)
         if key in _WIDTHS and _is_height(types, item.holder, item.value):
             text = module.text(item.value).rpartition("[")[0]
@@ -39,7 +44,7 @@ def flaws(types: MessageTypes) -> Iterator[Flaw]:
             yield call.args[0], f"an image or a map has rows first: write reshape({turned})"
     for assigned in module.walk(ast.Assign):
         image = _turned_image(assigned)
-        if image and not module.mentions(*_SHAPED) and not _is_transposed(types, image):
+        if image and not is_across and not _is_transposed(types, image):
             message = "a shape has the height first: write height, width = ....shape[:2]"
             yield assigned.targets[0], message
         count = _first_row(types, assigned)
