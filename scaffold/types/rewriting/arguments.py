@@ -43,8 +43,8 @@ _MADE = re.compile(
 )
 """Matches a variable or an attribute that is set to a new object."""
 _NAME = re.compile(r"\w+")
-_DERIVED = r"^class \w+\([^()\n]*\b{}\b"
-"""Matches a class that is derived from another one of the file."""
+_DERIVED = re.compile(r"class \w+\(([^()\n]*)")
+"""Matches a derived class."""
 _PARAMETER = re.compile(r"(\*{0,2}\w*|/)[ ]*(:[^=\"'\n#]*?)?[ ]*(?:=\s*(.*))?", re.DOTALL)
 """Matches a parameter; not one with a quoted annotation, as callbacks get."""
 _CONSTANT = re.compile(r"-?\d[\w.]*|'[^'\\\n]*'|\"[^\"\\\n]*\"|True|False|None")
@@ -190,6 +190,8 @@ def _add_lines_of(
 def _functions(text: str) -> Iterator[_Function]:
     """Yield the functions of a file that have no decorator."""
     classes = [*class_starts(text), len(text)]
+    derived = [match for match in (_DERIVED.match(text, start) for start in classes) if match]
+    bases = {base for match in derived for base in _NAME.findall(match[1])}
     at = 0
     for match in definitions(_FUNCTION, text):
         while classes[at] <= match.start():
@@ -208,7 +210,7 @@ def _functions(text: str) -> Iterator[_Function]:
         elif decorator or (is_method and match["indent"]):
             name = f"{class_[0]}.{called}" if class_ else ""
             called = f"self.{called}"
-            if class_ and re.search(_DERIVED.format(class_[0]), text, re.MULTILINE):
+            if class_ and class_[0] in bases:
                 segment = (0, len(text))  # derived classes call it as well
         else:
             segment = (0, len(text))
