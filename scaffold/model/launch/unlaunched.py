@@ -10,6 +10,7 @@ from scaffold.model.launch.python_file import LaunchFile
 
 if TYPE_CHECKING:
     from scaffold.model.package import Package
+    from scaffold.model.python.scopes import ScopeIndex
 
 _LOOKUPS = ("locals()", "vars()", "globals()", "eval(", "exec(")
 """Functions that may read any variable."""
@@ -116,13 +117,24 @@ def _reached(launch: LaunchFile, target: ast.Name, reads: list[ast.Name]) -> lis
     body = getattr(scope, "body", [])
     if statement not in body or any(index.scope_of(use) is not scope for use in reads):
         return reads
+    uses: dict[ast.AST, list[ast.Name]] = {}
+    for use in reads:
+        uses.setdefault(_part_with(index, use, scope), []).append(use)
     reached: list[ast.Name] = []
     for later in body[body.index(statement) + 1 :]:
         if not isinstance(later, _STRAIGHT):
             break
-        inside = {*ast.walk(later)}
-        reached += [use for use in reads if use in inside]
+        reached += uses.get(later, ())
         match later:
             case ast.Assign(targets=[ast.Name(id=name)]) if name == target.id:
                 return reached
     return reads
+
+
+def _part_with(index: ScopeIndex, node: ast.AST, scope: ast.AST) -> ast.AST:
+    """Return the child of a scope with a node, such as a statement of its body."""
+    for parent in index.parents(node):
+        if parent is scope:
+            break
+        node = parent
+    return node
