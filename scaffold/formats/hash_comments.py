@@ -18,3 +18,15 @@ def without_comments(text: AnyStr) -> AnyStr:
     if isinstance(text, bytes):
         return _IN_BYTES.sub(b"", text)
     return _IN_TEXT.sub("", text)
+
+
+def code_with(data: bytes, word: bytes) -> bytes:
+    """Return the lines of a file that contain a word, without comments."""
+    lines: list[bytes] = []
+    at = data.find(word)
+    while at >= 0:
+        start, end = data.rfind(b"\n", 0, at) + 1, data.find(b"\n", at)
+        end = len(data) if end < 0 else end
+        lines.append(data[start:end])
+        at = data.find(word, end + 1)
+    return without_comments(b"\n".join(lines))

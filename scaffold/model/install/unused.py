@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
-from scaffold.formats.hash_comments import without_comments
+from scaffold.formats.hash_comments import code_with, without_comments
 from scaffold.model.python.module import is_collected, is_in_tests
 from scaffold.source import ViewError
 
@@ -218,9 +218,7 @@ def _is_in_code(package: Package, path: str, name: str, directory: str) -> bool:
         data = package.data(path)
     except ViewError:
         return not path.endswith((".xml", ".yaml", ".yml", ".urdf"))
-    if not _mentions(data, name, directory):
-        return False
-    code = without_comments(data)
+    code = code_with(data, name.encode("utf-8", "surrogateescape"))
     is_python = path.endswith(".py")
     return _mentions(code, name, directory) and names_file(code, name, is_python=is_python)
 

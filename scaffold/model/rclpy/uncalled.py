@@ -8,7 +8,7 @@ from collections import Counter
 from typing import TYPE_CHECKING
 
 from scaffold.files.limits import most_bytes
-from scaffold.formats.hash_comments import without_comments
+from scaffold.formats.hash_comments import code_with, without_comments
 from scaffold.model.cmake.ament import programs
 from scaffold.model.facts import fact
 from scaffold.model.install.console_scripts import has_program_files
@@ -318,9 +318,8 @@ def _is_file_named_in(package: Package, module_path: str, stem: str) -> bool:
             data = package.data(path)
         except ViewError:
             return True
-        if stem.encode("utf-8", "surrogateescape") in data and names_file(
-            without_comments(data), stem, is_python=path.endswith(".py")
-        ):
+        code = code_with(data, stem.encode("utf-8", "surrogateescape"))
+        if names_file(code, stem, is_python=path.endswith(".py")):
             return True
     return False
 
