@@ -176,4 +176,4 @@ def _sets(package: Package, path: str, name: str, before: str = "") -> bool:
     if any(word in data for word in _SETTING) and re.search(rf"[\"'.]{name}[\"']".encode(), data):
         return True
     pattern = _STORE.replace("NAME", name).replace("BEFORE", before)
-    return re.search(pattern.encode(), data) is not None
+    return f".{name}".encode() in data and re.search(pattern.encode(), data) is not None
