@@ -215,7 +215,8 @@ class _DistributionEvaluator(Evaluator):
         self.note(str(variable))
         return "2" if variable == _ROS_VERSION else target().name
 
-    def _subscript(self, node: ast.Subscript) -> object:
+    def subscript(self, node: ast.Subscript) -> object:
+        """Return the value of an environment variable, or a part of the version."""
         match node:
             case ast.Subscript(value=value, slice=ast.Constant(value=key)) if (
                 key in _OF_ENVIRONMENT
@@ -233,9 +234,10 @@ class _DistributionEvaluator(Evaluator):
                 self.evaluate(holder), RunningVersion
             ):
                 return UNKNOWN  # its end is unknown
-        return super()._subscript(node)
+        return super().subscript(node)
 
-    def _comparison(self, node: ast.Compare) -> object:
+    def comparison(self, node: ast.Compare) -> object:
+        """Return the result of a comparison, also of versions and with several operators."""
         operands = [node.left, *node.comparators]
         results: list[object] = []
         for left, operator_, right in zip(operands, node.ops, operands[1:], strict=False):

@@ -5,27 +5,28 @@ from __future__ import annotations
 import ast
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from functools import partial
 from typing import TYPE_CHECKING
 
 from scaffold.model.python.given_arguments import given_argument
 from scaffold.model.python.list_changes import changes_of, is_straight, list_literal, statement_of
+from scaffold.model.python.operations import (
+    OPERATIONS,
+    comparison,
+    joined_path,
+    method_result,
+    subscript,
+)
 from scaffold.model.python.returns import only_result
 from scaffold.model.python.values import (
-    COMPARISONS,
     FUNCTIONS,
     NAMED_VALUES,
     UNKNOWN,
     Glob,
-    PathValue,
     Unknown,
-    binary,
-    format_text,
     held_small,
     is_known,
-    join_paths,
-    path_method,
     same,
-    text_method,
 )
 from scaffold.record import NamedTuple
 
@@ -70,7 +71,7 @@ class Evaluator:
     """Evaluates the expressions of one module.
 
     A name has the value of its assignments, if they agree; a list is extended by the
-    ``append`` and ``extend`` calls that follow in the same block. Subclasses add what
+    ``append`` and ``extend`` calls that follow in the same block. Subclasses add the
     values of attributes and calls.
     """
 
@@ -87,18 +88,9 @@ class Evaluator:
         self._methods: Mapping[type[ast.expr], Callable[..., object]] = {
             ast.Name: self._name,
             ast.Attribute: self._attribute,
-            ast.JoinedStr: self._f_string,
-            ast.BinOp: self._binary,
-            ast.UnaryOp: self._unary,
-            ast.BoolOp: self._bool,
-            ast.Compare: self._comparison,
-            ast.IfExp: self._conditional,
-            ast.List: self._sequence,
-            ast.Tuple: self._sequence,
-            ast.Set: self._sequence,
-            ast.Dict: self._dict,
-            ast.Subscript: self._subscript,
-            ast.NamedExpr: self._walrus,
+            ast.Compare: self.comparison,
+            ast.Subscript: self.subscript,
+            **{kind: partial(value_of, self.evaluate) for kind, value_of in OPERATIONS.items()},
             ast.ListComp: self._comprehension,
             ast.GeneratorExp: self._comprehension,
             ast.Call: self._call,
@@ -213,6 +205,14 @@ class Evaluator:
         del node
         return UNKNOWN
 
+    def comparison(self, node: ast.Compare) -> object:
+        """Return the result of a comparison."""
+        return comparison(self.evaluate, node)
+
+    def subscript(self, node: ast.Subscript) -> object:
+        """Return an item of a list, a text or a dictionary."""
+        return subscript(self.evaluate, node)
+
     # -- lists
 
     def _collect(self, node: ast.expr, items: list[Element], depth: int) -> Iterator[bool]:
@@ -310,107 +310,6 @@ class Evaluator:
         value = self._imported(node)
         return self.attribute(node) if value is UNKNOWN else value
 
-    def _f_string(self, node: ast.JoinedStr) -> object:
-        parts: list[str] = []
-        for part in node.values:
-            if isinstance(part, ast.FormattedValue):
-                text = self._formatted(part)
-                if text is None:
-                    return UNKNOWN
-                parts.append(text)
-            elif isinstance(part, ast.Constant):
-                parts.append(str(part.value))
-        return "".join(parts)
-
-    def _formatted(self, node: ast.FormattedValue) -> str | None:
-        value = self.evaluate(node.value)
-        if not isinstance(value, str | int | float):
-            return value.text if isinstance(value, PathValue) and not node.format_spec else None
-        convert: dict[int, Callable[[object], str]] = {115: str, 114: repr, 97: ascii}
-        if node.conversion in convert:
-            value = convert[node.conversion](value)
-        spec = self.evaluate(node.format_spec) if node.format_spec else ""
-        return None if spec is UNKNOWN else format_text(f"{{:{spec}}}", (value,), {})
-
-    def _binary(self, node: ast.BinOp) -> object:
-        left, right = self.evaluate(node.left), self.evaluate(node.right)
-        if left is UNKNOWN or right is UNKNOWN:
-            return UNKNOWN
-        return binary(type(node.op), left, right)
-
-    def _unary(self, node: ast.UnaryOp) -> object:
-        value = self.evaluate(node.operand)
-        if isinstance(node.op, ast.Not):
-            return (not value) if is_known(value) else UNKNOWN
-        if not isinstance(value, int | float) or isinstance(node.op, ast.Invert):
-            return UNKNOWN
-        return -value if isinstance(node.op, ast.USub) else +value
-
-    def _bool(self, node: ast.BoolOp) -> object:
-        wanted = isinstance(node.op, ast.Or)
-        value: object = UNKNOWN
-        for part in node.values:
-            value = self.evaluate(part)
-            if not is_known(value):
-                return UNKNOWN
-            if bool(value) is wanted:
-                return value
-        return value
-
-    def _comparison(self, node: ast.Compare) -> object:
-        left, right = self.evaluate(node.left), self.evaluate(node.comparators[0])
-        compare = COMPARISONS.get(type(node.ops[0]))
-        if len(node.ops) > 1 or compare is None or not is_known(left) or not is_known(right):
-            return UNKNOWN
-        return compare(left, right)
-
-    def _conditional(self, node: ast.IfExp) -> object:
-        test = self.evaluate(node.test)
-        if is_known(test):
-            return self.evaluate(node.body if test else node.orelse)
-        first, second = self.evaluate(node.body), self.evaluate(node.orelse)
-        return first if same(first, second) else UNKNOWN
-
-    def _sequence(self, node: ast.List | ast.Tuple | ast.Set) -> object:
-        values: list[object] = []
-        for part in node.elts:
-            if not isinstance(part, ast.Starred):
-                values.append(self.evaluate(part))
-                continue
-            inner = self.evaluate(part.value)
-            if not isinstance(inner, list | tuple):
-                return UNKNOWN
-            values.extend(inner)
-        return tuple(values) if isinstance(node, ast.Tuple) else values
-
-    def _dict(self, node: ast.Dict) -> object:
-        result: dict[object, object] = {}
-        for key, value in zip(node.keys, node.values, strict=True):
-            if key is None:
-                inner = self.evaluate(value)
-                if not isinstance(inner, dict):
-                    return UNKNOWN
-                result.update(inner)
-                continue
-            constant = self.evaluate(key)
-            if not isinstance(constant, str | int | float):
-                return UNKNOWN
-            result[constant] = self.evaluate(value)
-        return result
-
-    def _subscript(self, node: ast.Subscript) -> object:
-        holder, key = self.evaluate(node.value), self.evaluate(node.slice)
-        if isinstance(holder, dict) and isinstance(key, str | int | float):
-            return holder.get(key, UNKNOWN)
-        if isinstance(holder, str | tuple | list) and type(key) is int:
-            if any(isinstance(item, Glob) for item in holder):
-                return UNKNOWN
-            return holder[key] if -len(holder) <= key < len(holder) else UNKNOWN
-        return UNKNOWN
-
-    def _walrus(self, node: ast.NamedExpr) -> object:
-        return self.evaluate(node.value)
-
     def _comprehension(self, node: ast.ListComp | ast.GeneratorExp) -> object:
         if len(node.generators) != 1 or node.generators[0].is_async:
             return UNKNOWN
@@ -455,9 +354,9 @@ class Evaluator:
             keywords = {word.arg or "**": self.evaluate(word.value) for word in node.keywords}
             return FUNCTIONS[name](args, keywords)
         if name == "os.path.join":
-            return self._joined_path(node)
+            return joined_path(self.evaluate, node)
         if isinstance(node.func, ast.Attribute) and name is None:
-            value = self._method(node, node.func)
+            value = method_result(self.evaluate, node, node.func)
             if value is not UNKNOWN:
                 return value
         value = self.call(node)
@@ -476,31 +375,3 @@ class Evaluator:
         }
         with self._bound(function, given):
             return self.evaluate(returned)
-
-    def _joined_path(self, node: ast.Call) -> object:
-        parts: list[object] = []
-        for arg in node.args:
-            if isinstance(arg, ast.Starred):
-                inner = self.evaluate(arg.value)
-                parts.extend(inner if isinstance(inner, list | tuple) else [UNKNOWN])
-            else:
-                parts.append(self.evaluate(arg))
-        texts = [part.text if isinstance(part, PathValue) else part for part in parts]
-        strings = [text for text in texts if isinstance(text, str)]
-        return join_paths(strings) if strings and len(strings) == len(texts) else UNKNOWN
-
-    def _method(self, node: ast.Call, func: ast.Attribute) -> object:
-        holder = self.evaluate(func.value)
-        args = [self.evaluate(arg) for arg in node.args]
-        keywords = {word.arg or "**": self.evaluate(word.value) for word in node.keywords}
-        if not all(map(is_known, (*args, *keywords.values()))) and func.attr != "join":
-            return UNKNOWN
-        match holder:
-            case str():
-                return text_method(holder, func.attr, args, keywords)
-            case PathValue() | Glob():
-                return path_method(holder, func.attr, args, keywords)
-            case dict() if func.attr == "get" and args and isinstance(args[0], str):
-                return holder.get(*args[:2])
-            case _:
-                return UNKNOWN
