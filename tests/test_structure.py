@@ -18,15 +18,6 @@ CIRCLES_OF_TYPES = {
             *("parameters.declarations", "parameters.descriptors"),
         )
     ),
-    # Packages know their workspace, which knows its packages and the interfaces that CMake
-    # generates in them.
-    "scaffold.model.package": frozenset(
-        f"{MODEL}.{name}"
-        for name in (
-            *("cmake.ament", "cmake.rosidl", "discovery.unchecked"),
-            *("workspace.definitions", "workspace.workspace"),
-        )
-    ),
 }
 """Modules that need each other for types, by one of them: what they are about refers to itself."""
 

@@ -2,7 +2,17 @@
 
 from __future__ import annotations
 
-from scaffold.model.cmake.ament import (
+from scaffold.model.cmake.lists import CMakeLists, FoundPackage, Install, InstallItem
+from scaffold.model.cmake.parser import Argument, Command
+from scaffold.model.cmake.rosidl import Generation
+from scaffold.model.cmake.targets import (
+    BUILT_IN,
+    OF_AMENT,
+    TAKING_TARGETS,
+    defined_targets,
+    targets_named_once,
+)
+from scaffold.model.contents.ament_cmake import (
     PACKAGE_COMMANDS,
     has_unknown_commands,
     installs_directory,
@@ -16,20 +26,10 @@ from scaffold.model.cmake.ament import (
     runs_with_python,
     uses_ament,
 )
-from scaffold.model.cmake.lists import CMakeLists, FoundPackage, Install, InstallItem
-from scaffold.model.cmake.parser import Argument, Command
-from scaffold.model.cmake.rosidl import (
-    Generation,
+from scaffold.model.contents.interface_files import (
     generations,
     is_interface_package,
     may_generate_more,
-)
-from scaffold.model.cmake.targets import (
-    BUILT_IN,
-    OF_AMENT,
-    TAKING_TARGETS,
-    defined_targets,
-    targets_named_once,
 )
 
 __all__ = [

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from scaffold.model.interfaces.definitions import KINDS, Definitions, closest_word
-from scaffold.model.interfaces.files import (
+from scaffold.model.contents.interface_files import (
     interface_files,
     is_commented_out,
     names_used_in_code,
     problems,
     ungenerated_candidates,
 )
+from scaffold.model.interfaces.definitions import KINDS, Definitions, closest_word
 from scaffold.model.interfaces.reserved_names import (
     escape_problem,
     reserved,

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from scaffold.model.contents import requirements
+from scaffold.model.contents.package_name import name_used_elsewhere
+from scaffold.model.contents.requirements import declared, required_packages
 from scaffold.model.discovery.declaring import declaring, way_back
 from scaffold.model.discovery.pip import is_in_requirements
 from scaffold.model.discovery.repos_files import is_fetched
-from scaffold.model.manifest import requirements
 from scaffold.model.manifest.conditions import (
     ConditionError,
     Constant,
@@ -15,9 +17,7 @@ from scaffold.model.manifest.conditions import (
     misspelled,
 )
 from scaffold.model.manifest.manifest import Manifest
-from scaffold.model.manifest.package_name import name_used_elsewhere
 from scaffold.model.manifest.placeholders import is_placeholder, is_placeholder_address
-from scaffold.model.manifest.requirements import declared, required_packages
 from scaffold.model.manifest.spdx import similar_license, spdx_of
 
 __all__ = [

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from scaffold.model.python.facts import (
+from scaffold.model.contents.python_facts import (
     Exports,
     exports_of,
     imports_by_path,

@@ -12,6 +12,7 @@ from scaffold.check import conflicts
 from scaffold.check.rules.engine_rules import RuleCrashed, UnparsableFile
 from scaffold.configuration.exclusion import Exclusion
 from scaffold.diagnostic import Diagnostic, Severity
+from scaffold.model.contents.python_facts import imports_of, paths_importing
 from scaffold.model.discovery.foreign import ENVIRONMENTS, Foreign
 from scaffold.model.install.unused import (
     is_copy_of_old_code,
@@ -21,7 +22,6 @@ from scaffold.model.install.unused import (
 from scaffold.model.launch.unlaunched import is_in_unlaunched_action
 from scaffold.model.launch.unused_files import is_left_alone
 from scaffold.model.package import Package
-from scaffold.model.python.facts import imports_of, paths_importing
 from scaffold.model.python.guards import all_conditions, is_unevaluated
 from scaffold.model.python.module import PythonModule
 from scaffold.model.rclpy.stopping import only_while_stopping

@@ -28,7 +28,7 @@ from scaffold.check.selection import Selection
 from scaffold.configuration.exclusion import Exclusion
 from scaffold.diagnostic import MAX_FINDINGS, Diagnostic, Severity
 from scaffold.files.tree import CMAKE_LISTS
-from scaffold.model.cmake.ament import uses_ament
+from scaffold.model.contents.ament_cmake import uses_ament
 from scaffold.model.discovery.targets import Target
 from scaffold.model.package import Package
 from scaffold.model.reads import Reads, recorded

@@ -52,18 +52,18 @@ class Package(PackageFiles):
     """
 
     def __init__(
-        self, tree: Tree, *, directory: str = "", workspace: Workspace | None = None
+        self, tree: Tree, *, directory: str = "", workspace: Workspace[Package] | None = None
     ) -> None:
         super().__init__(tree, directory)
         self._workspace = workspace
-        self._neighborhood: WorkspaceView | None = None
+        self._neighborhood: WorkspaceView[Package] | None = None
         self._identity: Identity | None = None
 
     @classmethod
     def at(
         cls,
         directory: str | os.PathLike[str],
-        workspace: Workspace | None = None,
+        workspace: Workspace[Package] | None = None,
         disk: Disk | None = None,
     ) -> Package:
         """Return the package in a directory.
@@ -263,7 +263,7 @@ class Package(PackageFiles):
         return "ament_cmake" if self.has(CMAKE_LISTS) else "ament_python"
 
     @property
-    def workspace(self) -> WorkspaceView:
+    def workspace(self) -> WorkspaceView[Package]:
         """The packages around this one, itself included."""
         if self._neighborhood is None:
             from scaffold.model.workspace.workspace import Workspace, WorkspaceView
@@ -284,7 +284,7 @@ class Package(PackageFiles):
         return Disk()
 
     @property
-    def known_workspace(self) -> Workspace | None:
+    def known_workspace(self) -> Workspace[Package] | None:
         """The workspace given from outside, if any."""
         return self._workspace
 
@@ -295,6 +295,10 @@ class Package(PackageFiles):
         super().forget_views(kept)
         if self._workspace is None:
             self._neighborhood = None
+
+    def forget_others(self) -> None:
+        """Drop what derives from the packages around this one."""
+        self.workspace.forget()
 
     def change(self, tree: Tree) -> None:
         """Replace the files of the package; see `Workspace.forget`."""

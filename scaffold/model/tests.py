@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from typing import TYPE_CHECKING
 
-from scaffold.model.python.facts import paths_importing
+from scaffold.model.contents.python_facts import paths_importing
 from scaffold.model.python.module import is_collected, is_in_tests
 from scaffold.record import NamedTuple
 from scaffold.source import ViewError

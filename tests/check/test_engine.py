@@ -153,7 +153,7 @@ def test_rule_is_silent_about_a_missing_file() -> None:
 
 @pytest.mark.parametrize("order", [("talker", "listener"), ("listener", "talker")])
 def test_unreadable_file_of_another_package_is_not_reported(order: tuple[str, str]) -> None:
-    workspace = Workspace()
+    workspace = Workspace[Package]()
     notes = {"listener": b"\xff", "talker": b"heard\n"}
     packages: dict[str, Package] = {}
     for name, data in notes.items():

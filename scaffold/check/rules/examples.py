@@ -17,7 +17,7 @@ from scaffold.model.workspace.workspace import Workspace
 
 def package_of(example: Example) -> Package:
     """Return the package of an example, in the workspace of its neighbors."""
-    workspace = Workspace()
+    workspace = Workspace[Package]()
     # Set on the instance, so that the rosdep cache of this machine does not matter.
     data = pickle.dumps({key: {"ubuntu": [key]} for key in example.rosdep_keys or ()}, 2)
     workspace.rosdep = None if example.rosdep_keys is None else RosdepKeys([data])

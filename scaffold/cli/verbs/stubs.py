@@ -12,6 +12,7 @@ from scaffold.cli import distro, terminal
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from scaffold.model.package import Package
     from scaffold.model.workspace.workspace import Workspace
 
 TYPINGS = "typings"
@@ -85,7 +86,7 @@ def _next_steps(output: str) -> str:
     return f'{pyright}, mypy needs `mypy_path = "{output}"`; others: docs/stubs.md'
 
 
-def _workspace(paths: Sequence[str]) -> Workspace:
+def _workspace(paths: Sequence[str]) -> Workspace[Package]:
     from scaffold.errors import InputError
     from scaffold.model.discovery import targets as discovery
     from scaffold.model.workspace.workspace import Workspace

@@ -9,8 +9,8 @@ from typing import NamedTuple
 from scaffold.errors import InputError
 from scaffold.generate.edit.cmake_editor import INSTALL_PYTHON
 from scaffold.generate.update.provenance import NAME as PROVENANCE
-from scaffold.model.cmake.ament import programs
-from scaffold.model.cmake.rosidl import is_interface_package
+from scaffold.model.contents.ament_cmake import programs
+from scaffold.model.contents.interface_files import is_interface_package
 from scaffold.model.package import Package
 from scaffold.model.setup_py.setup_py import FindPackages, SetupPy
 

@@ -94,7 +94,7 @@ def _definitions(real: str) -> Definitions:
     from scaffold.model.package import Package
     from scaffold.model.workspace.workspace import Workspace
 
-    workspace = Workspace()
+    workspace = Workspace[Package]()
     for package_directory in colcon.packages_around(Disk(), real, most=MOST_DIRECTORIES):
         if _has_interfaces(package_directory):
             workspace.add(Package.at(package_directory, workspace))

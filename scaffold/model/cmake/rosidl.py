@@ -4,13 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from scaffold.model.cmake.ament import has_unknown_commands
 from scaffold.record import NamedTuple
 
 if TYPE_CHECKING:
     from scaffold.model.cmake.lists import CMakeLists
     from scaffold.model.cmake.parser import Argument, Command
-    from scaffold.model.package import Package
 
 GENERATE = "rosidl_generate_interfaces"
 _OPTIONS = frozenset({"ADD_LINTER_TESTS", "SKIP_INSTALL", "SKIP_GROUP_MEMBERSHIP_CHECK"})
@@ -42,31 +40,9 @@ class Generation(NamedTuple):
     for_tests: bool
 
 
-def generations(package: Package) -> list[Generation]:
-    """Return the calls in CMakeLists.txt; raises ViewError."""
-    return package.remember("generations", lambda: generations_of(package.cmake))
-
-
 def generations_of(cmake: CMakeLists) -> list[Generation]:
     """Return the calls in a CMakeLists.txt."""
     return [_generation(cmake, command) for command in cmake.find(GENERATE) if command.arguments]
-
-
-def may_generate_more(package: Package) -> bool:
-    """Tell whether other CMake files or commands may generate interfaces, too."""
-    return has_unknown_commands(package) or any(
-        "generate" in command.name and "interfaces" in command.name
-        for command in package.cmake.commands
-        if command.name != GENERATE
-    )
-
-
-def is_interface_package(package: Package) -> bool:
-    """Tell whether a package installs interfaces; raises ViewError."""
-    return any(
-        not generation.for_tests and "SKIP_INSTALL" not in generation.options
-        for generation in generations(package)
-    )
 
 
 def _generation(cmake: CMakeLists, command: Command) -> Generation:

@@ -70,7 +70,7 @@ def find(
         InputError: a path does not exist, or has no package.
     """
     disk = disk or Disk()
-    workspace = Workspace(disk=disk, policy=policy)
+    workspace = Workspace[Package](disk=disk, policy=policy)
     if whole_packages:
         paths = _packages_of(disk, paths)
     directories = [path for path in paths if disk.is_directory(path)]
@@ -95,7 +95,7 @@ def find(
 
 def _targets_of_files(
     disk: Disk,
-    workspace: Workspace,
+    workspace: Workspace[Package],
     paths: Sequence[str],
     whole: Container[str],
     *,
@@ -112,7 +112,7 @@ def _targets_of_files(
 
 
 def _whole_packages(
-    disk: Disk, workspace: Workspace, directories: Sequence[str], exclusion: Exclusion
+    disk: Disk, workspace: Workspace[Package], directories: Sequence[str], exclusion: Exclusion
 ) -> tuple[dict[str, Target], dict[str, Package]]:
     """Return the packages at and below directories, and the excluded ones, by directory."""
     whole: dict[str, Target] = {}
@@ -129,7 +129,7 @@ def _whole_packages(
 
 def _set_apart(
     disk: Disk,
-    workspace: Workspace,
+    workspace: Workspace[Package],
     whole: dict[str, Target],
     excluded: dict[str, Package],
     foreign: Foreign,
@@ -161,7 +161,7 @@ def _packages_of(disk: Disk, paths: Sequence[str]) -> list[str]:
 
 
 def _unchecked_neighbors(
-    disk: Disk, workspace: Workspace, given: Sequence[str], tops: Sequence[str]
+    disk: Disk, workspace: Workspace[Package], given: Sequence[str], tops: Sequence[str]
 ) -> UncheckedPackages | None:
     """Return the packages next to those given, unless the whole workspace was given.
 

@@ -11,14 +11,11 @@ import os
 import re
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from functools import cached_property
-from typing import TYPE_CHECKING
 
 from scaffold.files.tree import MANIFEST
 from scaffold.model.discovery.colcon import package_directories, packages_in
-
-if TYPE_CHECKING:
-    from scaffold.model.package import Package
-    from scaffold.model.workspace.workspace import Workspace
+from scaffold.model.package import Package
+from scaffold.model.workspace.workspace import Workspace
 
 MOST_DIRECTORIES = 2000
 """The size limit of a searched workspace, so that a search is fast."""
@@ -40,7 +37,7 @@ class UncheckedPackages:
         beside: Sequence[str],
         sources: Sequence[str],
         own: Collection[str],
-        workspace: Workspace,
+        workspace: Workspace[Package],
     ) -> None:
         self._beside = beside
         self._sources = sources
@@ -79,8 +76,6 @@ class UncheckedPackages:
     def get(self, name: str) -> Package | None:
         """Return the package with a name, if it exists."""
         if name not in self._packages and name in self.directories:
-            from scaffold.model.package import Package
-
             self._packages[name] = Package.at(
                 self.directories[name], self._workspace, self._workspace.disk
             )

@@ -10,13 +10,13 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from scaffold.model.catalog import ROS_PACKAGES, keys_of_module
-from scaffold.model.cmake.ament import has_unknown_commands, programs
+from scaffold.model.contents.ament_cmake import has_unknown_commands, programs
+from scaffold.model.contents.python_facts import imports_by_path, imports_of
 from scaffold.model.discovery.gitignore import directories_above, is_untracked
 from scaffold.model.facts import fact
 from scaffold.model.install.package_data import installed_data
 from scaffold.model.install.share import installed_files
 from scaffold.model.package import mentions
-from scaffold.model.python.facts import imports_by_path, imports_of
 from scaffold.model.python.module import is_in_tests
 from scaffold.source import ViewError
 

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from fnmatch import fnmatchcase
 from typing import TYPE_CHECKING
 
-from scaffold.model.cmake.ament import has_unknown_commands
+from scaffold.model.contents.ament_cmake import has_unknown_commands
 from scaffold.model.discovery.gitignore import is_untracked
 from scaffold.model.install.package_data import matches
 from scaffold.model.python.values import Glob

@@ -7,8 +7,8 @@ from collections.abc import Iterable, Iterator, Sequence
 from contextlib import suppress
 from typing import TYPE_CHECKING
 
+from scaffold.model.contents.python_facts import imports_of
 from scaffold.model.facts import fact
-from scaffold.model.python.facts import imports_of
 from scaffold.model.rclpy.file import rclpy_file
 from scaffold.record import NamedTuple
 from scaffold.source import ViewError

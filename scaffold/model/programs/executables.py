@@ -7,9 +7,9 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from scaffold.model.catalog import keys_of_module
-from scaffold.model.cmake.ament import programs
+from scaffold.model.contents.ament_cmake import programs
+from scaffold.model.contents.python_facts import imports_of
 from scaffold.model.programs.known_nodes import KnownNode, known_nodes
-from scaffold.model.python.facts import imports_of
 from scaffold.record import NamedTuple
 from scaffold.source import ViewError
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from scaffold.files.limits import most_bytes
 from scaffold.formats.hash_comments import code_with, without_comments
-from scaffold.model.cmake.ament import programs
+from scaffold.model.contents.ament_cmake import programs
 from scaffold.model.facts import fact
 from scaffold.model.install.console_scripts import has_program_files
 from scaffold.model.install.package_data import installed_data

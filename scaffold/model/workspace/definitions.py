@@ -5,10 +5,10 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping, Sequence
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 from scaffold import distributions
-from scaffold.model.cmake.rosidl import generations
+from scaffold.model.cmake.rosidl import generations_of
 from scaffold.model.interfaces.definitions import Definitions
 from scaffold.model.interfaces.sources import (
     BundleSource,
@@ -22,12 +22,21 @@ from scaffold.model.interfaces.syntax import SECTIONS
 from scaffold.source import ViewError
 
 if TYPE_CHECKING:
-    from scaffold.model.package import Package
-    from scaffold.model.workspace.workspace import Workspace
+    from scaffold.files.disk import Disk
+    from scaffold.model.workspace.member import Member
+
+
+class _Workspace(Protocol):
+    disk: Disk
+
+    @property
+    def by_name(self) -> Mapping[str, Member]: ...
+
+    def get(self, name: str) -> Member | None: ...
 
 
 def definitions_for(
-    workspace: Workspace | None = None, prefixes: Sequence[str] | None = None
+    workspace: _Workspace | None = None, prefixes: Sequence[str] | None = None
 ) -> Definitions:
     """Return the definitions in a workspace, in installed packages and in the bundle.
 
@@ -55,7 +64,7 @@ def _is_of_another(prefix: str) -> bool:
 class WorkspaceSource:
     """The packages that are checked together."""
 
-    def __init__(self, workspace: Workspace) -> None:
+    def __init__(self, workspace: _Workspace) -> None:
         self._workspace = workspace
         self._by_name: dict[str, _WorkspacePackage | None] = {}
 
@@ -72,12 +81,12 @@ class WorkspaceSource:
 
 
 class _WorkspacePackage:
-    def __init__(self, package: Package, paths: Mapping[str, Mapping[str, list[str]]]) -> None:
+    def __init__(self, package: Member, paths: Mapping[str, Mapping[str, list[str]]]) -> None:
         self._package = package
         self._paths = paths
 
     @classmethod
-    def of(cls, package: Package) -> _WorkspacePackage | None:
+    def of(cls, package: Member) -> _WorkspacePackage | None:
         """Return the interfaces of a package; ``None`` if it has none."""
         paths: dict[str, dict[str, list[str]]] = {kind: {} for kind in SECTIONS}
         for path in package.files:
@@ -98,7 +107,7 @@ class _WorkspacePackage:
         if any(package.has_directory(f"{package.name}/{kind}") for kind in SECTIONS):
             return False
         try:
-            calls = generations(package)
+            calls = generations_of(package.cmake)
         except ViewError:
             return False
         return bool(calls) and all(

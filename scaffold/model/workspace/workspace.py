@@ -5,24 +5,24 @@ from __future__ import annotations
 import os
 from collections.abc import Iterable, Iterator, Mapping
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Generic
 
 from scaffold.files.disk import Disk
+from scaffold.model.workspace.member import AnyMember
 from scaffold.model.workspace.policy import Policy
 
 if TYPE_CHECKING:
-    from scaffold.model.discovery.unchecked import UncheckedPackages
     from scaffold.model.interfaces.definitions import Definitions
-    from scaffold.model.package import Package
+    from scaffold.model.workspace.member import Member, Neighbors
     from scaffold.model.workspace.rosdep import RosdepKeys
 
 
-class Workspace:
+class Workspace(Generic[AnyMember]):
     """The packages of a workspace, with their declarations and definitions."""
 
     def __init__(
         self,
-        packages: Iterable[Package] = (),
+        packages: Iterable[AnyMember] = (),
         disk: Disk | None = None,
         policy: Policy | None = None,
     ) -> None:
@@ -31,11 +31,11 @@ class Workspace:
         """The settings of the configuration that rules use."""
         self.disk = disk or Disk()
         """Records accesses outside of the packages."""
-        self.around: UncheckedPackages | None = None
+        self.around: Neighbors[AnyMember] | None = None
         """The unchecked packages of the same workspace on disk."""
-        self._near: dict[str, Workspace] = {}
+        self._near: dict[str, Workspace[AnyMember]] = {}
 
-    def add(self, package: Package) -> None:
+    def add(self, package: AnyMember) -> None:
         """Add a package, before the first use of the workspace."""
         self._packages.append(package)
 
@@ -46,25 +46,25 @@ class Workspace:
         self._near.clear()
         for package in self._packages:
             package.forget()
-            package.workspace.forget()
+            package.forget_others()
 
-    def __iter__(self) -> Iterator[Package]:
+    def __iter__(self) -> Iterator[AnyMember]:
         return iter(self._packages)
 
     @cached_property
-    def by_name(self) -> Mapping[str, Package]:
+    def by_name(self) -> Mapping[str, AnyMember]:
         """The packages by the name in their manifest; the first of a name wins."""
-        result: dict[str, Package] = {}
+        result: dict[str, AnyMember] = {}
         for package in self._packages:
             result.setdefault(package.name, package)
         return result
 
-    def get(self, name: str) -> Package | None:
+    def get(self, name: str) -> AnyMember | None:
         """Return the package with a name, if it is in the workspace."""
         package = self.by_name.get(name)
         return self.around.get(name) if package is None and self.around is not None else package
 
-    def near(self, directory: str) -> Workspace:
+    def near(self, directory: str) -> Workspace[AnyMember]:
         """Return the workspace with the closest package of each name.
 
         A repository may have several workspaces with packages of the same name.
@@ -72,7 +72,7 @@ class Workspace:
         if len(self.by_name) == len(self._packages):
             return self
         if directory not in self._near:
-            closest: dict[str, Package] = {}
+            closest: dict[str, AnyMember] = {}
             for package in self._packages:
                 other = closest.get(package.name)
                 if other is None or _shared(package, directory) > _shared(other, directory):
@@ -96,7 +96,7 @@ class Workspace:
         return cached_keys(self.disk)
 
 
-def _shared(package: Package, directory: str) -> int:
+def _shared(package: Member, directory: str) -> int:
     """Return the length of the common path of a package and a directory."""
     try:
         return len(os.path.commonpath((package.directory, directory)))
@@ -104,7 +104,7 @@ def _shared(package: Package, directory: str) -> int:
         return 0
 
 
-class WorkspaceView:
+class WorkspaceView(Generic[AnyMember]):
     """The workspace as seen by one of its packages; records which others it uses.
 
     Args:
@@ -112,23 +112,23 @@ class WorkspaceView:
         directory: The directory of the package.
     """
 
-    def __init__(self, workspace: Workspace, directory: str) -> None:
+    def __init__(self, workspace: Workspace[AnyMember], directory: str) -> None:
         self._workspace = workspace
         self._directory = directory
-        self.used: dict[int, Package] = {}
+        self.used: dict[int, AnyMember] = {}
         """The packages that were looked up, by identity, including unchecked ones."""
         self.uses_all = False
         self.uses_interfaces = False
         """Whether interface definitions of any package were looked up."""
 
-    def get(self, name: str) -> Package | None:
+    def get(self, name: str) -> AnyMember | None:
         """Return the package with a name, if it is in the workspace."""
         result = self._workspace.near(self._directory).get(name)
         if result is not None:
             self.used[id(result)] = result
         return result
 
-    def __iter__(self) -> Iterator[Package]:
+    def __iter__(self) -> Iterator[AnyMember]:
         self.uses_all = True
         yield from self._workspace.near(self._directory)
         yield from self._workspace.around or ()
@@ -137,7 +137,7 @@ class WorkspaceView:
         """Drop data derived from the packages, but keep the recorded uses."""
         self.__dict__.pop("interfaces", None)
 
-    def is_hidden(self, package: Package) -> bool:
+    def is_hidden(self, package: AnyMember) -> bool:
         """Tell whether another package of the workspace with the same name takes precedence."""
         return self._workspace.get(package.name) not in {None, package}
 

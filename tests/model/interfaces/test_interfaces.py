@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 
 from scaffold.cli.main import main
 from scaffold.errors import InputError
-from scaffold.model.cmake.rosidl import generations
+from scaffold.model.contents.interface_files import generations
 from scaffold.model.interfaces.definitions import Definitions, Interface, render, spell
 from scaffold.model.interfaces.sources import BundleSource, PrefixSource
 from scaffold.model.interfaces.syntax import (

@@ -330,7 +330,7 @@ def test_nodes_created_in_other_packages_belong_to_the_program() -> None:
     ]
     alone = Package(MemoryTree(trees[0], ()))
     assert [node.name for node in nodes_of(alone, "talk")] == ["Talker"]
-    workspace = Workspace()
+    workspace = Workspace[Package]()
     packages = [Package(MemoryTree(files, ()), workspace=workspace) for files in trees]
     for package in packages:
         workspace.add(package)

@@ -11,7 +11,7 @@ _LISTS = "project(msgs)\nrosidl_generate_interfaces(msgs msg/{}.msg)\n"
 
 
 def test_the_closest_of_several_packages_of_a_name_is_meant(tmp_path: Path) -> None:
-    workspace = Workspace()
+    workspace = Workspace[Package]()
     users = []
     for side, message in (("robot", "Beat"), ("server", "Map")):
         for name in ("msgs", "node"):

@@ -15,9 +15,9 @@ from scaffold.model.catalog import (
     keys_of_module,
     module_of_key,
 )
-from scaffold.model.cmake.ament import programs
-from scaffold.model.cmake.rosidl import generations
-from scaffold.model.python.facts import imports_by_path
+from scaffold.model.contents.ament_cmake import programs
+from scaffold.model.contents.interface_files import generations
+from scaffold.model.contents.python_facts import imports_by_path
 from scaffold.model.python.module import is_collected, is_in_tests
 from scaffold.model.released import dependencies, is_released, transitive_dependencies
 from scaffold.record import NamedTuple

@@ -7,7 +7,8 @@ import re
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from scaffold.model.cmake.rosidl import generations
+from scaffold.model.cmake.rosidl import GENERATE, Generation, generations_of
+from scaffold.model.contents.ament_cmake import has_unknown_commands
 from scaffold.model.facts import fact
 from scaffold.model.interfaces.sources import is_test_data
 from scaffold.model.interfaces.syntax import SECTIONS, Definition, Problem, ProblemKind, parse
@@ -28,6 +29,28 @@ class InterfaceFile(NamedTuple):
     kind: str
     name: str
     definition: Definition
+
+
+def generations(package: Package) -> list[Generation]:
+    """Return the calls in CMakeLists.txt; raises ViewError."""
+    return package.remember("generations", lambda: generations_of(package.cmake))
+
+
+def may_generate_more(package: Package) -> bool:
+    """Tell whether other CMake files or commands may generate interfaces, too."""
+    return has_unknown_commands(package) or any(
+        "generate" in command.name and "interfaces" in command.name
+        for command in package.cmake.commands
+        if command.name != GENERATE
+    )
+
+
+def is_interface_package(package: Package) -> bool:
+    """Tell whether a package installs interfaces; raises ViewError."""
+    return any(
+        not generation.for_tests and "SKIP_INSTALL" not in generation.options
+        for generation in generations(package)
+    )
 
 
 def ungenerated_candidates(package: Package) -> list[str]:
