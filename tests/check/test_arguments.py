@@ -151,3 +151,9 @@ def test_constructors_and_static_methods() -> None:
         "    def g(self):\n        self.f(1)\n"
     )
     assert added(source) == ["a = ([1])[0]"]
+
+
+def test_usage_in_a_docstring_is_not_a_call() -> None:
+    usage = '    """Talks.\n\n    Usage:\n        name = param()\n        talker = Talker("map")\n    """\n'
+    source = CLASS.format("        pass\n").replace("class Talker:\n", f"class Talker:\n{usage}")
+    assert not [line for line in added(source) if '"map"' in line]

@@ -7,7 +7,8 @@ position.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from functools import lru_cache
 
 _FIRST = re.compile(r"[ \t]*([^\W\d]\w*)")
 _BLOCKS = frozenset({"if", "for", "with"})
@@ -26,6 +27,7 @@ _HEAD = re.compile(
 _IN_F_STRING = re.compile(r"""\bf(['"])[^'"\n{}]*\{$""")
 """Matches the text before a call in an f-string."""
 _LINES_BACK = 6
+_TRIPLE = ('"""', "'''")
 
 
 def statement_around(text: str, start: int, end: int) -> int:
@@ -43,7 +45,27 @@ def statement_around(text: str, start: int, end: int) -> int:
         return -1
     if before.count("'") % 2 or before.count('"') % 2 or not _is_closed(before, after):
         return -1
-    return line if _ends_statement(text, line) else -1
+    return line if _ends_statement(text, line) and not _is_in_docstring(text, start) else -1
+
+
+def _is_in_docstring(text: str, at: int) -> bool:
+    """Tell whether a position is in a string of several lines, such as a usage example."""
+    return any(start < at < end for start, end in _docstrings(text))
+
+
+@lru_cache(maxsize=1)
+def _docstrings(text: str) -> Sequence[tuple[int, int]]:
+    """Return the ranges of the strings in triple quotes."""
+    ranges: list[tuple[int, int]] = []
+    end = 0
+    while True:
+        starts = [start for quotes in _TRIPLE if (start := text.find(quotes, end)) >= 0]
+        if not starts:
+            return ranges
+        start = min(starts)
+        end = text.find(text[start : start + 3], start + 3)
+        end = len(text) if end < 0 else end + 3
+        ranges.append((start, end))
 
 
 def definitions(pattern: re.Pattern[str], text: str) -> Iterator[re.Match[str]]:
