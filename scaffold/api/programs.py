@@ -25,6 +25,7 @@ from scaffold.model.programs.initialization import calls_others, late_init, may_
 from scaffold.model.programs.known_nodes import KnownNode
 from scaffold.model.programs.publishing import publish_calls, published_at_start
 from scaffold.model.programs.threads import (
+    names_callback_group,
     names_other_executor,
     share_group,
     spins_elsewhere,
@@ -64,6 +65,7 @@ __all__ = [
     "may_init",
     "may_run_meanwhile",
     "named_endpoints",
+    "names_callback_group",
     "names_other_executor",
     "one_sided",
     "paths_of",

@@ -7,7 +7,13 @@ import re
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, RclpyRule, Report, Severity
-from scaffold.api.programs import in_callbacks, in_constructors, in_tasks
+from scaffold.api.programs import (
+    in_callbacks,
+    in_constructors,
+    in_tasks,
+    names_callback_group,
+    names_other_executor,
+)
 from scaffold.api.rclpy import RclpyFile
 
 MOST = 2
@@ -43,8 +49,10 @@ class SpinInCallback(RclpyRule):
     """A callback or the constructor of a node spins the node itself.
 
     **Why.** ``rclpy.spin_...`` moves the node to another executor and removes it afterward: the
-    first call works, but then no callback of the node runs. ``rclpy.spin`` in the constructor
-    returns only at shutdown: until then, the caller does not get the node.
+    first call works, but then no callback of the node runs. If the node is in the same executor,
+    ``spin_until_future_complete`` waits forever for a callback of the same callback group.
+    ``rclpy.spin`` in the constructor returns only at shutdown: until then, the caller does not get
+    the node.
 
     **Fix.** Spin the node in ``main``, after it is constructed. In callbacks, use
     ``future.add_done_callback``, or an ``async`` callback that awaits the future.
@@ -106,6 +114,35 @@ class SpinInCallback(RclpyRule):
             "a spin",
             {"caller.py": _NODE.format("rclpy.spin_until_future_complete(self, future)")},
             "12:9: rclpy.spin_until_future_complete(self) runs in callback 'ask' of the same "
+            "node: no callback runs afterward; use add_done_callback() or await",
+        ),
+        Example(
+            "a client with a callback group of its own, in the executor of rclpy",
+            {
+                "caller.py": _NODE.format("rclpy.spin_until_future_complete(self, future)").replace(
+                    "        self.create_timer",
+                    "        group = MutuallyExclusiveCallbackGroup()\n"
+                    "        self.client = self.create_client(\n"
+                    "            Trigger, 'reset', callback_group=group)\n"
+                    "        self.create_timer",
+                )
+                + "\n\nrclpy.spin(Caller())\n"
+            },
+        ),
+        Example(
+            "a client with a callback group of its own, in another executor",
+            {
+                "caller.py": _NODE.format("rclpy.spin_until_future_complete(self, future)").replace(
+                    "        self.create_timer",
+                    "        group = MutuallyExclusiveCallbackGroup()\n"
+                    "        self.client = self.create_client(\n"
+                    "            Trigger, 'reset', callback_group=group)\n"
+                    "        self.create_timer",
+                )
+                + "\n\nexecutor = MultiThreadedExecutor()\nexecutor.add_node(Caller())\n"
+                "executor.spin()\n"
+            },
+            "15:9: rclpy.spin_until_future_complete(self) runs in callback 'ask' of the same "
             "node: no callback runs afterward; use add_done_callback() or await",
         ),
         Example(
@@ -181,6 +218,8 @@ class SpinInCallback(RclpyRule):
                     continue
                 if any(isinstance(x, _PLAIN) for x in _endings_after(file, call.call)):
                     continue
+                if call.name == "spin_until_future_complete" and _is_in_one_executor(file):
+                    continue
                 message = f"rclpy.{call.name}({node.id}) runs in {origin} of the same node"
                 yield self.report(
                     call, f"{message}: no callback runs afterward; use add_done_callback() or await"
@@ -202,6 +241,15 @@ class SpinInCallback(RclpyRule):
             )
             severity = None if outside else Severity.WARNING
             yield self.report(call, message, severity=severity)
+
+
+def _is_in_one_executor(file: RclpyFile) -> bool:
+    """Tell whether the executor of rclpy runs the node, maybe with several callback groups.
+
+    It is also the one that waits for the future, so that the node stays in it.
+    """
+    others = any(call.name.startswith("executor.") for call in file.spin_calls)
+    return names_callback_group(file) and not names_other_executor(file) and not others
 
 
 def _is_last(file: RclpyFile, function: ast.AST) -> bool:
