@@ -5,7 +5,15 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, LaunchRule, Package, listed_names
+from scaffold.api import (
+    Diagnostic,
+    Example,
+    LaunchRule,
+    Package,
+    Report,
+    Severity,
+    listed_names,
+)
 from scaffold.api.launch import (
     LaunchCall,
     LaunchFile,
@@ -49,6 +57,9 @@ class ConfigurationUndeclared(LaunchRule):
 
     code = "LF010"
     name = "configuration-undeclared"
+    other_severities = {
+        Severity.WARNING: "the file declares nothing, so that it may be made to be included"
+    }
     examples = (
         Example(
             "declared; with a default; set by the file that includes this one",
@@ -106,8 +117,12 @@ class ConfigurationUndeclared(LaunchRule):
                 "launch/a.launch.py": _LAUNCH.format("", _USED),
                 "launch/b.launch.py": _LAUNCH.format(_DECLARED, "LaunchConfiguration('nod')"),
             },
-            "launch/a.launch.py:9:56: launch configuration 'node' is not declared: the launch "
-            "stops; declared here: nothing",
+            Report(
+                "launch/a.launch.py:9:56",
+                "launch configuration 'node' is not declared: the launch stops; declared here: "
+                "nothing",
+                severity=Severity.WARNING,
+            ),
             "launch/b.launch.py:10:56: launch configuration 'nod' is not declared: the launch "
             "stops; declared here: node",
         ),
@@ -167,7 +182,8 @@ class ConfigurationUndeclared(LaunchRule):
                 f"launch configuration {name!r} is not declared: the launch stops; declared "
                 f"here: {have}"
             )
-            yield self.report(launch.location(call.call), message)
+            severity = None if launch.declared else Severity.WARNING
+            yield self.report(launch.location(call.call), message, severity=severity)
 
     def _check_order(self, package: Package, launch: LaunchFile) -> Iterator[Diagnostic]:
         actions = steps(launch)

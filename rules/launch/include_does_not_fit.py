@@ -81,6 +81,17 @@ class IncludeDoesNotFit(LaunchRule):
             "ignored; did you mean 'robot_name'?",
         ),
         Example(
+            "a name that the including file declares itself, so that the included one sees it",
+            {
+                **_files("b.launch.py", "{'robot_nam': 'a'}"),
+                "launch/a.launch.py": "from launch.actions import DeclareLaunchArgument\n"
+                + _LAUNCH.format("b.launch.py", "{'robot_nam': 'a'}").replace(
+                    "LaunchDescription([\n",
+                    "LaunchDescription([\n        DeclareLaunchArgument('robot_name'),\n",
+                ),
+            },
+        ),
+        Example(
             "a file that includes itself",
             _files("a.launch.py", "{}"),
             "launch/a.launch.py:11:9: this file includes itself: the launch never starts",
@@ -108,6 +119,8 @@ class IncludeDoesNotFit(LaunchRule):
             closest = get_close_matches(name, sorted(other.names - names), 1, 0.75)
             if name not in other.names and closest and not other.is_open:
                 misspelled = True
+                if closest[0] in launch.declared:
+                    continue  # which included files see as well
                 message = (
                     f"{other.path} has no argument {name!r}: it is ignored; did you mean "
                     f"{closest[0]!r}?"
