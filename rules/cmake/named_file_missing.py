@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Collection, Iterator
 
 from scaffold.api import (
@@ -224,7 +225,7 @@ class NamedFileMissing(Rule):
         path = item.path
         if not path or not self._is_own(path) or is_made_by_build(package, path):
             return None
-        if runs_if_exists(install.command) or is_untracked(package, path):
+        if runs_if_exists(install.command) or _is_elsewhere(package, path):
             return None
         nested = [f"{directory}/" for directory in package.tree.nested]
         if any(f"{path}/".startswith(item) or item.startswith(f"{path}/") for item in nested):
@@ -260,7 +261,9 @@ class NamedFileMissing(Rule):
                 if value is None or set("$<*;") & set(value) or not value.endswith(_ENDINGS):
                     continue
                 path = cmake.path_of(value)
-                if package.has(path) or path.startswith(("/", "..")) or is_untracked(package, path):
+                if package.has(path) or path.startswith(("/", "..")):
+                    continue
+                if _is_elsewhere(package, path):
                     continue
                 hint = _closest(package, path, package.files, 0.8)
                 yield self.report(argument, f"file {path} does not exist: CMake stops{hint}")
@@ -275,7 +278,7 @@ class NamedFileMissing(Rule):
             if value is None or set("$<*") & set(value) or value.startswith(("/", "..")):
                 continue
             path = cmake.path_of(value)
-            if package.has(f"{path}/CMakeLists.txt") or is_untracked(package, path):
+            if package.has(f"{path}/CMakeLists.txt") or _is_elsewhere(package, path):
                 continue
             if not package.has_directory(path):
                 message = f"adds the directory {path}/, which does not exist: CMake stops"
@@ -296,7 +299,7 @@ class NamedFileMissing(Rule):
             if value is None or value.startswith(("/", "..", "$")) or "<" in value:
                 continue
             path = cmake.path_of(value)
-            if package.has(path) or package.has_directory(path):
+            if package.has(path) or package.has_directory(path) or _is_elsewhere(package, path):
                 continue
             hint = _closest(package, path, package.python_files, 0.7)
             yield self.report(argument, f"test file {path} does not exist: the test fails{hint}")
@@ -336,6 +339,8 @@ class NamedFileMissing(Rule):
             path = cmake.path_of(directory)
             init = f"{path}/__init__.py"
             line = command.location.line
+            if _is_elsewhere(package, path):
+                continue
             if not package.has_directory(path):
                 message = f"the Python package directory {path}/ does not exist: CMake stops"
                 yield self.report(chosen[0], message)
@@ -351,3 +356,16 @@ class NamedFileMissing(Rule):
 def _closest(package: Package, path: str, files: Collection[str], cutoff: float) -> str:
     closest = closest_name(package, path, files, cutoff)
     return f"; did you mean {closest}?" if closest else ""
+
+
+def _is_elsewhere(package: Package, path: str) -> bool:
+    """Tell whether a path is not tracked by git, or exists through a link to a directory."""
+    return is_untracked(package, path) or _is_linked(package, path)
+
+
+def _is_linked(package: Package, path: str) -> bool:
+    if package.place is None:
+        return False
+    disk, at = package.outside, os.path.join(package.place, path)
+    is_own = disk.real(at) == os.path.join(disk.real(package.place), path)
+    return not is_own and disk.exists(at)
