@@ -23,6 +23,8 @@ from scaffold.model.package import Package
 from scaffold.source import ViewError
 
 _CAUSE = "copyright"
+_LIMIT = "it checks other files only"
+"""Why ament_copyright does not report a file if a test passes paths to it."""
 
 
 def diagnostics(package: Package, code: str) -> Iterator[Diagnostic]:
@@ -59,7 +61,7 @@ def _of_headers(
             message = f"{explain(header, -1)}: ament_copyright fails"
             yield diagnostic(code, header.location, message, cause=_CAUSE)
     if passed_over:
-        limit = "CMakeLists.txt hands it other files" if use.paths else ""
+        limit = _LIMIT if use.paths else ""
         why = use.why_not or limit or "it is configured to exclude them"
         first, others = passed_over[0], len(passed_over) - 1
         message = f"{explain(first, others)}: ament_copyright would fail, but {why}"
@@ -102,10 +104,10 @@ def _of_repository(package: Package, code: str) -> Iterator[Diagnostic]:
         if not wrong:
             continue
         fix = _fix(package, name)
-        if use.runs:
+        if use.runs and not use.paths:
             yield diagnostic(code, at, f"{wrong}: ament_copyright fails", fix, cause=_CAUSE)
         else:
-            message = f"{wrong}: ament_copyright would fail, but {use.why_not}"
+            message = f"{wrong}: ament_copyright would fail, but {use.why_not or _LIMIT}"
             yield diagnostic(code, at, message, fix, severity=Severity.INFO, cause=_CAUSE)
 
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from fnmatch import fnmatchcase
 from typing import TYPE_CHECKING
 
@@ -190,7 +190,8 @@ def _by_pytest(package: Package, linter: str) -> Use | None:
     result: Use | None = None
     for module, why_not in linter_tests(package, linter):
         if not why_not:
-            return Use(runs=True, excluded=_arguments(module.walk(ast.List)))
+            excluded = _excluded(module.walk(ast.List))
+            return Use(runs=True, excluded=excluded, paths=_given_paths(module))
         result = Use(runs=False, why_not=why_not)
     return result
 
@@ -229,15 +230,48 @@ def _can_fail(module: PythonModule) -> bool:
     )
 
 
-def _arguments(lists: Sequence[ast.List]) -> tuple[str, ...]:
+def _given_paths(module: PythonModule) -> tuple[str, ...]:
+    """Return the paths that a test passes to a linter; empty if it may be the whole package."""
+    result: set[str] = set()
+    for call in module.walk(ast.Call):
+        if not ast.unparse(call.func).endswith("main"):
+            continue
+        given = [word.value for word in call.keywords if word.arg == "argv"] or call.args[:1]
+        values = _constants(given[0]) if given and isinstance(given[0], ast.List) else None
+        paths = {_plain(value) for option, value in values or () if not option}
+        if values is None or paths <= {"", "."} or "." in paths:
+            return ()
+        result |= paths
+    return tuple(sorted(result))
+
+
+def _excluded(lists: Sequence[ast.List]) -> tuple[str, ...]:
     """Return the values of ``--exclude`` in lists of arguments."""
-    result: list[str] = []
-    for node in lists:
-        values = [item.value for item in node.elts if isinstance(item, ast.Constant)]
-        excluding = False
-        for value in values:
-            if isinstance(value, str) and value.startswith("--"):
-                excluding = value == "--exclude"
-            elif excluding and isinstance(value, str):
-                result.append(value.removeprefix("./"))
-    return tuple(result)
+    return tuple(
+        _plain(value)
+        for node in lists
+        for option, value in _options(item for item in node.elts if isinstance(item, ast.Constant))
+        if option == "--exclude"
+    )
+
+
+def _constants(node: ast.List) -> list[tuple[str, str]] | None:
+    """Return the arguments of a list, each with its option; ``None`` if not all are known."""
+    constants = [item for item in node.elts if isinstance(item, ast.Constant)]
+    return [*_options(constants)] if len(constants) == len(node.elts) else None
+
+
+def _options(constants: Iterable[ast.Constant]) -> Iterator[tuple[str, str]]:
+    """Yield arguments, each with the option before it; empty if there is none."""
+    option = ""
+    for constant in constants:
+        if not isinstance(constant.value, str):
+            continue
+        if constant.value.startswith("--"):
+            option = constant.value
+        else:
+            yield option, constant.value
+
+
+def _plain(path: str) -> str:
+    return path.removeprefix("./").rstrip("/")

@@ -113,6 +113,19 @@ CASES: Mapping[str, tuple[Example, ...]] = {
             ),
         ),
         Example(
+            "without, in a directory that the test does not pass to the linter",
+            {
+                "a/one.py": f"{APACHE}\n{BARE}",
+                "b/two.py": BARE,
+                "test/test_copyright.py": TEST.replace("'.',", "'./a',"),
+            },
+            Report(
+                "b/two.py:1:1",
+                "no copyright notice: ament_copyright would fail, but it checks other files only",
+                severity=Severity.INFO,
+            ),
+        ),
+        Example(
             "without, where nobody looks: advice, once",
             {"a/one.py": BARE, "a/two.py": BARE, "test/test_copyright.py": SKIPPED},
             Report(

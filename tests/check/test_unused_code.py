@@ -764,3 +764,18 @@ def test_uncalled_function_of_a_test(package: Path, capsys: pytest.CaptureFixtur
         "test/test_hear.py": "error",
         "test/conftest.py": "error",
     }
+
+
+@pytest.mark.parametrize(
+    ("command", "severity"),
+    [("ament_python_install_package(talker)", "warning"), ("add_test(s setup.py)", "error")],
+)
+def test_setup_py_next_to_cmake(
+    package: Path, capsys: pytest.CaptureFixture[str], command: str, severity: str
+) -> None:
+    write(package / "setup.py", SETUP.replace("'talker'", "talker"))
+    manifest = MANIFEST.format("").replace("ament_python", "ament_cmake")
+    write(package / "package.xml", manifest)
+    lists = "project(talker)\nfind_package(ament_cmake REQUIRED)\n"
+    write(package / "CMakeLists.txt", f"{lists}{command}\nament_package()\n")
+    assert severities(capsys, "F821") == {"setup.py": severity}

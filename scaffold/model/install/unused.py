@@ -35,6 +35,7 @@ _RUNS_PYTHON = re.compile(rb"pytest|launch_test|nose|python|PYTHON|ament_lint_au
 _ADDS_DIRECTORY = re.compile(rb"\badd_subdirectory\s*\([^)]{0,200}\)")
 _INSTALLS_PYTHON = re.compile(rb"ament_python_install|python_setup|setup\.py")
 """Matches commands that may install a whole Python package."""
+_RUNS_SETUP = re.compile(rb"python_setup|setup\.py|\bpip3?\b")
 _OF_PROJECT = re.compile(rb"(?<![/\w])\$\{PROJECT_NAME\}/?(?=[\s\")])")
 """Matches what may be the directory with the name of the package."""
 _PROJECT = re.compile(rb"\bproject\s*\([^)]{0,200}\)")
@@ -49,7 +50,8 @@ _BUILDING = ("CMakeLists.txt", "setup.py", "setup.cfg", "pyproject.toml")
 _NAMING = (*_KEPT, ".txt", ".cfg", ".toml", ".cmake", ".sh", ".bash")
 TEXTS = (".md", ".rst")
 """The endings of texts that tell people what to start."""
-_RUN_AS_THEY_ARE = frozenset({"setup.py", "__init__.py", "__main__.py"})
+_SETUP = "setup.py"
+_RUN_AS_THEY_ARE = frozenset({_SETUP, "__init__.py", "__main__.py"})
 _FOR_TESTS = "conftest.py"
 """The file that pytest loads for the tests in and below a directory."""
 
@@ -84,6 +86,8 @@ def _is_never_reached(package: Package, path: str, texts: tuple[str, ...]) -> bo
     """Tell whether a file is apart, and only named by others that are never reached either."""
 
     def find() -> bool:
+        if path == _SETUP:
+            return _is_built_by_cmake(package) and not _uses_setup_py(package)
         pending, seen = [path], {path}
         while pending:
             item = pending.pop()
@@ -142,6 +146,15 @@ def _building(package: Package) -> list[str]:
     """Return the files that say what is installed; colcon uses no setup.py next to CMake."""
     files = _BUILDING[:1] if _is_built_by_cmake(package) else _BUILDING
     return [path for path in files if package.has(path)]
+
+
+def _uses_setup_py(package: Package) -> bool:
+    """Tell whether CMake may run setup.py."""
+    return any(
+        _RUNS_SETUP.search(without_comments(package.data(path)))
+        for path in package.files
+        if path.endswith(("CMakeLists.txt", ".cmake"))
+    )
 
 
 def _is_built_by_cmake(package: Package) -> bool:
