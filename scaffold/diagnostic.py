@@ -25,21 +25,23 @@ class Effect(IntEnum):
 
     STOPS_BUILD = 0
     """A file cannot be read, or the package is not built."""
-    STOPS_PROGRAM = 1
-    """A program does not start, stops or hangs."""
-    STOPS_ROSDEP = 2
+    STOPS_ROSDEP = 1
     """rosdep stops at a name, so that it installs nothing for any package."""
-    WRONG_BEHAVIOR = 3
+    STOPS_START = 2
+    """A program or a launch file does not start."""
+    STOPS_PROGRAM = 3
+    """A program stops or hangs, maybe only later or in some cases."""
+    WRONG_BEHAVIOR = 4
     """A program runs, but does the wrong thing, such as waiting for messages that never arrive."""
-    IGNORED = 4
+    IGNORED = 5
     """Code or a setting has no effect."""
-    SPOILS_INSTALL = 5
+    SPOILS_INSTALL = 6
     """The build or installation is incomplete; a program that needs it stops later."""
-    MISSING_ELSEWHERE = 6
+    MISSING_ELSEWHERE = 7
     """A program stops on a machine that lacks a package."""
-    DECLARED_WRONG = 7
+    DECLARED_WRONG = 8
     """The manifest, a name or a test is wrong; nothing stops here."""
-    UNPUBLISHABLE = 8
+    UNPUBLISHABLE = 9
     """Nothing stops, but a license or a notice is missing that others need."""
 
 

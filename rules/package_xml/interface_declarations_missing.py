@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, Severity
+from scaffold.api import Diagnostic, Edit, Effect, Example, Fix, Package, Report, Rule, Severity
 from scaffold.api.catalog import transitive_dependencies
 from scaffold.api.cmake import generations, is_interface_package
 from scaffold.api.manifest import Manifest
@@ -39,6 +39,7 @@ class InterfaceDeclarationsMissing(Rule):
 
     code = "PX040"
     name = "interface-declarations-missing"
+    effect = Effect.MISSING_ELSEWHERE
     other_severities = {Severity.WARNING: "another declared message package depends on the runtime"}
     examples = (
         Example("all three", {"package.xml": _MANIFEST.format(_BUILD + _RUN + _MEMBER), **_FILES}),

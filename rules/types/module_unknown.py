@@ -6,7 +6,17 @@ import ast
 import re
 from collections.abc import Sequence
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Report, Severity, TypeRule, closest_name
+from scaffold.api import (
+    Diagnostic,
+    Edit,
+    Effect,
+    Example,
+    Fix,
+    Report,
+    Severity,
+    TypeRule,
+    closest_name,
+)
 from scaffold.api.distributions import target
 from scaffold.api.install import is_installed_by_path
 from scaffold.api.types import TypeFinding, later_modules, module_names, modules_with
@@ -59,6 +69,7 @@ class ModuleUnknown(TypeRule):
 
     code = "TY001"
     name = "module-unknown"
+    effect = Effect.STOPS_START
     other_severities = {Severity.WARNING: "it is ``distutils``, which setuptools may provide"}
     is_removal = True
     kinds = frozenset({"import-not-found"})

@@ -6,7 +6,17 @@ import ast
 import collections.abc
 import sys
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, TypeRule, closest_name
+from scaffold.api import (
+    Diagnostic,
+    Edit,
+    Effect,
+    Example,
+    Fix,
+    Package,
+    Report,
+    TypeRule,
+    closest_name,
+)
 from scaffold.api.distributions import removed_interface
 from scaffold.api.install import is_installed_by_path
 from scaffold.api.types import TypeFinding, module_names, modules_with
@@ -33,6 +43,7 @@ class NameNotInModule(TypeRule):
 
     code = "TY002"
     name = "name-not-in-module"
+    effect = Effect.STOPS_START
     kinds = frozenset({"missing-module-member"})
     examples = (
         Example(

@@ -24,7 +24,9 @@ _SET_ASIDE = re.compile(
     re.IGNORECASE,
 )
 """Matches the name of a directory with abandoned code."""
-_AT_RUN_TIME = frozenset({Effect.STOPS_PROGRAM, Effect.WRONG_BEHAVIOR, Effect.IGNORED})
+_AT_RUN_TIME = frozenset(
+    {Effect.STOPS_START, Effect.STOPS_PROGRAM, Effect.WRONG_BEHAVIOR, Effect.IGNORED}
+)
 _TESTS = re.compile(r"(?:^|/)(?:tests?/|test_[^/]*$|[^/]*_test\.py$)")
 """Matches the paths of tests, which no robot runs."""
 DEPENDENCY = "dependency "
@@ -147,8 +149,8 @@ def names_dependencies(entry: Entry) -> bool:
 def in_order(entries: Sequence[Entry]) -> list[Entry]:
     """Return entries by severity; within one, files that cannot be read or built come first.
 
-    Then come crashes, names at which rosdep stops, wrong behavior, code without effect, wrong
-    builds, missing dependencies, and declarations.
+    Then come names at which rosdep stops, programs and launch files that do not start, crashes,
+    wrong behavior, code without effect, wrong builds, missing dependencies, and declarations.
 
     Directories such as ``archive`` or ``old`` come last.
     """

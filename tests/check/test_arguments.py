@@ -154,6 +154,7 @@ def test_constructors_and_static_methods() -> None:
 
 
 def test_usage_in_a_docstring_is_not_a_call() -> None:
-    usage = '    """Talks.\n\n    Usage:\n        name = param()\n        talker = Talker("map")\n    """\n'
+    usage = 'name = param()\n        talker = Talker("map")\n'
+    usage = f'    """Talks.\n\n    Usage:\n        {usage}    """\n'
     source = CLASS.format("        pass\n").replace("class Talker:\n", f"class Talker:\n{usage}")
     assert not [line for line in added(source) if '"map"' in line]

@@ -127,10 +127,11 @@ class Example:
 
 _EFFECTS = {
     "CM": Effect.SPOILS_INSTALL,
+    **dict.fromkeys(("IM", "LF", "SP", "UR"), Effect.STOPS_START),
     **dict.fromkeys(("LY", "NM", "PX", "TS"), Effect.DECLARED_WRONG),
     "LY02": Effect.UNPUBLISHABLE,
 }
-"""The usual effects of flaws by area, if not that a program stops."""
+"""The usual effects of flaws by area, if not that a program stops at some point."""
 
 
 class Rule:
