@@ -58,7 +58,7 @@ class ConfigurationUndeclared(LaunchRule):
     code = "LF010"
     name = "configuration-undeclared"
     other_severities = {
-        Severity.WARNING: "the file declares nothing, so that it may be made to be included"
+        Severity.WARNING: "it reads several and declares none, and may be made to be included"
     }
     examples = (
         Example(
@@ -117,14 +117,30 @@ class ConfigurationUndeclared(LaunchRule):
                 "launch/a.launch.py": _LAUNCH.format("", _USED),
                 "launch/b.launch.py": _LAUNCH.format(_DECLARED, "LaunchConfiguration('nod')"),
             },
+            "launch/a.launch.py:9:56: launch configuration 'node' is not declared: the launch "
+            "stops; declared here: nothing",
+            "launch/b.launch.py:10:56: launch configuration 'nod' is not declared: the launch "
+            "stops; declared here: node",
+        ),
+        Example(
+            "several, and none is declared: the file may be made to be included",
+            {
+                "launch/a.launch.py": _LAUNCH.format(
+                    "", "[LaunchConfiguration('robot'), LaunchConfiguration('name')]"
+                ),
+            },
             Report(
-                "launch/a.launch.py:9:56",
-                "launch configuration 'node' is not declared: the launch stops; declared here: "
+                "launch/a.launch.py:9:57",
+                "launch configuration 'robot' is not declared: the launch stops; declared here: "
                 "nothing",
                 severity=Severity.WARNING,
             ),
-            "launch/b.launch.py:10:56: launch configuration 'nod' is not declared: the launch "
-            "stops; declared here: node",
+            Report(
+                "launch/a.launch.py:9:87",
+                "launch configuration 'name' is not declared: the launch stops; declared here: "
+                "nothing",
+                severity=Severity.WARNING,
+            ),
         ),
         Example(
             "declared first",
@@ -162,27 +178,15 @@ class ConfigurationUndeclared(LaunchRule):
         yield from self._check_order(package, launch)
 
     def _check_declared(self, package: Package, launch: LaunchFile) -> Iterator[Diagnostic]:
-        names = set_names(package, launch)
-        if names is None or launch.function is None:
-            return
-        seen: set[str] = set()
-        for call in launch.find("LaunchConfiguration"):
-            name = launch.text(call, "variable_name")
-            if not isinstance(name, str) or name in names or name in seen:
-                continue
-            if "default" in call.given or call.is_open:
-                continue
-            if _is_unused(launch, call):
-                continue
-            seen.add(name)
-            if may_be_set_elsewhere(package, launch.path, name):
-                continue
+        undeclared = _undeclared(package, launch)
+        is_for_including = not launch.declared and len(undeclared) > 1
+        severity = Severity.WARNING if is_for_including else None
+        for name, call in undeclared.items():
             have = listed_names(launch.declared, name, "nothing")
             message = (
                 f"launch configuration {name!r} is not declared: the launch stops; declared "
                 f"here: {have}"
             )
-            severity = None if launch.declared else Severity.WARNING
             yield self.report(launch.location(call.call), message, severity=severity)
 
     def _check_order(self, package: Package, launch: LaunchFile) -> Iterator[Diagnostic]:
@@ -203,6 +207,23 @@ class ConfigurationUndeclared(LaunchRule):
                 what = f"the {step.action.kind} in line {line} reads it"
                 message = f"{name!r} is declared too late: {what} before it has a value"
                 yield self.report(launch.location(call.call), message)
+
+
+def _undeclared(package: Package, launch: LaunchFile) -> dict[str, LaunchCall]:
+    """Return the first use of each configuration that nothing declares or sets."""
+    names = set_names(package, launch)
+    if names is None or launch.function is None:
+        return {}
+    found: dict[str, LaunchCall] = {}
+    for call in launch.find("LaunchConfiguration"):
+        name = launch.text(call, "variable_name")
+        if not isinstance(name, str) or name in names or name in found:
+            continue
+        if "default" in call.given or call.is_open or _is_unused(launch, call):
+            continue
+        if not may_be_set_elsewhere(package, launch.path, name):
+            found[name] = call
+    return found
 
 
 def _is_unused(launch: LaunchFile, call: LaunchCall) -> bool:
