@@ -20,7 +20,8 @@ _BUILTINS = frozenset(
         if isinstance(value, type) and issubclass(value, BaseException)
     }
 )
-_ANYTHING = re.compile(r"\b(?:Unknown|Any|object|Todo|Never|Divergent)\b|@")
+_ANYTHING = re.compile(r"\b(?:Unknown|Any|object|Todo|Never|Divergent)\b|@|(?<!& )~")
+"""Matches types of which too little is known, such as ``~None``, a narrowed ``object``."""
 _CONTAINER = re.compile(r"(?:list|dict|set|tuple)\[[^|]*\]")
 _CLASSES = re.compile(rf"(?:{MARKED}|bytes|None)(?: \| (?:{MARKED}|bytes|None))*")
 _ITERABLE = re.compile(r"\b(?:Iterable|Sequence)\[")
