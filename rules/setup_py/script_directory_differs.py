@@ -28,7 +28,8 @@ _MANIFEST = (
     "<package><name>talker</name><export><build_type>ament_python</build_type></export></package>\n"
 )
 _NODE = {"talker/__init__.py": "", "talker/node.py": "import rclpy\n"}
-KEYS = (("develop", "script_dir"), ("install", "install_scripts"))
+_INSTALLED = "install_scripts"
+KEYS = (("develop", "script_dir"), ("install", _INSTALLED))
 _MANIFEST_VALUE = "<package><name>talker</name></package>\n"
 _SETUP_VALUE = (
     "from setuptools import setup\n\n"
@@ -167,6 +168,15 @@ class ScriptDirectoryDiffers(Rule):
             fixed={"setup.cfg": _CFG_VALUE.format("$base/lib/talker", "$base/lib/talker")},
         ),
         Example(
+            "for install only, whose directory develop uses, too",
+            {
+                "package.xml": _MANIFEST_VALUE,
+                "setup.py": _SETUP_VALUE,
+                "setup.cfg": "[develop]\n[install]\ninstall_scripts=$base/lib/talker\n",
+                "talker/node.py": "import rclpy\n",
+            },
+        ),
+        Example(
             "for pip only",
             {
                 "package.xml": _MANIFEST_VALUE,
@@ -223,6 +233,8 @@ class ScriptDirectoryDiffers(Rule):
             return  # custom commands may set the directory
         for section, key in KEYS:
             entry = cfg.option(section, key, key.replace("_", "-"))
+            if entry is None and section == "develop" and cfg.option("install", _INSTALLED):
+                continue  # develop uses the directory of install then
             if entry is None and node_scripts(package):
                 at = package.start_of("setup.cfg")
                 message = f"[{section}] has no {key}={wanted}: `ros2 run` finds no executable"
