@@ -17,10 +17,18 @@ from scaffold.api import (
     ViewError,
 )
 from scaffold.api.distributions import target
-from scaffold.api.setup_py import IniFile, IniOption, SetupPy, setup_edit
+from scaffold.api.setup_py import (
+    EXTRAS,
+    SECTION,
+    IniFile,
+    IniOption,
+    SetupPy,
+    has_extra,
+    lacks_pytest,
+    setup_cfg,
+    setup_edit,
+)
 
-EXTRAS = ("test", "tests", "testing")
-_SECTION = "options.extras_require"
 _IGNORING = 72
 """The first setuptools that ignores tests_require."""
 _SETUP = "from setuptools import setup\n\nsetup(\n    name='talker',\n{})\n"
@@ -228,16 +236,16 @@ class TestsNotRun(Rule):
         if setup.keyword("tests_require") is not None:
             yield from self._check_tests_require(package, setup)
             return
-        cfg = _setup_cfg(package)
+        cfg = setup_cfg(package)
         option = cfg.option("options", "tests_require", "tests-require") if cfg else None
         if cfg is not None and option is not None:
             yield from self._check_option(package, cfg, option)
             return
-        if package.build_type != "ament_python" or setup.call is None:
+        if not lacks_pytest(package):
             return
         tests = [*package.glob("test/test_*.py"), *package.glob("tests/test_*.py")]
         tests = [path for path in tests if _needs_pytest(package, path)]
-        if not tests or setup.has_unknown_keywords or self._has_extra(package):
+        if not tests:
             return
         edit = setup_edit.insert(setup, _NEW)
         can_fix = edit is not None and setup.keyword("extras_require") is None
@@ -249,7 +257,7 @@ class TestsNotRun(Rule):
 
     def _check_tests_require(self, package: Package, setup: SetupPy) -> Iterator[Diagnostic]:
         old = setup.keyword("tests_require")
-        if old is None or self._has_extra(package):
+        if old is None or has_extra(package):
             return
         requirements = setup.module.text(old.node)
         if isinstance(old.value, str):
@@ -270,26 +278,13 @@ class TestsNotRun(Rule):
         self, package: Package, cfg: IniFile, option: IniOption
     ) -> Iterator[Diagnostic]:
         """Check setup.cfg, where the option moves to another section."""
-        if self._has_extra(package):
+        if has_extra(package):
             return
-        fix, advice = None, f"add `test` to [{_SECTION}]"
-        extras = cfg.sections.get(_SECTION)
+        fix, advice = None, f"add `test` to [{SECTION}]"
+        extras = cfg.sections.get(SECTION)
         if extras is None or not set(EXTRAS) & {*extras.options}:
-            fix = Fix(f"Move the option to [{_SECTION}]", (*_moved(cfg, option),))
+            fix = Fix(f"Move the option to [{SECTION}]", (*_moved(cfg, option),))
         yield self.report(option.key_location, f"{_ignored()}; {advice}", fix, severity=_severity())
-
-    def _has_extra(self, package: Package) -> bool:
-        extras = package.setup_py.keyword("extras_require")
-        if extras is None:
-            cfg = _setup_cfg(package)
-            options = [cfg.option(_SECTION, name) for name in EXTRAS] if cfg is not None else []
-            lines = [line.text for option in options if option for line in option.lines]
-            return any(line.startswith(("pytest", "file:")) for line in lines)
-        if not isinstance(extras.value, dict):
-            return True
-        # A list without pytest has no effect: colcon searches for that name.
-        given = [extras.value[name] for name in EXTRAS if name in extras.value]
-        return any(not isinstance(item, list) or _names_pytest(item) for item in given)
 
 
 def _needs_pytest(package: Package, path: str) -> bool:
@@ -311,10 +306,6 @@ def _is_of_linter(package: Package, path: str) -> bool:
     return bool(roots) and all(
         root.startswith("ament_") and root != "ament_index_python" for root in roots
     )
-
-
-def _setup_cfg(package: Package) -> IniFile | None:
-    return package.setup_cfg if package.has("setup.cfg") else None
 
 
 def _has_new_setuptools() -> bool:
@@ -340,17 +331,12 @@ def _moved(cfg: IniFile, option: IniOption) -> Iterator[Edit]:
     lines = [line.text for line in option.lines]
     separator = f"{newline}    "
     value = f" {lines[0]}" if len(lines) == 1 else separator + separator.join(lines)
-    added = cfg.set(_SECTION, "test ", value)
+    added = cfg.set(SECTION, "test ", value)
     end = option.end + len(newline)
     if option.start <= added.start <= end:
         # The section replaces the option.
         yield Edit(added.path, option.start, option.end, added.text.lstrip())
         return
-    gap = newline if _SECTION not in cfg.sections else ""
+    gap = newline if SECTION not in cfg.sections else ""
     yield Edit(added.path, option.start, end, "")
     yield Edit(added.path, added.start, added.end, f"{gap}{added.text}")
-
-
-def _names_pytest(requirements: list[object]) -> bool:
-    names = [requirement for requirement in requirements if isinstance(requirement, str)]
-    return len(names) < len(requirements) or any(item.startswith("pytest") for item in names)

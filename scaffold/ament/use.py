@@ -11,6 +11,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from fnmatch import fnmatchcase
 from typing import TYPE_CHECKING
 
+from scaffold.model.install.declared_pytest import lacks_pytest
 from scaffold.model.install.unused import is_unrun_test
 from scaffold.record import NamedTuple
 from scaffold.source import ViewError
@@ -188,11 +189,13 @@ def _excluding(cmake: CMakeLists, values: list[str] | None) -> Use:
 
 def _by_pytest(package: Package, linter: str) -> Use | None:
     result: Use | None = None
+    undeclared = "setup.py does not declare pytest, so that colcon runs no test"
     for module, why_not in linter_tests(package, linter):
-        if not why_not:
+        reason = why_not or (undeclared if not module.classes and lacks_pytest(package) else "")
+        if not reason:
             excluded = _excluded(module.walk(ast.List))
             return Use(runs=True, excluded=excluded, paths=_given_paths(module))
-        result = Use(runs=False, why_not=why_not)
+        result = Use(runs=False, why_not=reason)
     return result
 
 

@@ -4,6 +4,13 @@ from __future__ import annotations
 
 from scaffold.formats.ini import IniFile, IniOption
 from scaffold.model.install.console_scripts import node_scripts
+from scaffold.model.install.declared_pytest import (
+    EXTRAS,
+    SECTION,
+    has_extra,
+    lacks_pytest,
+    setup_cfg,
+)
 from scaffold.model.install.package_data import installed_data, matches, package_data
 from scaffold.model.setup_py import edit as setup_edit
 from scaffold.model.setup_py.data_files import DataFile
@@ -11,15 +18,20 @@ from scaffold.model.setup_py.entry_points import EntryPoint
 from scaffold.model.setup_py.setup_py import FindPackages, SetupPy
 
 __all__ = [
+    "EXTRAS",
+    "SECTION",
     "DataFile",
     "EntryPoint",
     "FindPackages",
     "IniFile",
     "IniOption",
     "SetupPy",
+    "has_extra",
     "installed_data",
+    "lacks_pytest",
     "matches",
     "node_scripts",
     "package_data",
+    "setup_cfg",
     "setup_edit",
 ]

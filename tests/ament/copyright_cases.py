@@ -97,6 +97,22 @@ CASES: Mapping[str, tuple[Example, ...]] = {
             ),
         ),
         Example(
+            "without, where setup.py does not declare pytest",
+            {
+                "a/one.py": BARE,
+                "test/test_copyright.py": TEST,
+                "package.xml": "<package><export><build_type>ament_python</build_type></export>"
+                "</package>\n",
+                "setup.py": "from setuptools import setup\n\nsetup(name='a')\n",
+            },
+            Report(
+                "a/one.py:1:1",
+                "no copyright notice: ament_copyright would fail, but setup.py does not declare "
+                "pytest, so that colcon runs no test",
+                severity=Severity.INFO,
+            ),
+        ),
+        Example(
             "without, where CMake runs another test",
             {
                 "a/one.py": BARE,
