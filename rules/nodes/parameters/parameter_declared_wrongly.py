@@ -161,7 +161,7 @@ def _descriptor_problem(file: RclpyFile, parameter: Parameter, node: ast.expr) -
         return f"expected a ParameterDescriptor, not {value!r}: TypeError"
     if file.module.qualified_name(node) == DESCRIPTOR:
         return "expected a ParameterDescriptor object, not the class: TypeError"
-    fields = message_made(file, node, DESCRIPTOR) or {}
+    fields = message_made(file.evaluator, node, DESCRIPTOR) or {}
     for name in _RANGES:
         made = file.evaluator.single_value(fields[name]) if name in fields else None
         func = file.module.qualified_name(made.func) if isinstance(made, ast.Call) else None

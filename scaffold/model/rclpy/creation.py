@@ -298,7 +298,7 @@ class Creation:
             name_location=self._file.module.location(name) if name else created.location,
             default=self._file.evaluator.evaluate(value),
             declared_type=self._type_named(value),
-            descriptor=None if is_open else descriptor_of(self._file, given.descriptor),
+            descriptor=None if is_open else descriptor_of(self._file.evaluator, given.descriptor),
         )
 
     def _type_named(self, node: ast.expr | None) -> str | None:

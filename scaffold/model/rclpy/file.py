@@ -11,7 +11,7 @@ from typing import Any
 from scaffold.model import reads
 from scaffold.model.python.module import PythonModule
 from scaffold.model.python.scopes import FunctionNode
-from scaffold.model.python.values import UNKNOWN
+from scaffold.model.python.values import UNKNOWN, same
 from scaffold.model.rclpy import callbacks as node_callbacks
 from scaffold.model.rclpy.class_relations import ClassRelations
 from scaffold.model.rclpy.creation import NODE_METHODS, Creation
@@ -83,10 +83,10 @@ class RclpyFile:
         self._own = OwnModules(module, modules)
         self.related_classes = ClassRelations(module).related
         """Returns a class with the bases and descendants it has in the file."""
-        self.declarations = Declarations(self)
         self.evaluator = NodeEvaluator(
-            module, self.declarations.default_of, self.related_classes, self._own.constant
+            module, self._default_of, self.related_classes, self._own.constant
         )
+        self.declarations = Declarations(module, self.evaluator, self.owner_of, self.method_of)
         self.results: dict[Callable[[RclpyFile], object], Any] = {}
         """The results of functions that are decorated with `per_file`."""
         self._creation = Creation(self)
@@ -335,23 +335,6 @@ class RclpyFile:
 
     # -- callbacks
 
-    def is_number(self, node: ast.Attribute) -> bool:
-        """Tell whether all values assigned to an attribute of ``self`` are numbers."""
-        class_ = self.module.enclosing_class(node)
-        if class_ is None or not isinstance(node.value, ast.Name) or node.value.id != "self":
-            return False
-        values: list[ast.expr] = []
-        for statement in self.module.below(class_, ast.Assign, ast.AugAssign, ast.Attribute):
-            match statement:
-                case ast.Assign(targets=[ast.Attribute(value=ast.Name(id="self"), attr=name)]):
-                    values += [statement.value] if name == node.attr else []
-                case ast.AugAssign(target=ast.Attribute(value=ast.Name(id="self"), attr=name)):
-                    values += [statement.value] if name == node.attr else []
-                case ast.Attribute(value=ast.Name(id="self"), ctx=ast.Del()):
-                    return False
-        evaluated = [self.evaluator.evaluate(value) for value in values]
-        return bool(evaluated) and all(type(value) in {int, float} for value in evaluated)
-
     def callback(self, node: ast.expr) -> Callback:
         """Return the callback of an expression."""
         if node not in self._callbacks:
@@ -401,10 +384,17 @@ class RclpyFile:
 
     # -- parameters
 
-    def default_in(self, owner: NodeClass, name: str) -> object:
-        """Return the default of a parameter that a class declares."""
-        values = [item.default for item in owner.parameters if item.name == name]
-        return values[0] if len(values) == 1 else UNKNOWN
+    def _default_of(self, receiver: ast.expr, name: str) -> object:
+        """Return the default on which all declarations of a parameter agree."""
+        owner = self.owner_of(receiver)
+        nodes = self.declarations.values_of(owner, name)
+        base = owner.base if isinstance(owner, NodeClass) else None
+        if not nodes and base is not None:
+            declared = base.parameters if base.file is not self else ()
+            inherited = [item.default for item in declared if item.name == name]
+            return inherited[0] if len(inherited) == 1 else UNKNOWN
+        values = [self.evaluator.evaluate(node) for node in nodes]
+        return values[0] if values and all(same(value, values[0]) for value in values) else UNKNOWN
 
     # -- execution
 

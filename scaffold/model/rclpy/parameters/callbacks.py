@@ -28,7 +28,7 @@ def _wrong_result(file: RclpyFile, value: ast.expr | None) -> str:
     """Return the problem with a value instead of a SetParametersResult; empty if none."""
     if value is None:
         return f"nothing, not a SetParametersResult: {_REFUSED}"
-    fields = message_made(file, _returned_by(file, value) or value, RESULT)
+    fields = message_made(file.evaluator, _returned_by(file, value) or value, RESULT)
     if fields is not None:
         is_refusal = "successful" not in fields
         return f"a SetParametersResult without successful=True: {_REFUSED}" if is_refusal else ""

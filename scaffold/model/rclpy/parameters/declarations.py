@@ -3,19 +3,18 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from scaffold.model.python.values import UNKNOWN, Unknown, same
-from scaffold.model.rclpy.nodes import NodeClass
+from scaffold.model.python.values import UNKNOWN, Unknown
 from scaffold.record import NamedTuple
 
 if TYPE_CHECKING:
-    from scaffold.model.rclpy.file import RclpyFile
-    from scaffold.model.rclpy.nodes import NodeDefinition
+    from scaffold.model.python.module import PythonModule
+    from scaffold.model.rclpy.evaluator import NodeEvaluator
 
-    _Declaration = tuple[NodeDefinition | None, ast.expr | None]
+    _Declaration = tuple[object, ast.expr | None]
 
 SIGNATURES = {
     "declare_parameter": ("name", "value", "descriptor", "ignore_override"),
@@ -38,10 +37,26 @@ class Declaration(NamedTuple):
 
 
 class Declarations:
-    """The parameters that a file declares."""
+    """The parameters that a file declares.
 
-    def __init__(self, file: RclpyFile) -> None:
-        self._file = file
+    Args:
+        module: The file.
+        evaluator: Evaluates its expressions; needs the declarations for parameters that are read.
+        owner_of: Returns the node that an expression refers to.
+        method_of: Returns the called method.
+    """
+
+    def __init__(
+        self,
+        module: PythonModule,
+        evaluator: NodeEvaluator,
+        owner_of: Callable[[ast.expr], object],
+        method_of: Callable[[ast.Call], ast.Attribute | None],
+    ) -> None:
+        self._module = module
+        self._evaluator = evaluator
+        self._owner_of = owner_of
+        self._method_of = method_of
         self._is_indexing = False
 
     def declarations_in(self, call: ast.Call, method: str) -> Iterator[Declaration]:
@@ -53,14 +68,14 @@ class Declarations:
             for row in self._rows(nodes[0]):
                 yield Declaration("", *(_in_row(node, row) for node in nodes))
             return
-        prefix = self._file.evaluator.text(given["namespace"]) if "namespace" in given else ""
+        prefix = self._evaluator.text(given["namespace"]) if "namespace" in given else ""
         listed = given.get("parameters")
         if isinstance(listed, ast.ListComp) and isinstance(listed.elt, ast.Tuple):
             row_parts: list[ast.expr | None] = [*listed.elt.elts[:3], None, None]
             for row in self._rows(row_parts[0]):
                 yield Declaration(prefix, *(_in_row(node, row) for node in row_parts[:3]))
             return
-        items, is_complete = self._file.evaluator.elements(listed) if listed else ((), True)
+        items, is_complete = self._evaluator.elements(listed) if listed else ((), True)
         if not is_complete:
             yield Declaration(UNKNOWN, None, None, None)
         for item in items:
@@ -79,7 +94,7 @@ class Declarations:
         Returns:
             One iteration without variables if it is not a loop over a literal list.
         """
-        index = self._file.module.index
+        index = self._module.index
         target = index.only_node(node)
         loop = index.parent(target) if target is not None else None
         if isinstance(loop, ast.Tuple):
@@ -110,8 +125,8 @@ class Declarations:
                 ]
         if isinstance(node, ast.Name | ast.Attribute) and self._pairs(node):
             return [key for key, _ in self._pairs(node)]
-        items, is_complete = self._file.evaluator.elements(node)
-        parent = self._file.module.index.parent
+        items, is_complete = self._evaluator.elements(node)
+        parent = self._module.index.parent
         is_written = all(isinstance(parent(item.node), ast.List | ast.Tuple) for item in items)
         is_written = is_written and len({id(item.node) for item in items}) == len(items)
         if is_written or not is_complete:
@@ -123,7 +138,7 @@ class Declarations:
 
     def _pairs(self, node: ast.expr) -> Sequence[tuple[ast.expr, ast.expr]]:
         """Return the entries of a dictionary, also of a constant; empty if there may be more."""
-        pairs = self._file.evaluator.single_value(node)
+        pairs = self._evaluator.single_value(node)
         if pairs is node:
             return self._imported_pairs(node)
         if not isinstance(pairs, ast.Dict) or None in pairs.keys:
@@ -139,7 +154,7 @@ class Declarations:
         if isinstance(node, ast.Dict):
             is_whole = None not in node.keys
             return [*zip(filter(None, node.keys), node.values, strict=True)] if is_whole else ()
-        value = self._file.evaluator.evaluate(node)
+        value = self._evaluator.evaluate(node)
         if not isinstance(value, dict) or self._is_changed(node):
             return ()
         constants = [(ast.Constant(key), ast.Constant(item)) for key, item in value.items()]
@@ -150,7 +165,7 @@ class Declarations:
 
     def _is_changed(self, dictionary: ast.expr) -> bool:
         """Tell whether entries are added to a dictionary, or removed."""
-        module = self._file.module
+        module = self._module
         text = module.text(dictionary)
         return module.mentions(*(f"{text}.{name}(" for name in _CHANGING)) or any(
             not isinstance(entry.ctx, ast.Load) and module.text(entry.value) == text
@@ -159,30 +174,29 @@ class Declarations:
 
     def full_name(self, prefix: str | Unknown, name: ast.expr | None) -> str | Unknown:
         """Return a parameter's name with its namespace."""
-        text = self._file.evaluator.text(name)
+        text = self._evaluator.text(name)
         if text is UNKNOWN or prefix is UNKNOWN:
             return UNKNOWN
         return f"{prefix}.{text}" if prefix else text
 
-    def default_of(self, receiver: ast.expr, name: str) -> object:
-        """Return the default on which all declarations of a parameter agree."""
-        owner = self._file.owner_of(receiver)
-        nodes = [
+    def values_of(self, owner: object, name: str) -> Sequence[ast.expr | None]:
+        """Return the defaults of a parameter that a node, or an unknown one, declares.
+
+        Args:
+            owner: The node; ``None`` if unknown.
+            name: The parameter.
+        """
+        return [
             value
             for declarer, value in self._declarations.get(name, ())
             if declarer is owner or owner is None or declarer is None
         ]
-        if not nodes and isinstance(owner, NodeClass) and owner.base is not None:
-            base = owner.base
-            return UNKNOWN if base.file is self._file else base.file.default_in(base, name)
-        values = [self._file.evaluator.evaluate(node) for node in nodes]
-        return values[0] if values and all(same(value, values[0]) for value in values) else UNKNOWN
 
     @property
     def _declarations(self) -> Mapping[str, Sequence[_Declaration]]:
         """Owner and default of the declared parameters with known names."""
         if self._is_indexing:
-            self._file.evaluator.cut()
+            self._evaluator.cut()
             return {}
         return self._index
 
@@ -190,10 +204,10 @@ class Declarations:
     def _index(self) -> Mapping[str, Sequence[_Declaration]]:
         self._is_indexing = True
         result: dict[str, list[_Declaration]] = {}
-        for call in self._file.module.walk(ast.Call):
-            func = self._file.method_of(call)
+        for call in self._module.walk(ast.Call):
+            func = self._method_of(call)
             if func is not None and func.attr in SIGNATURES:
-                owner = self._file.owner_of(func.value)
+                owner = self._owner_of(func.value)
                 for item in self.declarations_in(call, func.attr):
                     text = self.full_name(item.prefix, item.name)
                     if isinstance(text, str):

@@ -10,8 +10,8 @@ from scaffold.model.python.values import is_none_literal
 from scaffold.record import NamedTuple
 
 if TYPE_CHECKING:
+    from scaffold.model.python.attributes import AttributeEvaluator as Evaluator
     from scaffold.model.python.scopes import Binding
-    from scaffold.model.rclpy.file import RclpyFile
 
 DESCRIPTOR = "rcl_interfaces.msg.ParameterDescriptor"
 _RANGES = {
@@ -66,29 +66,29 @@ class Descriptor(NamedTuple):
 _PLAIN = Descriptor(is_dynamic=False, is_read_only=False, ranges=[], is_typed=False)
 
 
-def descriptor_of(file: RclpyFile, node: ast.expr | None) -> Descriptor | None:
+def descriptor_of(evaluator: Evaluator, node: ast.expr | None) -> Descriptor | None:
     """Return the descriptor of an expression; ``None`` if not fully known."""
     if node is None or is_none_literal(node):
         return _PLAIN
-    fields = message_made(file, node, DESCRIPTOR)
+    fields = message_made(evaluator, node, DESCRIPTOR)
     if fields is None:
         return None
     is_dynamic, is_read_only = (
-        _flag(file, fields.get(name)) for name in ("dynamic_typing", "read_only")
+        _flag(evaluator, fields.get(name)) for name in ("dynamic_typing", "read_only")
     )
     if is_dynamic is None or is_read_only is None:
         return None
     ranges: list[Range] = []
     for name in _RANGES:
         if name in fields:
-            bounds = _range(file, name, fields[name])
+            bounds = _range(evaluator, name, fields[name])
             if bounds is None:
                 return None
             ranges.append(bounds)
     return Descriptor(is_dynamic, is_read_only, ranges, is_typed="type" in fields)
 
 
-def message_made(file: RclpyFile, node: ast.expr, kind: str) -> dict[str, ast.expr] | None:
+def message_made(evaluator: Evaluator, node: ast.expr, kind: str) -> dict[str, ast.expr] | None:
     """Return the values of the fields of a message where an expression uses it.
 
     By keywords of the constructor, and by later assignments in the same block; ``append``
@@ -98,19 +98,19 @@ def message_made(file: RclpyFile, node: ast.expr, kind: str) -> dict[str, ast.ex
         The fields; ``None`` if it is no such message, or if more may be set.
     """
     if not isinstance(node, ast.Name):
-        return _keywords(file, _only_value(file, node), kind)
-    first = _assigned_before(file, node)
+        return _keywords(evaluator, _only_value(evaluator, node), kind)
+    first = _assigned_before(evaluator, node)
     if first is None or first.value is None:
-        return _keywords(file, _only_value(file, node), kind)
-    fields = _keywords(file, first.value, kind)
+        return _keywords(evaluator, _only_value(evaluator, node), kind)
+    fields = _keywords(evaluator, first.value, kind)
     if fields is None:
         return None
-    for use in file.module.index.names(node.id):
+    for use in evaluator.module.index.names(node.id):
         if isinstance(use.ctx, ast.Load) and _is_between(use, first.node, node):
-            same = file.module.index.lookup(use.id, use)
+            same = evaluator.module.index.lookup(use.id, use)
             if same is None or all(item is not first for item in same[1]):
                 continue
-            if not _record_use(file, use, first, fields):
+            if not _record_use(evaluator, use, first, fields):
                 return None
     return fields
 
@@ -119,42 +119,42 @@ def _is_close(first: float, second: float) -> bool:
     return math.isclose(first, second, rel_tol=_TOLERANCE)
 
 
-def _keywords(file: RclpyFile, node: ast.expr, kind: str) -> dict[str, ast.expr] | None:
-    if not isinstance(node, ast.Call) or kind not in file.module.qualified_names(node.func):
+def _keywords(evaluator: Evaluator, node: ast.expr, kind: str) -> dict[str, ast.expr] | None:
+    if not isinstance(node, ast.Call) or kind not in evaluator.module.qualified_names(node.func):
         return None
     if node.args or any(word.arg is None for word in node.keywords):
         return None
     return {word.arg: word.value for word in node.keywords if word.arg is not None}
 
 
-def _only_value(file: RclpyFile, node: ast.expr) -> ast.expr:
+def _only_value(evaluator: Evaluator, node: ast.expr) -> ast.expr:
     """Return the only value of a name or attribute, if its parts are not changed."""
     if isinstance(node, ast.Name):
-        uses: list[ast.AST] = [*file.module.index.names(node.id)]
+        uses: list[ast.AST] = [*evaluator.module.index.names(node.id)]
     elif isinstance(node, ast.Attribute):
-        uses = [*file.module.index.attributes(node.attr)]
+        uses = [*evaluator.module.index.attributes(node.attr)]
     else:
         return node
-    if any(isinstance(file.module.parent(use), ast.Attribute) for use in uses):
+    if any(isinstance(evaluator.module.parent(use), ast.Attribute) for use in uses):
         return node
-    return file.evaluator.single_value(node)
+    return evaluator.single_value(node)
 
 
-def _assigned_before(file: RclpyFile, node: ast.Name) -> Binding | None:
+def _assigned_before(evaluator: Evaluator, node: ast.Name) -> Binding | None:
     """Return the last assignment of a name, if all are in the same block as its use."""
-    block = _block(file, node)
+    block = _block(evaluator, node)
     last: Binding | None = None
-    for binding in file.module.index.bindings_of(node):
-        if binding.kind != "assignment" or _block(file, binding.node) != block:
+    for binding in evaluator.module.index.bindings_of(node):
+        if binding.kind != "assignment" or _block(evaluator, binding.node) != block:
             return None
         if _line(binding.node) < node.lineno:
             last = binding
     return last
 
 
-def _block(file: RclpyFile, node: ast.AST) -> tuple[ast.AST | None, str]:
+def _block(evaluator: Evaluator, node: ast.AST) -> tuple[ast.AST | None, str]:
     """Return the block that contains the statement of a node."""
-    module = file.module
+    module = evaluator.module
     while not isinstance(node, ast.stmt):
         parent = module.parent(node)
         if parent is None:
@@ -172,13 +172,13 @@ def _is_between(use: ast.Name, first: ast.AST, last: ast.Name) -> bool:
 
 
 def _record_use(
-    file: RclpyFile, use: ast.Name, first: Binding, fields: dict[str, ast.expr]
+    evaluator: Evaluator, use: ast.Name, first: Binding, fields: dict[str, ast.expr]
 ) -> bool:
     """Record the fields set by a use of the message; return false if unknown."""
-    module = file.module
+    module = evaluator.module
     parent = module.parent(use)
     above = module.parent(parent) if parent is not None else None
-    is_straight = _block(file, use) == _block(file, first.node)
+    is_straight = _block(evaluator, use) == _block(evaluator, first.node)
     match parent, above:
         case ast.Attribute(attr=name, ctx=ast.Store()), ast.Assign(targets=[_], value=value):
             fields[name] = value
@@ -204,24 +204,24 @@ def _leaves_unchanged(call: ast.Call) -> bool:
     return name in _KEEPING or name[:1].isupper()
 
 
-def _flag(file: RclpyFile, node: ast.expr | None) -> bool | None:
+def _flag(evaluator: Evaluator, node: ast.expr | None) -> bool | None:
     if node is None:
         return False
-    value = file.evaluator.evaluate(node)
+    value = evaluator.evaluate(node)
     return value if isinstance(value, bool) else None
 
 
-def _range(file: RclpyFile, field: str, node: ast.expr) -> Range | None:
+def _range(evaluator: Evaluator, field: str, node: ast.expr) -> Range | None:
     type_, kind = _RANGES[field]
-    items, is_complete = file.evaluator.elements(node)
+    items, is_complete = evaluator.elements(node)
     if len(items) != 1 or not is_complete:
         return None
-    fields = message_made(file, items[0].node, kind)
+    fields = message_made(evaluator, items[0].node, kind)
     if fields is None:
         return None
     numbers: list[float] = []
     for name in ("from_value", "to_value", "step"):
-        value = file.evaluator.number(fields[name]) if name in fields else 0
+        value = evaluator.number(fields[name]) if name in fields else 0
         if not isinstance(value, int | float):
             return None
         numbers.append(float(value) if type_ == "double" else value)
