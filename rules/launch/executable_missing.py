@@ -185,7 +185,7 @@ class ExecutableMissing(Rule):
             message = (
                 f"unknown package {use.name!r}; did you mean {closest.name!r} ({closest.reason})?"
             )
-            yield self.report(use.location, message, fix)
+            yield self.report(use.location, message, fix, cause=f"unknown package {use.name}")
 
     def _fix(self, package: Package, use: Reference, name: str) -> Fix | None:
         source = package.editable(use.location.path)
