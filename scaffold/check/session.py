@@ -29,6 +29,7 @@ from scaffold.configuration.exclusion import Exclusion
 from scaffold.diagnostic import MAX_FINDINGS, Diagnostic, Severity
 from scaffold.files.tree import CMAKE_LISTS
 from scaffold.model.contents.ament_cmake import uses_ament
+from scaffold.model.contents.source_directories import is_in_no_workspace
 from scaffold.model.discovery.targets import Target
 from scaffold.model.package import Package
 from scaffold.model.reads import Reads, recorded
@@ -339,7 +340,8 @@ def _of_ros1(package: Package) -> Sequence[Diagnostic]:
         f"a package of ROS 1: {title} has no 'catkin' to build it with, and it is not checked; "
         "migrate it, or put COLCON_IGNORE next to package.xml"
     )
-    return (PackageOfRos1().report(catkin, message),)
+    severity = Severity.WARNING if is_in_no_workspace(package) else Severity.ERROR
+    return (PackageOfRos1().report(catkin, message, severity=severity),)
 
 
 def _limited(diagnostics: list[Diagnostic]) -> list[Diagnostic]:

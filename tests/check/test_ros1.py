@@ -75,3 +75,22 @@ def test_ros2_packages_next_to_a_ros1_package_are_checked(tmp_path: Path) -> Non
     assert main(["check", str(tmp_path)]) == 1
     (tmp_path / "old" / "COLCON_IGNORE").touch()
     assert main(["check", str(tmp_path)]) == 0
+
+
+def test_ros1_package_outside_of_the_workspace_of_ros2(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    from scaffold.cli.main import main
+
+    monkeypatch.chdir(tmp_path)
+    ament = "  <buildtool_depend>ament_cmake</buildtool_depend>\n"
+    for place, tool in {"robot_ws/src/talker": ament, "Assets/old": CATKIN}.items():
+        (tmp_path / place).mkdir(parents=True)
+        manifest = MANIFEST.format(tool, "").replace("old", place.rpartition("/")[2])
+        (tmp_path / place / "package.xml").write_text(manifest)
+    main(["check", "--select", "SC007", "."])
+    assert " warning SC007 " in capsys.readouterr().out
+    (tmp_path / "robot_ws").rename(tmp_path / "robot")
+    (tmp_path / "robot" / "src").rename(tmp_path / "robot" / "packages")
+    main(["check", "--select", "SC007", "."])
+    assert " error SC007 " in capsys.readouterr().out

@@ -127,6 +127,10 @@ class PackageOfRos1(_Internal):
 
     code = "SC007"
     name = "package-of-ros1"
+    other_severities: ClassVar[dict[Severity, str]] = {
+        Severity.WARNING: "the packages of ROS 2 are in a directory src/ without this one, so that "
+        "colcon does not find it"
+    }
     effect = Effect.SPOILS_INSTALL
 
 
