@@ -24,7 +24,7 @@ _ALSO = "    also "
 _MIN_BRIEF = 40
 """The minimum length of a brief message, even if the path is long."""
 _NAME_LINES = 6
-"""The maximum number of lines with names of further dependencies; half of it if brief."""
+"""The maximum number of lines with names of further dependencies."""
 
 
 def full(entry: Entry, options: ReportOptions, width: int, link: str | None = None) -> Text:
@@ -59,7 +59,7 @@ def brief(entry: Entry, width: int, lines: int, link: str | None = None) -> Text
         lines: The number of lines for the finding.
         link: The page of the code.
     """
-    names = _dependencies(entry, _NAME_LINES // 2 * width)
+    names = _dependencies(entry, (2 * lines - 1) * width)
     others = len(entry.places) - 1
     more = Text(f" and {count(others, 'more place')}" if others and not names else "", style="dim")
     room = lines * width - len(_line(entry, "", link)) - len(more)
