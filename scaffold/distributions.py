@@ -143,8 +143,8 @@ def refusal(name: object, advice: str = "name one") -> str:
 def ending(name: str) -> str:
     """Return the message about an ended distribution."""
     if name in OF_ROS1:
-        return "is of ROS 1"
-    return "has reached its end of life" if name in ENDED else "is no known distribution"
+        return "is a ROS 1 distribution"
+    return "has reached its end of life" if name in ENDED else "is not a known distribution"
 
 
 def several(text: str, origin: str = "") -> list[Distribution]:
@@ -159,9 +159,9 @@ def several(text: str, origin: str = "") -> list[Distribution]:
     """
     words = [word.strip() for word in text.split(",") if word.strip()]
     if not words:
-        problem = f"no distribution is named; known are {', '.join(NAMES)}"
+        problem = f"no distribution is given; choose from {', '.join(NAMES)}"
         raise InputError(f"{origin}: {problem}" if origin else problem)
-    return ordered([named(word, origin, "write commas between them") for word in words])
+    return ordered([named(word, origin, "separate them with commas") for word in words])
 
 
 def ordered(distributions: Sequence[Distribution]) -> list[Distribution]:

@@ -78,10 +78,10 @@ def test_unknown_distribution_is_rejected(
     package = write(tmp_path, "")
     for words, message in (
         ("lyrcal", "no distribution 'lyrcal'; did you mean 'lyrical'?"),
-        ("noetic", "'noetic' is of ROS 1; choose from humble,"),
+        ("noetic", "'noetic' is a ROS 1 distribution; choose from humble,"),
         ("iron", "'iron' has reached its end of life; choose from humble,"),
-        ("jazzy lyrical", "is more than one distribution; write commas between them"),
-        (",", "no distribution is named"),
+        ("jazzy lyrical", "is more than one distribution; separate them with commas"),
+        (",", "no distribution is given"),
     ):
         assert main(["check", str(package), "--distro", words]) == 2
         assert message in capsys.readouterr().err
@@ -190,7 +190,7 @@ def test_sourced_shell_of_another_distribution_is_noted(
     main(["check", str(package), "--select", "ND"])
     note, summary = capsys.readouterr().out.splitlines()
     assert note == (
-        "checked for Jazzy, although ROS_DISTRO is 'humble': --distro humble checks for that"
+        "checked for Jazzy, although ROS_DISTRO is 'humble'; use --distro humble to check for that"
     )
     assert " for Jazzy: " in summary
     main(["check", str(package), "--select", "ND", "--distro", "humble"])
@@ -203,12 +203,12 @@ def test_sourced_shell_of_another_distribution_is_noted(
         (
             "README.md",
             "Tested with ROS 2 Humble + Nav2\n",
-            "README.md is for Humble: --distro humble",
+            "README.md is for Humble; use --distro humble",
         ),
         (
             "docker/Dockerfile.robot",
             "FROM ros:humble-ros-base\nENV ROS_DISTRO=rolling\n",
-            "docker/Dockerfile.robot is for Humble and Rolling: --distro humble,rolling",
+            "docker/Dockerfile.robot is for Humble and Rolling; use --distro humble,rolling",
         ),
         (
             "README.md",
@@ -236,7 +236,7 @@ def test_readme_or_workflow_of_another_distribution_is_noted(
     for _ in range(2):  # the second report is a remembered one
         main(["check", str(package), "--select", "ND"])
         *notes, _summary = capsys.readouterr().out.splitlines()
-        assert [note.removesuffix(" checks for that") for note in notes] == (
+        assert [note.removesuffix(" to check for that") for note in notes] == (
             [f"checked for Jazzy, although {expected}"] if expected else []
         )
     main(["check", str(package), "--select", "ND", "--distro", "jazzy"])
@@ -251,7 +251,7 @@ def test_readme_or_workflow_of_another_distribution_is_noted(
         ("humble", ("observed on Jazzy, although ROS_DISTRO is 'humble'",)),
         (
             "noetic",
-            ("observed on Jazzy, although ROS_DISTRO is 'noetic', which is of ROS 1",),
+            ("observed on Jazzy, although ROS_DISTRO is 'noetic', which is a ROS 1 distribution",),
         ),
     ],
 )

@@ -367,7 +367,7 @@ def test_unreadable_definition_is_any(tmp_path: Path) -> None:
 
 def test_unknown_distribution_is_rejected(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["stubs", "--distro", "noetic", "--dry-run"]) == 2
-    assert "--distro: 'noetic' is of ROS 1; choose from humble," in capsys.readouterr().err
+    assert "'noetic' is a ROS 1 distribution; choose from humble," in capsys.readouterr().err
 
 
 def test_stubs_have_no_type_errors(bundled: Path) -> None:

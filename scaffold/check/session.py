@@ -337,7 +337,7 @@ def _of_ros1(package: Package) -> Sequence[Diagnostic]:
         return ()
     title = distributions.target().title
     message = (
-        f"a package of ROS 1: {title} has no 'catkin' to build it with, and it is not checked; "
+        f"a ROS 1 package, which is not checked: {title} has no 'catkin' to build it; "
         "migrate it, or put COLCON_IGNORE next to package.xml"
     )
     severity = Severity.WARNING if is_in_no_workspace(package) else Severity.ERROR

@@ -32,8 +32,8 @@ def add_argument(parser: argparse.ArgumentParser) -> None:
         FLAG,
         action="append",
         metavar="NAMES",
-        help="the distributions of ROS 2 to check for, separated by commas "
-        f"(default: {KEY} of the configuration, else what `new --distro` made the package for, "
+        help="the ROS 2 distributions to check for, separated by commas "
+        f"(default: {KEY} of the configuration, else what `new --distro` created the package for, "
         f"else {distributions.DEFAULT})",
     )
 
@@ -87,8 +87,8 @@ def recorded(
     for name in names:
         if name in distributions.ENDED:
             raise InputError(
-                f"{path}: {name!r} {distributions.ending(name)}; `ros2-scaffold migrate "
-                f"{directory} --to NAME --fix` moves the package"
+                f"{path}: {name!r} {distributions.ending(name)}; migrate the package with "
+                f"`ros2-scaffold migrate {directory} --to NAME --fix`"
             )
     return distributions.several(",".join(names), path)
 
@@ -137,7 +137,7 @@ def note(targets: Sequence[Distribution]) -> tuple[str, ...]:
         return ()
     checked = f"checked for {distributions.titles(targets)}, although {_of_shell(name)}"
     is_known = name in distributions.NAMES
-    return (f"{checked}: {FLAG} {name} checks for that",) if is_known else (checked,)
+    return (f"{checked}; use {FLAG} {name} to check for that",) if is_known else (checked,)
 
 
 def note_of_new(given: Mapping[str, Given]) -> tuple[str, ...]:
@@ -148,12 +148,12 @@ def note_of_new(given: Mapping[str, Given]) -> tuple[str, ...]:
     """
     name = os.environ.get(VARIABLE, "")
     answer = given.get(ANSWER)
-    others = f"{FLAG} NAMES makes it for others"
+    others = f"use {FLAG} NAMES for others"
     if name and answer is None:
         title = distributions.target().title
-        return (f"made for {title}, although {_of_shell(name)}; {others}",)
+        return (f"created for {title}, although {_of_shell(name)}; {others}",)
     if answer is not None and answer.origin == VARIABLE and name != distributions.DEFAULT:
-        return (f"made for {distributions.named(name).title}, as {_of_shell(name)}; {others}",)
+        return (f"created for {distributions.named(name).title}, as {_of_shell(name)}; {others}",)
     return ()
 
 

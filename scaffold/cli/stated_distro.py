@@ -63,7 +63,7 @@ def note(directory: str, targets: Sequence[Distribution], disk: Disk) -> tuple[s
     checked = f"checked for {distributions.titles(targets)}, although {path} is for"
     if not usable:
         return (f"{checked} {_titles(ended)}, which {distributions.ending(ended[0])}",)
-    return (f"{checked} {_titles(usable)}: {FLAG} {','.join(usable)} checks for that",)
+    return (f"{checked} {_titles(usable)}; use {FLAG} {','.join(usable)} to check for that",)
 
 
 def _titles(names: Sequence[str]) -> str:

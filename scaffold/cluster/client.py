@@ -99,7 +99,7 @@ class Cluster:
                     yield _outcome(waiting.pop(future.key), future)
                 future.release()
             for name in waiting.values():
-                yield Done(name, error=f"the scheduler has not answered for {PATIENCE:g} s")
+                yield Done(name, error=f"the scheduler has not responded for {PATIENCE:g} s")
         finally:
             with suppress(Exception):  # the scheduler may be gone
                 self._client.cancel([*futures, *given], force=True)
@@ -131,7 +131,7 @@ def _outcome(name: str, future: Dask) -> Done[Any]:
 
 def _reason(error: BaseException) -> str:
     if isinstance(error, _dask().KilledWorker):
-        return "its worker died, and so did each other that was tried"
+        return "its worker died, and so did every other worker that was tried"
     if isinstance(error, asyncio.CancelledError) or "Cancelled" in type(error).__name__:
         return "the connection to the scheduler was lost"
     return f"{type(error).__name__}: {error}".splitlines()[0]
@@ -185,7 +185,7 @@ def _connection_error(address: str, error: Exception) -> str:
         )
     return (
         f"--cluster {address}: no scheduler answers within {TIMEOUT:g} s ({reason}); "
-        "is it running, and does its address begin with tcp:// or tls:// as it says at its start?"
+        "is it running, and does its address begin with tcp:// or tls:// as its log shows?"
     )
 
 

@@ -254,7 +254,7 @@ KEYS = (
         "distribution",
         DISTRIBUTION,
         distributions.DEFAULT,
-        "The distributions of ROS 2 that `check` checks for, and that `new` creates packages for.",
+        "The ROS 2 distributions that `check` checks for, and that `new` creates packages for.",
     ),
 )
 """In the order of the documentation."""

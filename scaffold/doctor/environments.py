@@ -57,7 +57,7 @@ def _sourced(machine: Machine) -> Environment:
         name = distribution or machine.distribution
         missing.insert(0, Missing("rclpy", f"sudo apt install ros-{name}-rclpy"))
     shown = prefix or machine.prefixes[-1]
-    return Environment("sourced", shown, distribution, missing, "AMENT_PREFIX_PATH names it")
+    return Environment("sourced", shown, distribution, missing, "AMENT_PREFIX_PATH contains it")
 
 
 def _installed(machine: Machine) -> Iterator[Environment]:
@@ -68,7 +68,7 @@ def _installed(machine: Machine) -> Iterator[Environment]:
         missing = list(_tools(machine))
         if not has_package(prefix, "rclpy"):
             missing.insert(0, Missing("rclpy", f"sudo apt install ros-{name}-rclpy"))
-        yield Environment("installed", prefix, name, missing, f"{prefix}/setup.bash is there")
+        yield Environment("installed", prefix, name, missing, f"{prefix}/setup.bash exists")
 
 
 def _wheels(machine: Machine) -> Environment:
@@ -76,14 +76,16 @@ def _wheels(machine: Machine) -> Environment:
     command = wheels.command(distributions.named(distribution))
     if not has_package(machine.own_prefix, "rclpy"):
         missing = [Missing("the extra 'ros'", command)]
-        return Environment("wheels", "", "", missing, "rclpy is not installed next to this tool")
+        return Environment(
+            "wheels", "", "", missing, "rclpy is not installed in the environment of this tool"
+        )
     needed = {"colcon": "bin/colcon", "ament_cmake": "share/ament_cmake"}
     lacking = [
         Missing(name, command)
         for name, path in needed.items()
         if not os.path.exists(os.path.join(machine.own_prefix, path))
     ]
-    reason = "rclpy is installed next to this tool"
+    reason = "rclpy is installed in the environment of this tool"
     return Environment("wheels", machine.own_prefix, distribution, lacking, reason)
 
 

@@ -58,7 +58,7 @@ def text(environments: Sequence[Environment], findings: Findings) -> Iterator[st
 
 
 def _lines(environments: Sequence[Environment], findings: Findings) -> Iterator[str]:
-    yield "ROS 2 environments, in the order of preference of `smoke`:"
+    yield "ROS 2 environments, in the order in which `smoke` prefers them:"
     for item in environments:
         yield from _environment(item)
     if not any(item.taken for item in environments):

@@ -137,7 +137,7 @@ def unread(place: Place, paths: Sequence[str], package: str) -> Iterator[str]:
         package = os.path.normpath(package)
         yield (
             f"{', '.join(sorted(paths))} {verb} read only at the top of a git repository, and "
-            f"{package} is in none: `git init {quote(package)}` makes it one"
+            f"{package} is not in one; run `git init {quote(package)}`"
         )
 
 

@@ -194,7 +194,7 @@ def _summarize(name: str, trials: Sequence[NodeRun], expectation: Expectation) -
         problems += verdicts.problems(expectation.scenario, first.observation)
         problems += lifecycle.problems(first.observation.transitions)
     if finished and not problems:
-        notes.append(f"exited by itself after {first.stop.seconds:.1f} s")
+        notes.append(f"exited on its own after {first.stop.seconds:.1f} s")
     for other in trials[1:]:
         notes += other.notes
         problems += [problem for problem in other.problems if problem not in problems]

@@ -90,7 +90,7 @@ def compare(
         expectation: The expectation from the source.
         observation: The observation.
         seconds: How long it ran until the end of the observation.
-        finished: Whether it has exited by itself without an error.
+        finished: Whether it has exited on its own without an error.
     """
     problems = [
         *(
@@ -155,7 +155,7 @@ def _finished_early(
 ) -> list[Problem]:
     """Return the problem of a program that should have kept running."""
     if expectation.runs_nothing:
-        return [Problem(f"exited by itself: nothing in {expectation.source} spins its node")]
+        return [Problem(f"exited on its own: nothing in {expectation.source} spins its node")]
     for publication in expectation.publications:
         topic = observation.topic(publication.topic)
         is_due = publication.certain or publication.timer_hz
@@ -163,7 +163,7 @@ def _finished_early(
             statement = _expectation_text(publication, expectation)
             return [
                 Problem(
-                    f"exited by itself after {seconds:.1f} s, before a message on "
+                    f"exited on its own after {seconds:.1f} s, before a message on "
                     f"{publication.topic}: {statement}"
                 )
             ]

@@ -274,7 +274,7 @@ class _Run:
         if self._is_expected(code) and (trace is None or code):
             return
         if self._expectation.exit_code is not None and trace is None:
-            self._report(f"exited by itself, {self._unexpected(code)}", _last_output(running))
+            self._report(f"exited on its own, {self._unexpected(code)}", _last_output(running))
             return
         lack = None if self._scenario.arguments else _missing_arguments(running)
         if code and lack is not None:

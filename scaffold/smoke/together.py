@@ -215,7 +215,10 @@ def _mismatch(publisher: Endpoint, subscription: Endpoint) -> str:
     if wanted.get("deadline") is not None and (
         offered.get("deadline") is None or offered["deadline"] > wanted["deadline"]
     ):
-        return f"the other wants a deadline of {wanted['deadline']:g} s, which it does not promise"
+        return (
+            f"the subscription requests a deadline of {wanted['deadline']:g} s, which the "
+            "publisher does not offer"
+        )
     if (offered.get("liveliness"), wanted.get("liveliness")) == ("automatic", "manual_by_topic"):
         return (
             "the publisher offers automatic liveliness, the subscription requests manual by topic"

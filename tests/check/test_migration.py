@@ -295,7 +295,7 @@ def test_kept_distribution_is_checked_and_recorded_when_nothing_breaks(
     assert lines[-1].endswith("1 break, 0 change silently, 0 deprecated")
     assert main([*flags, "--fix"]) == 1
     shown = capsys.readouterr().err
-    assert "newer: not recorded for Humble, Kilted and Lyrical before what is left" in shown
+    assert "newer: not recorded for Humble, Kilted and Lyrical until the remaining" in shown
     records = {name: Path(name, ".ros2-scaffold.json") for name in ("plain", "newer")}
     recorded = {
         name: json.loads(path.read_text())["answers"]["distro"] for name, path in records.items()
@@ -311,12 +311,12 @@ def test_kept_distribution_is_checked_and_recorded_when_nothing_breaks(
 def test_move_to_the_same_distribution_is_rejected(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["migrate", "--to", "jazzy"]) == 2
     error = capsys.readouterr().err
-    assert "listed, twenty: not moved: no record and no configuration says" in error
-    assert "and the default is Jazzy itself; --from names it" in error
+    assert "listed, twenty: not migrated: the current distribution is neither recorded" in error
+    assert "and the default is Jazzy; set it with --from" in error
     assert main(["migrate", "--to", "kited"]) == 2
     assert "--to: no distribution 'kited'; did you mean 'kilted'?" in capsys.readouterr().err
     assert main(["migrate", "--to", "jazzy,lyrical"]) == 2
-    assert "use --to for the distribution to move to" in capsys.readouterr().err
+    assert "use --to for the distribution to migrate to" in capsys.readouterr().err
 
 
 def test_move_to_an_older_distribution_reports_only_breaks(
@@ -402,7 +402,7 @@ def test_origin_of_a_package_is_in_its_record(
     assert records["c"].stat().st_mtime_ns == untouched
     assert main(["migrate", "--to", "lyrical", "--fix"]) == 0
     shown = capsys.readouterr()
-    assert shown.out.startswith("the packages are for Lyrical already: nothing to move; ")
+    assert shown.out.startswith("the packages are for Lyrical already: nothing to migrate; ")
     assert shown.err == "0 fixes applied\n"
     flags = ("migrate", "talker_c", "--to", "lyrical", "--keep", "kilted", "--fix")
     assert main([*flags, "--keep", "jazzy"]) == 1
@@ -417,11 +417,11 @@ def test_packages_without_a_record_use_the_configuration(
     workspace: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     main(["migrate", "listed", "--to", "lyrical", "--fix"])
-    assert "set check.distribution of the configuration" in capsys.readouterr().err
+    assert "set check.distribution in the configuration" in capsys.readouterr().err
     configuration = workspace / "ros2-scaffold.toml"
     configuration.write_text('[check]\ndistribution = "jazzy"\n')
     main(["migrate", "listed", "--to", "lyrical", "--fix"])
-    assert f"as check.distribution in {configuration} says" in capsys.readouterr().err
+    assert f"as set by check.distribution in {configuration};" in capsys.readouterr().err
     configuration.write_text('[check]\ndistribution = "lyrical"\n')
     main(["migrate", "listed", "--to", "lyrical", "--from", "jazzy", "--fix"])
     assert "check.distribution" not in capsys.readouterr().err
@@ -598,7 +598,7 @@ def test_assumed_origin_is_noted(workspace: Path, capsys: pytest.CaptureFixture[
     for flags, is_named in (((), True), (("--from", "jazzy"), False)):
         capsys.readouterr()
         main(["migrate", "--to", "lyrical", *flags])
-        sentence = "note: listed: no record and no configuration says what it comes from: Jazzy is"
+        sentence = "listed: the current distribution is neither recorded nor configured: assuming"
         assert (sentence in capsys.readouterr().err) == is_named
 
 
@@ -669,10 +669,10 @@ def test_unreadable_files_are_noted_and_nothing_is_recorded(
         assert f"    {path}:" in shown.out
     assert "breaks:" not in shown.out
     assert shown.out.endswith(
-        "2 packages from Jazzy to Lyrical: nothing changes in what was examined; "
+        "2 packages from Jazzy to Lyrical: nothing changes in the examined files; "
         "7 files not examined\n"
     )
-    assert "note: talker: not recorded for Lyrical before what is left is fixed" in shown.err
+    assert "talker: not recorded for Lyrical until the remaining findings are fixed" in shown.err
     assert (_recorded("talker"), _recorded("whole")) == (["jazzy"], ["lyrical"])
     main(["migrate", "talker", "--to", "lyrical", "--format", "json"])
     (package,) = json.loads(capsys.readouterr().out)["packages"]
@@ -770,7 +770,9 @@ def test_packages_of_unknown_origin_are_noted(
     assert main(["migrate", "--to", "jazzy"]) == 0
     shown = capsys.readouterr()
     assert shown.out == "1 package from Humble to Jazzy: nothing changes\n"
-    assert shown.err.startswith("note: listed: not moved: no record and no configuration says ")
+    assert shown.err.startswith(
+        "note: listed: not migrated: the current distribution is neither recorded "
+    )
 
 
 @pytest.mark.parametrize(
@@ -795,13 +797,15 @@ def test_record_with_unsupported_distribution_can_move(
     record.write_text(record.read_text().replace('["jazzy"]', json.dumps(names)))
     capsys.readouterr()
     assert main(["check", "talker"]) == 2
-    assert "`ros2-scaffold migrate talker --to NAME --fix` moves the package" in (
+    assert "migrate the package with `ros2-scaffold migrate talker --to NAME --fix`" in (
         capsys.readouterr().err
     )
     assert main(["migrate", "--to", "lyrical", "--fix", *flags]) == 0
     shown = capsys.readouterr()
     assert shown.out == f"1 package from {origin} to Lyrical: nothing changes\n"
-    is_succeeded = "packages recorded for Foxy, which has reached its end of life, move from Humble"
+    is_succeeded = (
+        "packages recorded for Foxy, which has reached its end of life, are migrated from Humble"
+    )
     assert (is_succeeded in shown.err) is (origin == "Humble")
     assert "no longer for Foxy" in shown.err
     assert "--keep foxy" not in shown.err
@@ -847,4 +851,4 @@ def test_ros1_package_is_not_examined(workspace: Path, capsys: pytest.CaptureFix
     out = capsys.readouterr().out
     assert "  not examined:\n    listed/package.xml:8:" in out
     assert "SC007" in out
-    assert out.endswith("nothing changes in what was examined; 1 file not examined\n")
+    assert out.endswith("nothing changes in the examined files; 1 file not examined\n")

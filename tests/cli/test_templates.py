@@ -59,7 +59,8 @@ def test_user_templates_are_listed(team: Path, capsys: pytest.CaptureFixture[str
 def test_correct_template_passes(team: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["templates", "test", str(team)]) == 0
     assert capsys.readouterr().out == (
-        "citation: plain, ament_cmake: ok\ncitation: plain, ament_python: ok\n2 examples, 0 wrong\n"
+        "citation: plain, ament_cmake: ok\ncitation: plain, ament_python: ok\n"
+        "2 examples, 0 failed\n"
     )
 
 
@@ -71,9 +72,9 @@ def test_template_of_a_package_with_findings_is_wrong(
     (extra / "{{ package }}" / "cite.py.jinja").write_text('{{ header }}\n\nX = "x"\n')
     assert main(["templates", "test", str(team)]) == 1
     output = capsys.readouterr().out
-    assert "citation: plain, ament_cmake: wrong\n    cited_package/cite.py:" in output
+    assert "citation: plain, ament_cmake: failed\n    cited_package/cite.py:" in output
     assert ": Q000 " in output
-    assert output.endswith("2 examples, 2 wrong\n")
+    assert output.endswith("2 examples, 2 failed\n")
 
 
 def test_template_that_cannot_be_rendered_is_wrong(
@@ -91,7 +92,7 @@ def test_example_with_unknown_answer_is_wrong(
     path.write_text(path.read_text().replace("cited_package", "cited_package, year_of_papr: 2020"))
     assert main(["templates", "test", str(team)]) == 1
     assert capsys.readouterr().out.splitlines()[:2] == [
-        "citation: plain, ament_cmake: wrong",
+        "citation: plain, ament_cmake: failed",
         (
             "    example 'plain, ament_cmake': no template has a question 'year_of_papr'; "
             "did you mean 'year_of_paper'?"
@@ -110,7 +111,7 @@ def test_example_without_its_template_is_wrong(
     assert main(["templates", "test", str(tmp_path)]) == 1
     output = capsys.readouterr().out.splitlines()
     assert "watchdog: slow, ament_python: ok" in output
-    where = output.index("watchdog: several, ament_python: wrong")
+    where = output.index("watchdog: several, ament_python: failed")
     assert output[where + 1] == ("    example 'several, ament_python': has no watchdog, but timer")
 
 
@@ -120,7 +121,7 @@ def test_template_without_examples_is_wrong(team: Path, capsys: pytest.CaptureFi
     assert main(["templates", "test", str(team)]) == 1
     captured = capsys.readouterr()
     assert captured.err == "note: citation has no examples: it was not tested\n"
-    assert captured.out == "0 examples, 0 wrong\n"
+    assert captured.out == "0 examples, 0 failed\n"
 
 
 def test_directory_without_templates_is_an_error(

@@ -119,7 +119,7 @@ def test_two_distributions_in_one_shell(root: Path) -> None:
         "two distributions are sourced in one shell: humble in PYTHONPATH; jazzy in "
         "AMENT_PREFIX_PATH, PYTHONPATH; their libraries are incompatible"
     )
-    assert every[1].message == "ROS_DISTRO is 'humble', but AMENT_PREFIX_PATH names jazzy"
+    assert every[1].message == "ROS_DISTRO is 'humble', but AMENT_PREFIX_PATH contains jazzy"
 
 
 def test_workspace_that_was_built_with_another_distribution(root: Path) -> None:
@@ -262,14 +262,16 @@ def test_package_that_shadows_another(root: Path) -> None:
     variables = dict(sourced(prefix))
     variables["AMENT_PREFIX_PATH"] = f"{overlay}:{prefix}"
     severity, message, _ = found(machine(root, **variables))["shadowed-packages"]
-    assert (severity, message) == ("info", f"'std_msgs' of {overlay} hides that of {prefix}")
+    assert (severity, message) == ("info", f"'std_msgs' in {overlay} shadows the one in {prefix}")
 
 
 def test_removed_installation_is_still_on_the_path(root: Path) -> None:
     gone = root / "ros" / "iron"
     severity, message, fix = found(machine(root, AMENT_PREFIX_PATH=str(gone)))["prefix-gone"]
     assert (severity, fix.startswith(f"grep -n {gone} ~/.bashrc")) == ("error", True)
-    assert message == f"AMENT_PREFIX_PATH names {gone}, which is not there: no package is found"
+    assert (
+        message == f"AMENT_PREFIX_PATH contains {gone}, which does not exist: no package is found"
+    )
     variables = sourced(installation(root))
     both = {**variables, "AMENT_PREFIX_PATH": f"{variables['AMENT_PREFIX_PATH']}:{gone}"}
     severity, message, _ = found(machine(root, **both))["prefix-gone"]

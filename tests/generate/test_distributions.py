@@ -177,12 +177,12 @@ def test_distribution_comes_from_flag_configuration_or_shell(
         (
             "humble",
             [],
-            "note: made for Humble, as ROS_DISTRO is 'humble'; --distro NAMES makes it ",
+            "note: created for Humble, as ROS_DISTRO is 'humble'; use --distro NAMES ",
         ),
         (
             "iron",
             [],
-            "note: made for Jazzy, although ROS_DISTRO is 'iron', which has reached its end of ",
+            "note: created for Jazzy, although ROS_DISTRO is 'iron', which has reached its end of ",
         ),
     ],
 )
@@ -197,7 +197,7 @@ def test_distribution_taken_from_the_shell_is_noted(
     assert new(*flags) == 0
     written = capsys.readouterr().err
     assert expected in written
-    assert ("made for" in written) == bool(expected)
+    assert ("created for" in written) == bool(expected)
 
 
 def test_unknown_distribution_is_rejected_with_a_suggestion(

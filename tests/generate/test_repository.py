@@ -143,7 +143,7 @@ def test_missing_repository_is_noted(tmp_path: Path, capsys: pytest.CaptureFixtu
     assert (tmp_path / "talker" / ".github" / "workflows" / "ci.yaml").is_file()
     assert capsys.readouterr().err == (
         "note: .github/workflows/ci.yaml is read only at the top of a git repository, and "
-        f"{tmp_path}/talker is in none: `git init {tmp_path}/talker` makes it one\n"
+        f"{tmp_path}/talker is not in one; run `git init {tmp_path}/talker`\n"
     )
 
 

@@ -56,7 +56,7 @@ def error_line(done: subprocess.CompletedProcess[str]) -> str:
 def test_missing_scheduler(package: Path) -> None:
     line = error_line(check(package, "tcp://127.0.0.1:1"))
     assert "--cluster tcp://127.0.0.1:1: no scheduler answers within 10 s" in line
-    assert "does its address begin with tcp:// or tls:// as it says at its start?" in line
+    assert "does its address begin with tcp:// or tls:// as its log shows?" in line
 
 
 @pytest.mark.parametrize("address", ["nowhere.invalid:8786", "http://127.0.0.1:8786", "8786"])

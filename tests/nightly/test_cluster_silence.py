@@ -184,6 +184,6 @@ def test_silent_scheduler_ends_the_run(tmp_path: Path) -> None:
     for package in packages:
         if not package["build"]["ok"]:
             (error,) = package["build"]["errors"]
-            assert error == f"the scheduler has not answered for {SILENCE:g} s"
+            assert error == f"the scheduler has not responded for {SILENCE:g} s"
     assert not all(package["build"]["ok"] for package in packages)
     assert os.listdir(tmp_path / "tmp") == []

@@ -151,4 +151,4 @@ def test_measurements_of_strange_nodes(executables: dict[str, Any]) -> None:
     assert len(executables["new_names"]["nodes"]) == 5
     assert len(executables["grandchildren"]["problems"]) == 4
     (note,) = executables["thread_exits"]["notes"]
-    assert note.startswith("exited by itself after ")
+    assert note.startswith("exited on its own after ")

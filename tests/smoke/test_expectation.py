@@ -283,7 +283,7 @@ def test_program_that_ends_before_its_timer_fires(
     assert expectation.publications[0].timer_hz == rate
     problems, _ = compare(expectation, Observation(), 0.6, finished=True)
     problem = (
-        "exited by itself after 0.6 s, before a message on /words: "
+        "exited on its own after 0.6 s, before a message on /words: "
         f"demo/run.py publishes {STRING} at 2 Hz"
     )
     assert list(map(str, problems)) == ([problem] if rate else [])
@@ -440,10 +440,10 @@ def test_program_that_exits_by_itself() -> None:
     problems, _ = compare(expecting(10.0), Observation(), 0.3, finished=True)
     assert list(map(str, problems)) == [
         (
-            "exited by itself after 0.3 s, before a message on /words: "
+            "exited on its own after 0.3 s, before a message on /words: "
             f"talker.py publishes {STRING} at 10 Hz"
         )
     ]
     script = Expectation(is_node=True, runs_nothing=True, source="talker.py")
     problems, _ = compare(script, Observation(), 0.3, finished=True)
-    assert list(map(str, problems)) == ["exited by itself: nothing in talker.py spins its node"]
+    assert list(map(str, problems)) == ["exited on its own: nothing in talker.py spins its node"]

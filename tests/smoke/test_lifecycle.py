@@ -131,6 +131,6 @@ def test_transitions_before_and_after_the_observation() -> None:
 
 
 def test_unanswered_transition_is_a_problem() -> None:
-    failed = Transition("/a", "cleanup", "inactive", "unknown", 1.0, "it does not answer")
+    failed = Transition("/a", "cleanup", "inactive", "unknown", 1.0, "it does not respond")
     (problem,) = problems([failed, Transition("/a", "activate", "inactive", "active", 0.1)])
-    assert problem.message == "/a does not clean up from inactive: it does not answer"
+    assert problem.message == "/a does not clean up from inactive: it does not respond"

@@ -201,7 +201,7 @@ def field(first: object, last: object, changes: int) -> FieldFigures:
         (
             FieldExpectation("x", changes=False),
             field("a", "b", 1),
-            'x of /t changes from "a" to "b": smoke.yaml expects it to stay',
+            'x of /t changes from "a" to "b": smoke.yaml expects it to stay constant',
         ),
         (FieldExpectation("x", equals=0.1, has_equals=True), field(0.1 + 1e-9, 0.1, 0), None),
         (
@@ -224,7 +224,7 @@ def field(first: object, last: object, changes: int) -> FieldFigures:
             field("a", "a", 0),
             'x of /t is "a": smoke.yaml expects a number',
         ),
-        (FieldExpectation("x"), None, "x of /t was not seen: no message came"),
+        (FieldExpectation("x"), None, "x of /t was not seen: no message was received"),
         (
             FieldExpectation("x"),
             FieldFigures(0, 0, None, None, None, None, "no field 'x'"),
@@ -247,7 +247,7 @@ def test_expected_values_of_a_field(
         ({"sum": 3}, Answer({"sum": 3, "more": 1}), None),
         ({"a": {"b": [0.1, 2]}}, Answer({"a": {"b": [0.1, 2], "c": 0}}), None),
         ({"sum": 3}, Answer({"sum": 4}), " returned sum: 4: smoke.yaml expects 3"),
-        ({}, Answer(None, "it does not answer within 5 s"), ": it does not answer within 5 s"),
+        ({}, Answer(None, "it does not respond within 5 s"), ": it does not respond within 5 s"),
         ({"a": [1]}, Answer({"a": [1, 2]}), " returned a: [1, 2]: smoke.yaml expects [1]"),
     ],
 )

@@ -163,7 +163,7 @@ def test_program_that_is_no_node(packages: dict[str, Result]) -> None:
     result = executable(packages, "good_py", "once")
     assert (result["ok"], result["nodes"], result["topics"]) == (True, [], [])
     assert (result["stop"]["signal"], result["stop"]["exit_code"]) == (None, 0)
-    assert result["notes"][0].startswith("exited by itself after ")
+    assert result["notes"][0].startswith("exited on its own after ")
 
 
 def test_crash_at_start(packages: dict[str, Result]) -> None:
@@ -238,13 +238,13 @@ def test_traceback_on_shutdown(packages: dict[str, Result]) -> None:
 
 def test_node_that_is_not_spun(packages: dict[str, Result]) -> None:
     _, problem = failed_executable(packages, "unspun")
-    assert problem.startswith("exited by itself after ")
+    assert problem.startswith("exited on its own after ")
     assert "before a message on /unspun: bad_py/unspun.py publishes" in problem
 
 
 def test_node_that_exits_before_publishing(packages: dict[str, Result]) -> None:
     result, problem = failed_executable(packages, "leaves")
-    assert problem.startswith("exited by itself after ")
+    assert problem.startswith("exited on its own after ")
     assert problem.endswith(
         "before a message on /leaves: bad_py/leaves.py publishes std_msgs/msg/String at 2 Hz"
     )

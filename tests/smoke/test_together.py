@@ -68,7 +68,7 @@ def subscription(kind: str = STRING, **changes: object) -> Endpoint:
         (
             publisher(),
             subscription(deadline=2.0),
-            "the other wants a deadline of 2 s, which it does not promise",
+            "the subscription requests a deadline of 2 s, which the publisher does not offer",
         ),
         (
             publisher(),

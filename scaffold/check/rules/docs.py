@@ -47,7 +47,7 @@ _PLUGINS = {
 _STYLE_HEAD = """\
 ## Python style and docstrings
 
-The codes of flake8 and pydocstyle, with the verdict of ament_flake8 and ament_pep257."""
+The codes of flake8 and pydocstyle that ament_flake8 and ament_pep257 report."""
 
 
 def summary(rule: type[Rule]) -> str:
@@ -84,7 +84,7 @@ def style_text(style: AmentCode) -> str:
     plugin = max((start for start in _PLUGINS if style.code.startswith(start)), key=len)
     source = f"{_PLUGINS[plugin]}, as {linters(style)[0]} runs it"
     if style.is_optional:
-        source += " where the configuration that a package hands to it asks for this"
+        source += " if the package configures it to report this code"
     return f"{text}.\n\n**Source.** {source}."
 
 

@@ -35,9 +35,9 @@ class UnparsableFile(_Internal):
     name = "unparsable-file"
     effect = Effect.STOPS_BUILD
     other_severities: ClassVar[dict[Severity, str]] = {
-        Severity.WARNING: "the file is not UTF-8, which CMake and compilers do not mind: "
-        "only this tool cannot check it; or it is wrong outside of the <robot> element of a URDF "
-        "file, where robot_state_publisher does not look"
+        Severity.WARNING: "the file is not UTF-8, which CMake and compilers accept: only "
+        "this tool cannot check it; or the error is outside of the <robot> element of a URDF "
+        "file, which robot_state_publisher ignores"
     }
 
 
@@ -87,8 +87,8 @@ class FileTooLarge(_Internal):
 class TooManyFindings(_Internal):
     """One code is reported so often that the rest is not shown.
 
-    **Why.** Nobody reads five thousand copies of one message; findings after the last of them are
-    not shown.
+    **Why.** Thousands of copies of one message hide the other findings, so only the first ones are
+    shown.
 
     **Fix.** Fix the findings shown, by hand or with ``--fix``, and check again.
     """
@@ -99,13 +99,13 @@ class TooManyFindings(_Internal):
 
 
 class StyleNotJudged(_Internal):
-    """The configuration that a package hands to a linter of ament is not followed.
+    """The configuration that a package passes to a linter of ament is not used.
 
-    **Why.** Style is judged by what the tests of the package run. Here the linter stops at its
-    configuration, or what it gets is only known while the tests run; so ament's own configuration
-    counts, or what is named is not judged.
+    **Why.** Style is checked as the tests of the package check it. Here, the linter rejects its
+    configuration, or its arguments are only known while the tests run; so ament's default
+    configuration is used, or the option in question is ignored.
 
-    **Fix.** Correct the configuration, or hand it over as a plain path.
+    **Fix.** Correct the configuration, or pass it as a literal path.
     """
 
     code = "SC006"
@@ -137,9 +137,10 @@ class PackageOfRos1(_Internal):
 class LicenseNotAllowed(_Internal):
     """A package has a license that the configuration does not allow.
 
-    **Why.** The key ``licenses`` says under which licenses packages of this project are published.
+    **Why.** The key ``licenses`` lists the licenses under which packages of this project may be
+    published.
 
-    **Fix.** Choose one of these, or add the license to the configuration.
+    **Fix.** Choose one of them, or add the license to the configuration.
     """
 
     code = "SC008"

@@ -33,8 +33,8 @@ def lines(
 
     if not found.directories:
         yield (
-            f"{sentence([*found.arrived.values()], target)}: nothing to move; "
-            "`ros2-scaffold check` reports what is wrong there, --from NAME what another changes"
+            f"{sentence([*found.arrived.values()], target)}: nothing to migrate; "
+            "`ros2-scaffold check` reports their findings; if they are for another one, use --from"
         )
         return
 
@@ -52,7 +52,7 @@ def lines(
     named = ", ".join(f"{number} {state}" for number, state in counts)
     every = [diagnostic for item in consequences for diagnostic in item.diagnostics]
     missed = sum(_unexamined_files(item) for item in consequences)
-    nothing = "nothing changes in what was examined" if missed else "nothing changes"
+    nothing = "nothing changes in the examined files" if missed else "nothing changes"
     parts = [f"{shares(found)} to {target.title}: {named if every else nothing}"]
     parts += [f"{count(missed, 'file')} not examined"] if missed else []
     fixes = fixable(every, unsafe=is_unsafe)

@@ -90,7 +90,7 @@ def _refuse_none(found: Origins, target: Distribution, *, is_named: bool) -> Non
         raise InputError(_assumption(found, target))
     if is_named:
         arrived = sentence([*found.arrived.values()], target)
-        raise InputError(f"{arrived}: --from names where they come from")
+        raise InputError(f"{arrived}; use --from with their current distribution")
 
 
 def _unsupported(directory: str) -> list[str]:
@@ -115,7 +115,7 @@ def notes(origins: Origins, target: Distribution) -> Iterator[str]:
         yield _assumption(origins, target)
     if origins.guessed:
         default = distributions.named(distributions.DEFAULT).title
-        yield f"{_unknown(origins.guessed)}: {default} is assumed; --from names another"
+        yield f"{_unknown(origins.guessed)}: assuming {default}; use --from for another"
 
 
 def _unknown(directories: Sequence[str]) -> str:
@@ -124,23 +124,22 @@ def _unknown(directories: Sequence[str]) -> str:
     names = ", ".join(map(os.path.normpath, directories[:_SHOWN]))
     if number > _SHOWN:
         names += f" and {number - _SHOWN} more"
-    they, come = ("it", "comes") if number == 1 else ("they", "come")
-    return f"{names}: no record and no configuration says what {they} {come} from"
+    return f"{names}: the current distribution is neither recorded nor configured"
 
 
 def _assumption(origins: Origins, target: Distribution) -> str:
     """Return the sentence about packages that are assumed to be for the target already."""
     where, _, why = _unknown(origins.assumed).partition(": ")
-    return f"{where}: not moved: {why}, and the default is {target.title} itself; --from names it"
+    return f"{where}: not migrated: {why}, and the default is {target.title}; set it with --from"
 
 
 def _successor_hint(name: str, origin: Distribution) -> str:
     """Return the sentence about records of a distribution that is no longer supported."""
     title = name.capitalize()
     return (
-        f"packages recorded for {title}, which {distributions.ending(name)}, move from "
-        f"{origin.title}, the next one: what changed between the two is not known, `check` "
-        "reports what is wrong now"
+        f"packages recorded for {title}, which {distributions.ending(name)}, are migrated from "
+        f"{origin.title}, the next one: the changes between the two are unknown; `check` reports "
+        "what is wrong now"
     )
 
 

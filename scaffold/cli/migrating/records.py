@@ -69,7 +69,7 @@ def notes(recorded: Recorded, targets: Sequence[Distribution], settings: Config)
             no_longer += f" (without --keep {names})" if names else ""
         yield (
             f"{_listed(directories)}: recorded as {subject} for {titles}{no_longer}; "
-            "`ros2-scaffold update` applies the changes of the templates for that"
+            "`ros2-scaffold update` applies the changes of the templates"
         )
     named = distro.wanted(None, settings)
     usual = named or [distributions.named(distributions.DEFAULT)]
@@ -78,9 +78,9 @@ def notes(recorded: Recorded, targets: Sequence[Distribution], settings: Config)
     names = ",".join(target.name for target in targets)
     checks = f"`check` without --distro checks for {distributions.titles(usual)}"
     if named:
-        checks += f", as {distro.KEY} in {settings.origin(distro.KEY)} says: change it there"
+        checks += f", as set by {distro.KEY} in {settings.origin(distro.KEY)}; change it there"
     else:
-        checks += f": set {distro.KEY} of the configuration"
+        checks += f"; set {distro.KEY} in the configuration"
     yield f"{checks}, or pass --distro {names}"
 
 
@@ -102,10 +102,11 @@ def held(directories: Iterable[str], targets: Sequence[Distribution], *, has_unr
     waiting = [path for path in directories if distro.recorded_names(path) not in (None, names)]
     if not waiting:
         return ""
-    unread = " (a file that cannot be read: with `exclude` in the configuration)"
+    unread = " (files that cannot be read: with `exclude` in the configuration)"
     return (
-        f"{_listed(waiting)}: not recorded for {distributions.titles(targets)} before what is left "
-        f"is fixed, or accepted with noqa{unread if has_unread else ''}; then run this again"
+        f"{_listed(waiting)}: not recorded for {distributions.titles(targets)} until the remaining "
+        f"findings are fixed or suppressed with noqa{unread if has_unread else ''}; then run this "
+        "again"
     )
 
 

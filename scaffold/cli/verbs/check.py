@@ -301,10 +301,7 @@ def _report_fixes(
     terminal.say(f"{fixing.fix_count(count)}, nothing written" if options.diff else done)
     unsettled = sorted({code for item in fixed for code in item.unsettled})
     if unsettled:
-        terminal.note(
-            f"gave up on {', '.join(unsettled)}: their fixes undo each other or never end; fix "
-            "these by hand"
-        )
+        terminal.note(f"the fixes of {', '.join(unsettled)} do not converge; fix these by hand")
     if options.diff:
         left = [(result.package, item) for result in results for item in result.diagnostics]
         return FINDINGS if fixing.note_unexamined(left) or count else CLEAN

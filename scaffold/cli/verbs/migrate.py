@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from scaffold.configuration.config import Config
     from scaffold.distributions import Distribution
 
-_ADVICE = "use --to for the distribution to move to, and --keep for those that must keep working"
+_ADVICE = "use --to for the distribution to migrate to, and --keep for those that must keep working"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -31,15 +31,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="packages or workspaces (default: the current directory)",
     )
     parser.add_argument(
-        "--to", required=True, metavar="NAME", help="the distribution to move the packages to"
+        "--to", required=True, metavar="NAME", help="the distribution to migrate the packages to"
     )
     parser.add_argument(
         "--from",
         dest="origin",
         metavar="NAME",
-        help=f"the distribution to move them from (default: {distro.KEY} of the configuration, "
+        help=f"the distribution to migrate them from (default: {distro.KEY} of the configuration, "
         "else what "
-        f"`new --distro` made them for, else {distributions.DEFAULT})",
+        f"`new --distro` created them for, else {distributions.DEFAULT})",
     )
     parser.add_argument(
         "--keep",
@@ -144,7 +144,7 @@ def _locked_directories(
 def _nothing_found(options: argparse.Namespace) -> str:
     """Return why there is no package to move."""
     if options.notes:
-        return f"no package to move; {'; '.join(options.notes)}"
+        return f"no package to migrate; {'; '.join(options.notes)}"
     return f"{', '.join(options.paths)}: not in a ROS 2 package"
 
 

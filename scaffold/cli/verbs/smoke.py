@@ -97,7 +97,7 @@ def _add_environment(parser: argparse.ArgumentParser) -> None:
         "--distro",
         action="append",
         metavar="NAMES",
-        help="the distributions of ROS 2 to run on, separated by commas; on others, nothing is "
+        help="the ROS 2 distributions to run on, separated by commas; on others, nothing is "
         "run (default: check.distribution of the configuration, else what `new --distro` made "
         "the packages for, else ROS_DISTRO, else the available one)",
     )

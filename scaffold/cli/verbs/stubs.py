@@ -42,7 +42,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--distro",
         metavar="NAME",
-        help="the distribution of ROS 2 (default: what `new --distro` made the package here for, "
+        help="the ROS 2 distribution (default: what `new --distro` created the package here for, "
         f"the oldest of several, else {distributions.DEFAULT})",
     )
     flags.add_looking(parser)

@@ -150,18 +150,18 @@ def _test(
     tried: list[Tried] = []
     for attempt in examples.check(names, roots, templates, rules):
         tried.append(attempt)
-        outcome = "wrong" if attempt.defects else "ok"
+        outcome = "failed" if attempt.defects else "ok"
         terminal.show(f"{attempt.example.template}: {attempt.example.title}: {outcome}")
         for defect in attempt.defects:
             terminal.show(f"    {defect}")
-    wrong = sum(bool(item.defects) for item in tried)
+    failed = sum(bool(item.defects) for item in tried)
     if options.build:
-        wrong += _build(tried)
+        failed += _build(tried)
     without = sorted(set(names) - {item.example.template for item in tried} - {BASE})
     for name in without:
         terminal.note(f"{name} has no examples: it was not tested")
-    terminal.show(f"{len(tried)} examples, {wrong} wrong")
-    return FINDINGS if wrong or not tried else CLEAN
+    terminal.show(f"{len(tried)} examples, {failed} failed")
+    return FINDINGS if failed or not tried else CLEAN
 
 
 def _build(tried: Sequence[Tried]) -> int:
@@ -170,18 +170,18 @@ def _build(tried: Sequence[Tried]) -> int:
 
     from scaffold.smoke.only_build import only_build
 
-    wrong = 0
+    failed = 0
     for together in _build_rounds(tried):
         with tempfile.TemporaryDirectory(prefix="ros2-scaffold-templates-") as directory:
             packages = [_write(made, directory) for _, made in together.values()]
             for name, built in only_build(packages).items():
                 example, _ = together[name]
-                wrong += not built.ok
+                failed += not built.ok
                 state = "built" if built.ok else "does not build"
                 terminal.show(f"{example.template}: {example.title}: {state}")
                 for line in () if built.ok else built.errors:
                     terminal.show(f"    {line}")
-    return wrong
+    return failed
 
 
 def _build_rounds(tried: Sequence[Tried]) -> list[dict[str, tuple[Example, Draft]]]:

@@ -31,7 +31,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         distro.FLAG,
         action="append",
         metavar="NAMES",
-        help="change the distributions of ROS 2 that the package is for, separated by commas",
+        help="change ROS 2 distributions of the package, separated by commas",
     )
     flags.add_looking(parser)
     flags.add_content(parser)

@@ -26,7 +26,7 @@ def check(machine: Machine) -> Iterator[Finding]:
         yield Finding(
             Severity.WARNING,
             f"ROS_LOCALHOST_ONLY is deprecated in {machine.distribution}"
-            + (", and overrules ROS_AUTOMATIC_DISCOVERY_RANGE" if reach and only == _TRUE else ""),
+            + (", and overrides ROS_AUTOMATIC_DISCOVERY_RANGE" if reach and only == _TRUE else ""),
             f"unset ROS_LOCALHOST_ONLY; {instead}" if only == _TRUE else "unset ROS_LOCALHOST_ONLY",
         )
     if reach and is_old:

@@ -1,4 +1,4 @@
-"""The loopback network is down, or has no multicast."""
+"""The loopback interface is down, or has no multicast."""
 
 from __future__ import annotations
 
@@ -23,14 +23,14 @@ def check(machine: Machine) -> Iterator[Finding]:
     if not flags & _UP:
         yield Finding(
             Severity.ERROR,
-            "the loopback network is down: nodes do not find each other",
+            "the loopback interface is down: nodes do not discover each other",
             "sudo ip link set lo up",
         )
     elif not flags & _MULTICAST:
         needs_it = machine.variables.get("RMW_IMPLEMENTATION") == "rmw_cyclonedds_cpp"
         yield Finding(
             Severity.WARNING if needs_it else Severity.INFO,
-            "multicast is off on the loopback network: without another network, nodes with Cyclone "
-            "DDS do not find each other",
+            "multicast is off on the loopback interface: without another network, nodes with "
+            "Cyclone DDS do not discover each other",
             "sudo ip link set lo multicast on",
         )

@@ -39,7 +39,7 @@ def check(machine: Machine) -> Iterator[Finding]:
     if named and sourced and named not in sourced:
         yield Finding(
             Severity.ERROR,
-            f"ROS_DISTRO is {named!r}, but AMENT_PREFIX_PATH names {', '.join(sorted(sourced))}",
+            f"ROS_DISTRO is {named!r}, but AMENT_PREFIX_PATH contains {', '.join(sorted(sourced))}",
             _keep_one(machine),
         )
     yield from _of_workspace(machine, sourced)

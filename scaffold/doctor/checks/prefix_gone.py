@@ -22,8 +22,9 @@ def check(machine: Machine) -> Iterator[Finding]:
     nothing = len(gone) == len(machine.prefixes)
     yield Finding(
         Severity.ERROR if nothing else Severity.WARNING,
-        f"AMENT_PREFIX_PATH names {', '.join(gone)}, which {'is' if len(gone) == 1 else 'are'} not "
-        f"there: {'no package' if nothing else 'nothing in it'} is found",
+        f"AMENT_PREFIX_PATH contains {', '.join(gone)}, which "
+        f"{'does' if len(gone) == 1 else 'do'} not exist: "
+        f"{'no package' if nothing else 'nothing in it'} is found",
         f"grep -n {quote(os.path.commonpath(gone))} {start}  # remove the lines that source it, "
         "and open a new terminal",
     )

@@ -22,7 +22,7 @@ def check(machine: Machine) -> Iterator[Finding]:
             hidden = ", ".join(prefixes[1:])
             yield Finding(
                 Severity.INFO,
-                f"{name!r} of {prefixes[0]} hides that of {hidden}",
+                f"{name!r} in {prefixes[0]} shadows the one in {hidden}",
                 _removal(name, prefixes[0]),
             )
 

@@ -156,7 +156,7 @@ def _refuse_ros_1(package: Package) -> None:
     is_ours = any(name.startswith("ament_") for name in tools)
     if "catkin" in tools and not (is_ours or package.manifest.build_type):
         raise InputError(
-            f"{package.directory}: a package of ROS 1, built with catkin, and `add` writes ROS 2 "
+            f"{package.directory}: a ROS 1 package, built with catkin; `add` writes ROS 2 "
             "code; nothing was changed"
         )
 
@@ -335,10 +335,10 @@ def _starts_others(text: str, package: str, program: str) -> bool:
 def _why_no_header(package: Package, made: Piece) -> str:
     if not made.composed.context["has_license"]:
         declared = ", ".join(element.text for element in package.manifest.all("license"))
-        return f"the license of {package.name} is {declared or 'none'!r}; --license adds one"
+        return f"the license of {package.name} is {declared or 'none'!r}; set one with --license"
     return (
         f"neither the maintainer nor the sources of {package.name} name a copyright holder; "
-        "--copyright-holder adds one"
+        "set one with --copyright-holder"
     )
 
 

@@ -71,7 +71,7 @@ def _by_fields(types: Types) -> ActionPayload:
         package=own.package,
         name=types.own_name,
         action=types.own_alias,
-        summary=f"works on {own.name} goals in {section.STEPS} steps",
+        summary=f"executes {own.name} goals in {section.STEPS} steps",
         goal=section.asked(types, own.goal),
         refused="",
         start=(),

@@ -362,7 +362,7 @@ def _of_values(received: Payload, published: Payload) -> Process | None:
         text = re.sub(r"\bmsg\b", "received", received.log_received)
         item = re.sub(r"\bmsg\b", "item", received.log_received)
         return Process(
-            "what is received as text",
+            "the received value as text",
             f"msg.data = f'{text}'",
             f"message.data == f'{item}'",
         )

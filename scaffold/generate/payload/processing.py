@@ -187,7 +187,7 @@ PROCESSES: dict[tuple[str, str], Process] = {
         sent=_OBSTACLE,
     ),
     ("sensor_msgs/LaserScan", "sensor_msgs/LaserScan"): Process(
-        "scans in which what is far away is out of range",
+        "scans in which distant readings are out of range",
         """
         msg.ranges = [
             distance if distance <= MAX_RANGE else math.inf for distance in msg.ranges

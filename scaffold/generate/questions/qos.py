@@ -32,7 +32,7 @@ class Qos(NamedTuple):
     """A description in words."""
     constants: tuple[str, ...] = ()
     """Lines of the module that the expression needs."""
-    hint: str = "here how many messages wait at most until they are dealt with"
+    hint: str = "here the maximum number of messages in the queue"
     """An explanation of the expression, for learners."""
     text: str = ""
     """What the user wrote."""
@@ -56,12 +56,12 @@ class Qos(NamedTuple):
 
 
 _SAYS: Mapping[str, str] = {
-    "action_status_default": "reliable, late subscribers get the last message",
+    "action_status_default": "reliable, late subscribers receive the last message",
     "parameter_events": "reliable, depth 1000",
     "parameters": "reliable, depth 1000",
     "sensor_data": "best effort, depth 5",
     "services_default": "reliable, depth 10",
-    "system_default": "what the middleware has as its default",
+    "system_default": "the default of the middleware",
 }
 """The profiles of ``rclpy.qos`` that suit a topic."""
 
@@ -73,9 +73,9 @@ _OWN: Mapping[str, Mapping[str, str]] = {
 NAMES = ("default", *_SAYS, *_OWN)
 
 COMMON: Mapping[str, str] = {
-    "default": "reliable, the last 10 messages wait: commands, states, events",
-    "sensor_data": "best effort, the last 5 wait: sensors, where only new values count",
-    "latched": "reliable, who comes late gets the last one: maps, descriptions",
+    "default": "reliable, a queue of 10 messages: commands, states, events",
+    "sensor_data": "best effort, a queue of 5: sensors, where only new values matter",
+    "latched": "reliable, late subscribers receive the last one: maps, descriptions",
     "system_default": _SAYS["system_default"],
 }
 """Suggestions for most topics, with their purpose."""
@@ -110,7 +110,7 @@ def qos(text: str) -> Qos:
             constant,
             (f"from rclpy.qos import {constant}",),
             f"{name}: {_SAYS[name]}",
-            hint="here a profile that rclpy has a name for",
+            hint="here a predefined profile of rclpy",
             text=text,
             reliability="" if reliability == "system_default" else reliability,
             durability="" if durability == "system_default" else durability,
@@ -230,7 +230,7 @@ def _profile(settings: Mapping[str, str], name: str) -> Qos:
         tuple(sorted(imports)),
         (f"{name}: " if name else "") + _in_words(settings),
         (whole,) if len(whole) <= _MAX_COLUMNS else tuple(lines),
-        hint="here a profile, made above",
+        hint="here the profile defined above",
     )
 
 

@@ -182,8 +182,8 @@ def _known_part(
     template = templates.get(str(part.get(KIND)))
     if template is None:
         raise InputError(
-            f"{origin}: made with the template {part.get(KIND)!r}, which does not exist here; "
-            "--content names the directory, or the URL@REV, of a team's templates"
+            f"{origin}: created with the template {part.get(KIND)!r}, which does not exist here; "
+            "use --content with the directory, or the URL@REV, of its templates"
         )
     names = {KIND, *(question.name for question in template.questions)}
     remarks += [f"{template.name} no longer asks for {name}" for name in part if name not in names]

@@ -81,7 +81,7 @@ class _Call:
             return self._answer(value, "")
         if time.monotonic() < self._deadline:
             return None
-        waits = "nothing offers it" if self._future is None else "it does not answer"
+        waits = "nothing offers it" if self._future is None else "it does not respond"
         return self._answer(None, f"{waits} within {self._command['timeout']:g} s")
 
     def _advance(self) -> dict[str, object] | None:
@@ -119,7 +119,7 @@ class _Call:
     def _of_action(self, result: Ros) -> dict[str, object] | None:
         if hasattr(result, "accepted"):
             if not result.accepted:
-                raise RuntimeError("the goal is rejected")
+                raise RuntimeError("the goal was rejected")
             self._future = result.get_result_async()
             return None
         if result.status != _GOAL_SUCCEEDED:

@@ -6,7 +6,7 @@ from typing import Any, Literal, TypedDict
 
 
 class Spread(TypedDict):
-    """Figures about many numbers: times in seconds, sizes in bytes."""
+    """Statistics of numbers: times in seconds, sizes in bytes."""
 
     count: int
     mean: float
@@ -94,7 +94,7 @@ class Log(TypedDict):
 
 
 class Usage(TypedDict):
-    """What an executable and the processes that it started have used."""
+    """The resource usage of an executable and its descendants."""
 
     cpu_seconds: float
     cpu_percent: float | None
@@ -135,7 +135,7 @@ class Executable(_Stops):
 
 
 class Build(TypedDict):
-    """What colcon said about a package."""
+    """The result of colcon for a package."""
 
     ok: bool
     interrupted: bool
@@ -153,7 +153,7 @@ class Case(TypedDict):
 
 
 class Tests(TypedDict):
-    """What `colcon test` has run of a package."""
+    """The tests of a package run by `colcon test`."""
 
     ok: bool
     error: str
@@ -174,7 +174,7 @@ class Package(TypedDict):
 
 
 class Environment(TypedDict):
-    """The ROS 2 that was taken."""
+    """The ROS 2 environment of the run."""
 
     kind: str
     distribution: str
@@ -183,7 +183,7 @@ class Environment(TypedDict):
 
 
 class Report(TypedDict):
-    """What `ros2-scaffold smoke --format json` writes."""
+    """The report of `ros2-scaffold smoke --format json`."""
 
     schema_version: Literal[1]
     environment: Environment

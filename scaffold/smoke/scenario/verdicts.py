@@ -69,7 +69,7 @@ def _of_field(
 ) -> Iterator[Problem]:
     subject = f"{expected.path} of {topic}"
     if seen is None or not seen.count:
-        why = seen.error if seen is not None and seen.error else "no message came"
+        why = seen.error if seen is not None and seen.error else "no message was received"
         yield Problem(f"{subject} was not seen: {why}")
         return
     if expected.changes is True and not seen.changes:
@@ -77,7 +77,7 @@ def _of_field(
     if expected.changes is False and seen.changes:
         yield Problem(
             f"{subject} changes from {_json(seen.first)} to {_json(seen.last)}: "
-            f"{FILE} expects it to stay"
+            f"{FILE} expects it to stay constant"
         )
     if expected.has_equals and (seen.changes or not _matches(expected.equals, seen.last)):
         yield Problem(f"{subject} is {_json(seen.last)}: {FILE} expects {_json(expected.equals)}")
@@ -102,7 +102,7 @@ def _out_of_range(
 
 def _of_call(call: Call, answer: Answer | None) -> Iterator[Problem]:
     if answer is None:
-        yield Problem(f"{call.kind} {call.name} was not called: no node was up by then")
+        yield Problem(f"{call.kind} {call.name} was not called: no node was running yet")
     elif answer.error:
         yield Problem(f"{call.kind} {call.name}: {answer.error}")
     else:

@@ -174,7 +174,7 @@ def test_cascading_fixes_end_in_a_few_rounds(
     main(["check", "--fix", "--unsafe-fixes", "--select", "F841", "a.py"])
     error = capsys.readouterr().err
     assert error.startswith(f"{fixer.MAX_ROUNDS_OF_FILE} fixes applied\n")
-    assert "gave up on F841" in error
+    assert "the fixes of F841 do not converge" in error
 
 
 def test_second_run_changes_nothing(

@@ -593,7 +593,7 @@ def test_no_header_without_copyright_holder(
     assert notice(demo) == []
     assert (
         "note: the new files have no license header: neither the maintainer nor the sources of "
-        "demo name a copyright holder; --copyright-holder adds one\n"
+        "demo name a copyright holder; set one with --copyright-holder\n"
     ) in capsys.readouterr().err
     assert add(demo, "publisher", "talker", "--copyright-holder", "Ada", "--force") == 0
     assert notice(demo) == ["Ada"]
@@ -619,7 +619,7 @@ def test_no_header_without_license(tmp_path: Path, capsys: pytest.CaptureFixture
     assert add(demo, "publisher", "talker") == 0
     assert (demo / "scripts" / "talker.py").read_text().startswith('#!/usr/bin/env python3\n"""\n')
     errors = capsys.readouterr().err
-    assert "the license of demo is 'TODO'; --license adds one" in errors
+    assert "the license of demo is 'TODO'; set one with --license" in errors
     assert add(demo, "publisher", "other", "--license", "MIT") == 0
     assert "governed by an MIT-style" in (demo / "scripts" / "other.py").read_text()
 
@@ -1311,8 +1311,7 @@ def test_ros_1_package_is_rejected(tmp_path: Path, capsys: pytest.CaptureFixture
     text = text.replace("<build_type>ament_cmake</build_type>", "")
     demo = write(tmp_path / "demo", {**CMAKE, "package.xml": text})
     assert error_of(demo, capsys, "publisher", "talker") == (
-        f"{demo}: a package of ROS 1, built with catkin, and `add` writes ROS 2 code; "
-        "nothing was changed"
+        f"{demo}: a ROS 1 package, built with catkin; `add` writes ROS 2 code; nothing was changed"
     )
 
 

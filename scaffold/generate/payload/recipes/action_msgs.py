@@ -1,4 +1,4 @@
-"""How people fill messages of action_msgs."""
+"""Recipes for the messages of action_msgs."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ RECIPES: dict[str, Recipe] = {
         checks=("any(message.goal_id.uuid)", "abs(time.time() - message.stamp.sec) < 60"),
     ),
     "GoalStatus": Recipe(
-        summary="a goal that is worked on",
+        summary="a goal that is executing",
         code="""
             msg.goal_info.goal_id.uuid = list(uuid.uuid4().bytes)
             msg.goal_info.stamp = self.get_clock().now().to_msg()
@@ -28,7 +28,7 @@ RECIPES: dict[str, Recipe] = {
         ),
     ),
     "GoalStatusArray": Recipe(
-        summary="one goal that is done and another one that is worked on",
+        summary="one goal that succeeded and one that is executing",
         code="""
             for status in (GoalStatus.STATUS_SUCCEEDED, GoalStatus.STATUS_EXECUTING):
                 goal = GoalStatus(status=status)

@@ -1,4 +1,4 @@
-"""How people fill messages of actionlib_msgs."""
+"""Recipes for the messages of actionlib_msgs."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ RECIPES: dict[str, Recipe] = {
         checks=("abs(time.time() - message.stamp.sec) < 60", "message.id.startswith('goal_')"),
     ),
     "GoalStatus": Recipe(
-        summary="a goal that is worked on",
+        summary="a goal that is executing",
         code="""
             msg.goal_id.stamp = self.get_clock().now().to_msg()
             msg.goal_id.id = f'goal_{self.count}'
@@ -26,7 +26,7 @@ RECIPES: dict[str, Recipe] = {
         checks=("message.status == GoalStatus.ACTIVE", "message.goal_id.id.startswith('goal_')"),
     ),
     "GoalStatusArray": Recipe(
-        summary="one goal that is done and another one that is worked on",
+        summary="one goal that succeeded and one that is executing",
         code="""
             for status in (GoalStatus.SUCCEEDED, GoalStatus.ACTIVE):
                 goal = GoalStatus(status=status)

@@ -1,4 +1,4 @@
-"""How people fill messages of builtin_interfaces."""
+"""Recipes for the messages of builtin_interfaces."""
 
 from __future__ import annotations
 

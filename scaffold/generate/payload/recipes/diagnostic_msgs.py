@@ -1,4 +1,4 @@
-"""How people fill messages of diagnostic_msgs."""
+"""Recipes for the messages of diagnostic_msgs."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ RECIPES: dict[str, Recipe] = {
         ),
     ),
     "KeyValue": Recipe(
-        summary="a temperature under its name",
+        summary="a temperature with its name",
         code="""
             temperature = 40.0 + 10.0 * math.sin(self.count / 10.0)  # degrees Celsius
             msg.key = 'temperature'

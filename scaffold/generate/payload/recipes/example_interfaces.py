@@ -1,4 +1,4 @@
-"""How people use example_interfaces, whose messages are those of std_msgs."""
+"""Recipes for the interfaces of example_interfaces, whose messages are those of std_msgs."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How people fill messages of geometry_msgs: something that moves on a circle."""
+"""Recipes for the messages of geometry_msgs: something that moves on a circle."""
 
 from __future__ import annotations
 
@@ -164,7 +164,7 @@ RECIPES: dict[str, Recipe] = {
         frame="map",
     ),
     "TransformStamped": Recipe(
-        summary="where a frame is that circles around the origin and turns",
+        summary="the pose of a frame that circles around the origin and turns",
         code="""
             msg.child_frame_id = 'base_link'
             angle = self.count / 10.0  # radians

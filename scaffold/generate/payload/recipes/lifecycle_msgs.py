@@ -1,4 +1,4 @@
-"""How people fill messages of lifecycle_msgs."""
+"""Recipes for the messages of lifecycle_msgs."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from scaffold.generate.payload.recipe import Recipe
 
 RECIPES: dict[str, Recipe] = {
     "State": Recipe(
-        summary="the state of a node that is switched on and off",
+        summary="the state of a node that is activated and deactivated",
         code="""
             if self.count % 2 == 0:
                 msg.id = State.PRIMARY_STATE_ACTIVE
@@ -19,7 +19,7 @@ RECIPES: dict[str, Recipe] = {
         checks=("message.label in ('active', 'inactive')",),
     ),
     "Transition": Recipe(
-        summary="the transitions that switch a node on and off, in turn",
+        summary="the transitions that activate and deactivate a node, in turn",
         code="""
             if self.count % 2 == 0:
                 msg.id = Transition.TRANSITION_ACTIVATE
@@ -32,7 +32,7 @@ RECIPES: dict[str, Recipe] = {
         checks=("message.label in ('activate', 'deactivate')",),
     ),
     "TransitionDescription": Recipe(
-        summary="how a node is switched on and off, in turn",
+        summary="transitions that activate and deactivate a node, in turn",
         code="""
             active = State(id=State.PRIMARY_STATE_ACTIVE, label='active')
             inactive = State(id=State.PRIMARY_STATE_INACTIVE, label='inactive')
@@ -51,7 +51,7 @@ RECIPES: dict[str, Recipe] = {
         checks=("{message.start_state.label, message.goal_state.label} == {'active', 'inactive'}",),
     ),
     "TransitionEvent": Recipe(
-        summary="a node that is switched on",
+        summary="the activation of a node",
         code="""
             msg.timestamp = self.get_clock().now().nanoseconds
             msg.transition.id = Transition.TRANSITION_ACTIVATE

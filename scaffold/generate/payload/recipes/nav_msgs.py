@@ -1,4 +1,4 @@
-"""How people fill messages of nav_msgs."""
+"""Recipes for the messages of nav_msgs."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ _POSES = """
 
 RECIPES: dict[str, Recipe] = {
     "Goals": Recipe(
-        summary="five places to drive to, which sway",
+        summary="five waypoints, which sway",
         code=_POSES.format(field="goals"),
         log="{len(msg.goals)} goals",
         checks=(

@@ -1,4 +1,4 @@
-"""How people fill messages of rcl_interfaces."""
+"""Recipes for the messages of rcl_interfaces."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ RECIPES: dict[str, Recipe] = {
         checks=("message.level == Log.INFO", "message.msg.startswith('Hello World: ')"),
     ),
     "LoggerLevel": Recipe(
-        summary="a logger that talks more and less in turn",
+        summary="a logger that switches between the levels debug and info",
         code="""
             is_verbose = self.count % 2 == 0
             msg.name = self.get_name()
@@ -71,7 +71,7 @@ RECIPES: dict[str, Recipe] = {
         checks=("message.name == 'speed'", "0.4 <= message.value.double_value <= 0.6"),
     ),
     "ParameterDescriptor": Recipe(
-        summary="what a parameter means, and its range, whose end moves",
+        summary="the description of a parameter, and its range, whose end moves",
         code="""
             msg.name = 'speed'
             msg.type = ParameterType.PARAMETER_DOUBLE

@@ -1,4 +1,4 @@
-"""How people fill messages of rosgraph_msgs."""
+"""Recipes for the messages of rosgraph_msgs."""
 
 from __future__ import annotations
 

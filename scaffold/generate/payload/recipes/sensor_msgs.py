@@ -1,4 +1,4 @@
-"""How people fill messages of sensor_msgs."""
+"""Recipes for the messages of sensor_msgs."""
 
 from __future__ import annotations
 
@@ -189,7 +189,7 @@ RECIPES: dict[str, Recipe] = {
         frame="",
     ),
     "Joy": Recipe(
-        summary="the axes and buttons of a gamepad that is played with",
+        summary="the axes and buttons of a gamepad in use",
         code="""
             wave = math.sin(self.count / 10.0)
             msg.axes = [wave, -wave, 0.0, 0.0]  # -1.0 to 1.0
@@ -331,7 +331,7 @@ RECIPES: dict[str, Recipe] = {
         ),
     ),
     "NavSatStatus": Recipe(
-        summary="a fix that is lost and found in turn",
+        summary="a fix that is lost and regained in turn",
         code="""
             has_fix = self.count % 2 == 0
             msg.status = NavSatStatus.STATUS_FIX if has_fix else NavSatStatus.STATUS_NO_FIX
@@ -380,7 +380,7 @@ RECIPES: dict[str, Recipe] = {
         checks=("message.name in ('x', 'y', 'z')", "message.datatype == PointField.FLOAT32"),
     ),
     "Range": Recipe(
-        summary="the distance to something that comes and goes",
+        summary="the distance to an object that comes and goes",
         code="""
             msg.radiation_type = Range.ULTRASOUND
             msg.field_of_view = 0.5  # radians

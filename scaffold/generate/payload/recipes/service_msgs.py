@@ -1,4 +1,4 @@
-"""How people fill messages of service_msgs."""
+"""Recipes for the messages of service_msgs."""
 
 from __future__ import annotations
 

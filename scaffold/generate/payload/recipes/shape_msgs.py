@@ -1,4 +1,4 @@
-"""How people fill messages of shape_msgs."""
+"""Recipes for the messages of shape_msgs."""
 
 from __future__ import annotations
 

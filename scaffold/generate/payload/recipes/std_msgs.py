@@ -1,4 +1,4 @@
-"""How people fill messages of std_msgs."""
+"""Recipes for the messages of std_msgs."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How people use the services of std_srvs."""
+"""Recipes for the services of std_srvs."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from scaffold.generate.payload.recipe import ServiceRecipe
 
 SERVICES: dict[str, ServiceRecipe] = {
     "Empty": ServiceRecipe(
-        summary="does something without saying more",
+        summary="does something, without a result",
         request_log="an empty request",
         response_log="done",
     ),
@@ -25,7 +25,7 @@ SERVICES: dict[str, ServiceRecipe] = {
         ),
     ),
     "Trigger": ServiceRecipe(
-        summary="starts something and tells whether that worked",
+        summary="starts something and reports whether it succeeded",
         response="""
             response.success = True
             response.message = f'started for the {self.count + 1}. time'

@@ -1,4 +1,4 @@
-"""How people fill messages of stereo_msgs."""
+"""Recipes for the messages of stereo_msgs."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How people fill messages of tf2_msgs."""
+"""Recipes for the messages of tf2_msgs."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ RECIPES: dict[str, Recipe] = {
         checks=("message.error in (TF2Error.NO_ERROR, TF2Error.LOOKUP_ERROR)",),
     ),
     "TFMessage": Recipe(
-        summary="where a frame is that circles around the origin and turns",
+        summary="the pose of a frame that circles around the origin and turns",
         code="""
             angle = self.count / 10.0  # radians
             transform = TransformStamped()

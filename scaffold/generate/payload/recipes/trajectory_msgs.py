@@ -1,4 +1,4 @@
-"""How people fill messages of trajectory_msgs."""
+"""Recipes for the messages of trajectory_msgs."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ RECIPES: dict[str, Recipe] = {
         ),
     ),
     "JointTrajectoryPoint": Recipe(
-        summary="where two joints are to be after one second",
+        summary="the positions of two joints after one second",
         code="""
             angle = math.sin(self.count / 10.0)  # radians
             msg.positions = [angle, -angle]
@@ -54,7 +54,7 @@ RECIPES: dict[str, Recipe] = {
         frame="map",
     ),
     "MultiDOFJointTrajectoryPoint": Recipe(
-        summary="a height that is to be reached after one second",
+        summary="the height to reach after one second",
         code="""
             transform = Transform()
             transform.translation.z = 2.0 + math.sin(self.count / 10.0)  # meters

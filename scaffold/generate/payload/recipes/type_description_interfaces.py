@@ -1,4 +1,4 @@
-"""How people fill messages of type_description_interfaces."""
+"""Recipes for the messages of type_description_interfaces."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ RECIPES: dict[str, Recipe] = {
         checks=("message.type_name == 'example/msg/Number'", "len(message.fields) == 1"),
     ),
     "KeyValue": Recipe(
-        summary="a number under its name",
+        summary="a number with its name",
         code="""
             msg.key = 'number'
             msg.value = str(self.count)

@@ -1,4 +1,4 @@
-"""How people fill messages of visualization_msgs."""
+"""Recipes for the messages of visualization_msgs."""
 
 from __future__ import annotations
 
