@@ -52,7 +52,7 @@ class FoundUndeclared(Rule):
     condition of an existing dependency excludes the distribution, change the condition. Pure Python
     packages need no ``find_package``.
 
-    **Source.** ROS 2 documentation, "ament_cmake user documentation"; REP-149; bloom, whose
+    **Source.** ROS 2 documentation, "ament_cmake user documentation"; REP 149; bloom, whose
     ``Build-Depends`` are those of ``buildtool_depend``, ``build_depend``, ``depend`` and
     ``test_depend``.
     """

@@ -47,7 +47,7 @@ class ProgramNotExecutable(Rule):
     **Fix.** Use ``chmod +x``, ``install(PROGRAMS ...)``, and ``#!/usr/bin/env python3`` as the
     first line.
 
-    **Source.** ``ros2pkg.api.get_executable_paths`` asks for the bit; CMake documentation,
+    **Source.** ``ros2pkg.api.get_executable_paths`` requires the bit; CMake documentation,
     ``install``; PEP 394; ``execve(2)``; ``ros2run`` executes the file itself; pyrobosim issue 182.
     """
 

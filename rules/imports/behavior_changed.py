@@ -67,7 +67,7 @@ _WORKER = (
     "    def work(self):\n"
     "        self.process = 1\n"
 )
-_LATER = "from Kilted on, a timeout raises TimeoutError, and returned None before: handle both"
+_LATER = "from Kilted on, a timeout raises TimeoutError instead of returning None: handle both"
 
 
 class BehaviorChanged(PythonRule):
@@ -80,7 +80,7 @@ class BehaviorChanged(PythonRule):
 
     **Fix.** Pass the value explicitly, or handle both behaviors.
 
-    **Source.** The pull requests that ``scaffold/data/changes.toml`` names.
+    **Source.** The pull requests that ``scaffold/data/changes.toml`` lists.
     """
 
     code = "IM052"
@@ -99,16 +99,16 @@ class BehaviorChanged(PythonRule):
         Example(
             "a default",
             {"counter.py": _SERVER.format("")},
-            "9:23: from Kilted on, a result is kept for 10 s, not for 900: a client that asks "
-            "later gets none; pass result_timeout=900 to keep it as long (rclpy 1171)",
+            "9:23: from Kilted on, a result is kept for 10 s, not for 900: a client that requests "
+            "it later gets none; pass result_timeout=900 to keep it as long (rclpy 1171)",
             distro="lyrical",
             moved_from="jazzy",
         ),
         Example(
             "a default of the base class",
             {"counter.py": _SUBCLASS.format("")},
-            "8:9: from Kilted on, a result is kept for 10 s, not for 900: a client that asks "
-            "later gets none; pass result_timeout=900 to keep it as long (rclpy 1171)",
+            "8:9: from Kilted on, a result is kept for 10 s, not for 900: a client that requests "
+            "it later gets none; pass result_timeout=900 to keep it as long (rclpy 1171)",
             distro="lyrical",
             moved_from="jazzy",
         ),
@@ -135,7 +135,7 @@ class BehaviorChanged(PythonRule):
         Example(
             "a client of a node that is passed",
             {"asker.py": _PASSED},
-            "11:16: from Kilted on, a timeout raises TimeoutError, and returned None before: "
+            "11:16: from Kilted on, a timeout raises TimeoutError instead of returning None: "
             "handle both (rclpy 1271)",
             distro="lyrical",
             moved_from="jazzy",
@@ -179,8 +179,8 @@ class BehaviorChanged(PythonRule):
                 "    first = np.array(values, copy=False)\n"
                 "    return first, np.array(values, copy=True), np.asarray(values)\n"
             },
-            "5:13: from Lyrical on, copy=False raises ValueError where a copy is needed, as it is "
-            "for a list, and copied before: use numpy.asarray (NumPy 2.0)",
+            "5:13: from Lyrical on, copy=False raises ValueError if a copy is needed, as for a "
+            "list, instead of copying: use numpy.asarray (NumPy 2.0)",
             distro="lyrical",
             moved_from="jazzy",
         ),
@@ -193,8 +193,8 @@ class BehaviorChanged(PythonRule):
                 + _WORKER.format("self.work")
                 + "\nset_start_method('fork')\n",
             },
-            "work.py:10:9: from Lyrical on, a process is given a pickled copy of its target, and "
-            "a node cannot be pickled: TypeError; use a function that takes what it needs, or "
+            "work.py:10:9: from Lyrical on, the target of a process is pickled, and a node cannot "
+            "be pickled: TypeError; use a function that takes what it needs, or "
             "multiprocessing.get_context('fork').Process (CPython 84559)",
             distro="lyrical",
             moved_from="jazzy",

@@ -42,7 +42,7 @@ class NameRemoved(PythonRule):
     **Fix.** Use the replacement. If not all distributions of the package have it, test for it
     first.
 
-    **Source.** The pull requests that ``scaffold/data/changes.toml`` names.
+    **Source.** The pull requests that ``scaffold/data/changes.toml`` lists.
     """
 
     code = "IM050"
@@ -273,8 +273,8 @@ class NameRemoved(PythonRule):
             "internal: use the names of numpy itself (NumPy 2.0)",
             "5:9: numpy.lib.function_base was removed in Lyrical: AttributeError; it was "
             "internal: use the names of numpy itself (NumPy 2.0)",
-            "6:10: numpy.lib.pad was removed in Lyrical: AttributeError; use the same name of "
-            "numpy itself (NumPy 2.0)",
+            "6:10: numpy.lib.pad was removed in Lyrical: AttributeError; use the same name from "
+            "numpy (NumPy 2.0)",
             distro="lyrical",
         ),
         Example(
@@ -295,9 +295,9 @@ class NameRemoved(PythonRule):
                 "    return fromstring(data, float, -1, ' '), fromstring(data, sep=' ')\n",
             },
             "area.py:9:62: argparse.BooleanOptionalAction with type was removed in Lyrical: "
-            "TypeError; leave it out, it had no effect (Python 3.14)",
+            "TypeError; omit it, as it had no effect (Python 3.14)",
             "area.py:10:15: email.utils.localtime with isdst was removed in Lyrical: TypeError; "
-            "leave it out, it had no effect (Python 3.14)",
+            "omit it, as it had no effect (Python 3.14)",
             "area.py:11:12: numpy.fromstring without sep was removed in Lyrical: ValueError; use "
             "numpy.frombuffer for bytes, whose array is read-only, and sep for text (NumPy 2.3)",
             distro="lyrical",

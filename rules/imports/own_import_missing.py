@@ -167,13 +167,13 @@ class OwnImportMissing(Rule):
                 "CMakeLists.txt": _LISTS.format("scripts/node.py"),
                 "scripts/node.py": "from scripts.text import make\n",
             },
-            "scripts/node.py:1:1: scripts/text.py is not installed next to this program: "
+            "scripts/node.py:1:1: scripts/text.py is not installed next to this script: "
             "ModuleNotFoundError",
         ),
         Example(
             "a file that is not installed next to the program",
             {**_PROGRAM, "CMakeLists.txt": _LISTS.format("scripts/node.py")},
-            "scripts/node.py:1:1: scripts/text.py is not installed next to this program: "
+            "scripts/node.py:1:1: scripts/text.py is not installed next to this script: "
             "ModuleNotFoundError",
         ),
     )
@@ -196,7 +196,7 @@ class OwnImportMissing(Rule):
         path = file_of(package, name)
         missing = "" if node.level else uninstalled_import(package, where, name)
         if missing:
-            message = f"{missing} is not installed next to this program: ModuleNotFoundError"
+            message = f"{missing} is not installed next to this script: ModuleNotFoundError"
             yield self.report(node, message)
         elif root in roots and path:
             yield from self._check_names(package, node, name, path)

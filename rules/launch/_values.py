@@ -78,7 +78,7 @@ def _command(launch: LaunchFile, call: LaunchCall, node: ast.expr) -> Iterator[F
         text = first.value.strip()
         is_path = "\\ " in text or text.startswith(("/", "'", '"'))
         if " " in text and not is_path and "shell" not in call.given and not call.is_open:
-            problem = f"launch searches for a program named {text!r}; "
+            problem = f"launch searches for an executable named {text!r}; "
             yield node, f"{problem}write a list of strings"
 
 

@@ -70,7 +70,7 @@ class ExecutableMissing(Rule):
         Example(
             "the name of the module",
             {**_FILES, "launch/a.launch.py": _LAUNCH.format("talk.py")},
-            "launch/a.launch.py:7:43: talker has no program 'talk.py'; did you mean 'talk'?",
+            "launch/a.launch.py:7:43: talker has no executable 'talk.py'; did you mean 'talk'?",
         ),
         Example(
             "a name unlike all others",
@@ -82,7 +82,7 @@ class ExecutableMissing(Rule):
                 ),
                 "launch/a.launch.py": _LAUNCH.format("listener"),
             },
-            "launch/a.launch.py:7:43: talker has no program 'listener'; it has a_node, b_node, "
+            "launch/a.launch.py:7:43: talker has no executable 'listener'; it has a_node, b_node, "
             "c_node, d_node, e_node and 3 more",
         ),
         Example(
@@ -92,8 +92,8 @@ class ExecutableMissing(Rule):
                 "launch/a.launch.xml": '<launch>\n  <node pkg="talker" exec="tlk"/>\n</launch>\n',
                 "launch/b.launch.yaml": "launch:\n- node:\n    pkg: talker\n    exec: tlk\n",
             },
-            "launch/a.launch.xml:2:28: talker has no program 'tlk'; did you mean 'talk'?",
-            "launch/b.launch.yaml:4:11: talker has no program 'tlk'; did you mean 'talk'?",
+            "launch/a.launch.xml:2:28: talker has no executable 'tlk'; did you mean 'talk'?",
+            "launch/b.launch.yaml:4:11: talker has no executable 'tlk'; did you mean 'talk'?",
             neighbors={"talker": _FILES},
         ),
         Example(
@@ -117,12 +117,13 @@ class ExecutableMissing(Rule):
             Report(
                 "launch/a.launch.py:7:22",
                 "unknown package 'talker_dmeo'; did you mean 'talker_demo' (it has the "
-                "program 'talk')?",
+                "executable 'talk')?",
                 unsafe_fix="Replace with talker_demo",
             ),
             Report(
                 "launch/b.launch.py:7:22",
-                "unknown package 'demo'; did you mean 'talker_demo' (it has the program 'talk')?",
+                "unknown package 'demo'; did you mean 'talker_demo' (it has the "
+                "executable 'talk')?",
                 unsafe_fix="Replace with talker_demo",
             ),
             Report(
@@ -162,8 +163,8 @@ class ExecutableMissing(Rule):
             closest = get_close_matches(name, programs.sources, 1, 0.7)
             has = f"it has {listed_names(programs.sources, name)}"
             hint = f"did you mean {closest[0]!r}?" if closest else has
-            message = f"{use.name} has no program {name!r}; {hint}"
-            cause = "" if programs.sources else f"programs of {use.name}"
+            message = f"{use.name} has no executable {name!r}; {hint}"
+            cause = "" if programs.sources else f"executables of {use.name}"
             yield self.report(use.executable_location, message, cause=cause)
 
     def _is_script(self, package: Package, name: str) -> bool:

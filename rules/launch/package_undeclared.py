@@ -31,7 +31,7 @@ class PackageUndeclared(Rule):
     **Fix.** Add an ``<exec_depend>``. If the condition of an existing dependency excludes the
     distribution, change the condition.
 
-    **Source.** REP-149, ``<exec_depend>``; ROS 2 documentation, "Using ROS 2 launch for large
+    **Source.** REP 149, ``<exec_depend>``; ROS 2 documentation, "Using ROS 2 launch for large
     projects".
     """
 

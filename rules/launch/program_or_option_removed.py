@@ -1,4 +1,4 @@
-"""LF083: launch files start programs, and pass options, that the distribution has."""
+"""LF083: launch files start executables, and pass options, that the distribution has."""
 
 from __future__ import annotations
 
@@ -28,12 +28,12 @@ _CREATE = (
     "             arguments=['-topic', 'robot_description', '{}', 'rover']),\n    ])\n"
 )
 _OF_SPAWN_ENTITY = {
-    "-b": "leave it out",
+    "-b": "omit it",
     "-entity": "use -name",
     "-robot_namespace": "set the namespace in the description",
-    "-spawn_service_timeout": "leave it out",
-    "-timeout": "leave it out",
-    "-unpause": "leave it out",
+    "-spawn_service_timeout": "omit it",
+    "-timeout": "omit it",
+    "-unpause": "omit it",
 }
 """Options of gazebo_ros, with their replacements."""
 
@@ -53,16 +53,16 @@ _XML_DEPRECATED = (
 
 
 class ProgramOrOptionRemoved(Rule):
-    """A launch file starts a removed or deprecated program, or passes a removed option.
+    """A launch file starts a removed or deprecated executable, or passes a removed option.
 
-    **Why.** The program exits at once with ``ambiguous option`` or ``unrecognized arguments``, or
-    ignores the option: a robot gets another name in the simulation. A deprecated program warns at
+    **Why.** The executable exits at once with ``ambiguous option`` or ``unrecognized arguments``,
+    or ignores the option: a robot gets another name in the simulation. A deprecated one warns at
     each start; later distributions do not have it, and the launch stops.
 
     **Fix.** Use the replacement in the message.
 
     **Source.** rosbag2, ``ros2bag/verb/record.py``; ros_gz_sim, ``create.cpp``; the pull requests
-    that ``scaffold/data/changes.toml`` names.
+    that ``scaffold/data/changes.toml`` lists.
     """
 
     code = "LF083"
@@ -70,7 +70,7 @@ class ProgramOrOptionRemoved(Rule):
     is_fixed_for_all = True
     since = "0.2"
     is_deprecation = True
-    other_severities = {Severity.INFO: "the program is only removed in a later distribution"}
+    other_severities = {Severity.INFO: "the executable is only removed in a later distribution"}
     examples = (
         Example("a robot with a name", {"launch/a.launch.py": _CREATE.format("-name")}),
         Example(

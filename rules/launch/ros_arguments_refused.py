@@ -1,4 +1,4 @@
-"""LF085: programs started by launch files accept ROS arguments."""
+"""LF085: executables started by launch files accept ROS arguments."""
 
 from __future__ import annotations
 
@@ -37,10 +37,10 @@ _FILES = {
 
 
 class RosArgumentsRefused(Rule):
-    """A launch file starts a program that does not accept ROS arguments.
+    """A launch file starts an executable that does not accept ROS arguments.
 
     **Why.** ``Node`` of launch_ros adds ``--ros-args`` to every command line: argparse prints
-    ``error: unrecognized arguments: --ros-args``, and the program exits.
+    ``error: unrecognized arguments: --ros-args``, and the executable exits.
 
     **Fix.** Write ``parser.parse_args(rclpy.utilities.remove_ros_args(sys.argv)[1:])``.
 
@@ -64,7 +64,7 @@ class RosArgumentsRefused(Rule):
         Example(
             "all arguments are parsed",
             {**_FILES, "demo/player.py": _PLAYER.format("parse_args()")},
-            "demo/player.py:18:15: launch/play.launch.py:6 starts this program with --ros-args: "
+            "demo/player.py:18:15: launch/play.launch.py:6 starts this executable with --ros-args: "
             "argparse exits with an error; use remove_ros_args()",
         ),
     )
@@ -78,7 +78,7 @@ class RosArgumentsRefused(Rule):
             seen.add(owner.path)
             for at in _parsing(package, owner.path):
                 message = (
-                    f"{node.launch}:{node.location.line} starts this program with --ros-args: "
+                    f"{node.launch}:{node.location.line} starts this executable with --ros-args: "
                     f"argparse exits with an error; use remove_ros_args()"
                 )
                 yield self.report(at, message)
@@ -86,7 +86,7 @@ class RosArgumentsRefused(Rule):
 
 @fact
 def _parsing(package: Package, path: str) -> list[Location]:
-    """Return the places where a program parses its whole command line."""
+    """Return the places where an executable parses its whole command line."""
     try:
         module = package.module(path) if b"argparse" in package.data(path) else None
     except ViewError:

@@ -133,7 +133,7 @@ class ValueUnusable(LaunchRule):
         Example(
             "two words of a command in one string",
             {"launch/a.launch.py": _PROCESS.format("fast", "['ls -l']", "1.0")},
-            "10:28: launch searches for a program named 'ls -l'; write a list of strings",
+            "10:28: launch searches for an executable named 'ls -l'; write a list of strings",
         ),
         Example(
             "the name of a type",

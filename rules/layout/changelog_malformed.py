@@ -25,7 +25,7 @@ class ChangelogMalformed(Rule):
     **Fix.** Write the heading as version and date, or ``Forthcoming``, and let
     ``catkin_prepare_release`` update the version everywhere.
 
-    **Source.** REP-132; ``catkin_pkg/changelog.py``; bloom, ``generators/debian``.
+    **Source.** REP 132; ``catkin_pkg/changelog.py``; bloom, ``generators/debian``.
     """
 
     code = "LY005"

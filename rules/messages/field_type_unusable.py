@@ -62,8 +62,8 @@ class FieldTypeUnusable(Rule):
                 "msg/Beat.msg": "geometry_msgs/Pose2D pose\n",
             },
             "msg/Beat.msg:1:1: type 'geometry_msgs/Pose2D' was removed in Lyrical; use "
-            "geometry_msgs/msg/Pose, or a message of your own with x, y and theta: which is right "
-            "depends on who reads it (common_interfaces 283)",
+            "geometry_msgs/msg/Pose, or a message of your own with x, y and theta, depending on "
+            "the subscribers (common_interfaces 283)",
             distro="lyrical",
         ),
         Example(

@@ -38,7 +38,7 @@ class ScanAveragedUnfiltered(MessageRule):
     **Fix.** Use only finite values: ``ranges = np.array(msg.ranges)``, then
     ``ranges[np.isfinite(ranges)].mean()``.
 
-    **Source.** ``sensor_msgs/msg/LaserScan``: values out of the range should be discarded; REP-117.
+    **Source.** ``sensor_msgs/msg/LaserScan``: values out of the range should be discarded; REP 117.
     """
 
     code = "MS032"

@@ -143,7 +143,7 @@ class UnitDiffers(MessageRule):
     **Fix.** Convert the value before it is assigned, for example with ``math.radians()``. Lengths
     are in meters, angles in radians, times in seconds.
 
-    **Source.** REP-103, "Standard Units of Measure"; the comments of the definitions in
+    **Source.** REP 103, "Standard Units of Measure"; the comments of the definitions in
     common_interfaces.
     """
 

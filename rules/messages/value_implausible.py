@@ -61,7 +61,7 @@ class ValueImplausible(MessageRule):
     sensor_msgs/msg/BatteryState``. The quaternion of a yaw is ``z=sin(yaw / 2)``,
     ``w=cos(yaw / 2)``.
 
-    **Source.** The definitions in common_interfaces; ``sensor_msgs/image_encodings.hpp``; REP-103.
+    **Source.** The definitions in common_interfaces; ``sensor_msgs/image_encodings.hpp``; REP 103.
     """
 
     code = "MS026"

@@ -30,7 +30,7 @@ class ScriptShadowsModule(Rule):
         Example(
             "the name of a standard library module",
             {"CMakeLists.txt": _LISTS.format("logging"), "talker/logging.py": ""},
-            "CMakeLists.txt:2:18: logging.py shadows the module 'logging' in all programs next to "
+            "CMakeLists.txt:2:18: logging.py shadows the module 'logging' in all scripts next to "
             "it: their imports fail; rename it",
         ),
     )
@@ -42,7 +42,7 @@ class ScriptShadowsModule(Rule):
                 continue
             if stem in sys.stdlib_module_names or (stem in ROS_PACKAGES and stem != package.name):
                 message = (
-                    f"{program.name} shadows the module {stem!r} in all programs next to it: "
+                    f"{program.name} shadows the module {stem!r} in all scripts next to it: "
                     f"their imports fail; rename it"
                 )
                 yield self.report(program, message)

@@ -19,7 +19,7 @@ class BuildToolMisplaced(Rule):
 
     **Fix.** Write ``<buildtool_depend>``.
 
-    **Source.** REP-149, ``<buildtool_depend>``.
+    **Source.** REP 149, ``<buildtool_depend>``.
     """
 
     code = "PX026"

@@ -55,7 +55,7 @@ class BuildTypeWrong(Rule):
     **Fix.** Write one ``<build_type>`` that matches the files, ``ament_cmake``, ``ament_python`` or
     ``cmake``, and ``<buildtool_depend>ament_cmake</buildtool_depend>``.
 
-    **Source.** REP-149, ``<build_type>``: the default is catkin; ``<buildtool_depend>``;
+    **Source.** REP 149, ``<build_type>``: the default is catkin; ``<buildtool_depend>``;
     ``colcon_ros/package_identification/ros.py``; ``colcon_ros/task``.
     """
 

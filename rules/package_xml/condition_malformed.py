@@ -28,7 +28,7 @@ class ConditionMalformed(Rule):
 
     **Fix.** Write ``$VARIABLE == value``, with ``and``, ``or`` and parentheses.
 
-    **Source.** REP-149, "condition"; ``catkin_pkg/condition.py``.
+    **Source.** REP 149, "condition"; ``catkin_pkg/condition.py``.
     """
 
     code = "PX015"

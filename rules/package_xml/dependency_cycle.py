@@ -20,7 +20,7 @@ class DependencyCycle(Rule):
 
     **Fix.** Move the common code to a third package; remove a dependency on the package itself.
 
-    **Source.** REP-149, "Dependency tags"; ``colcon_core/topological_order.py``;
+    **Source.** REP 149, "Dependency tags"; ``colcon_core/topological_order.py``;
     ``catkin_pkg.package.Package.validate``.
     """
 

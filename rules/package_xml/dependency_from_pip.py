@@ -15,7 +15,7 @@ class DependencyFromPip(Rule):
 
     **Fix.** Use the key of a system package if rosdep has one, such as ``python3-numpy``.
 
-    **Source.** rosdistro, "Review guidelines"; REP-111.
+    **Source.** rosdistro, "Review guidelines"; REP 111.
     """
 
     code = "PX029"

@@ -24,7 +24,7 @@ class DependencyRedundant(Rule):
     **Fix.** Keep ``<depend>``, which covers build and run time, and remove the other tag; for a
     group, remove one of the two.
 
-    **Source.** REP-149, ``<depend>``, ``<group_depend>``; ``catkin_pkg/package.py``.
+    **Source.** REP 149, ``<depend>``, ``<group_depend>``; ``catkin_pkg/package.py``.
     """
 
     code = "PX025"

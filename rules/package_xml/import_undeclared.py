@@ -49,7 +49,7 @@ class ImportUndeclared(Rule):
     condition of an existing dependency excludes the distribution, change the condition. Each module
     is reported at its first import, where ``# noqa: PX020`` suppresses it.
 
-    **Source.** REP-149, ``<exec_depend>``: "packages providing ... Python modules".
+    **Source.** REP 149, ``<exec_depend>``: "packages providing ... Python modules".
     """
 
     code = "PX020"

@@ -169,7 +169,7 @@ def _missing(manifest: Manifest, package: Package) -> Iterator[tuple[str, str, s
     skips = [call.options & {"SKIP_GROUP_MEMBERSHIP_CHECK"} for call in generations(package)]
     if not manifest.member_of(GROUP) and not all(skips):
         message = f"no <member_of_group> {GROUP}: CMake stops"
-        if manifest.format < 3:  # noqa: PLR2004  REP-149
+        if manifest.format < 3:  # noqa: PLR2004  REP 149
             message += "; groups need package format 3"
         yield message, "member_of_group", GROUP
 
@@ -177,7 +177,7 @@ def _missing(manifest: Manifest, package: Package) -> Iterator[tuple[str, str, s
 def _format_3(manifest: Manifest) -> list[Edit]:
     """Return the change of a manifest from format 2 to 3, which is compatible."""
     attribute = manifest.root.attributes.get("format")
-    if manifest.format != 2 or attribute is None:  # noqa: PLR2004  REP-140
+    if manifest.format != 2 or attribute is None:  # noqa: PLR2004  REP 140
         return []
     at = attribute.location
     start = manifest.source.offset(at.line, at.column)

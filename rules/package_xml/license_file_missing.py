@@ -17,7 +17,7 @@ class LicenseFileMissing(Rule):
 
     **Fix.** Write the path relative to package.xml, or add the file.
 
-    **Source.** REP-149, ``<license>``, attribute ``file``;
+    **Source.** REP 149, ``<license>``, attribute ``file``;
     ``bloom/generators/debian/generator.py``.
     """
 

@@ -21,7 +21,7 @@ class ManifestPlaceholder(Rule):
     **Fix.** Write an SPDX identifier such as ``Apache-2.0``, a sentence about the package, and the
     name and email address of the maintainer. No automatic fix: only the author can decide.
 
-    **Source.** REP-149; ``catkin_pkg.package.Package.validate``; rosdistro review guidelines;
+    **Source.** REP 149; ``catkin_pkg.package.Package.validate``; rosdistro review guidelines;
     ``ros2 pkg create`` writes ``TODO`` and ``@todo.todo``.
     """
 

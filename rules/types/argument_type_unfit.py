@@ -99,8 +99,8 @@ class ArgumentTypeUnfit(TypeRule):
 
     **Fix.** Pass an object of the parameter's type: ``publish(String(data='hello'))``.
 
-    **Source.** The annotations of the packages of ROS 2 Jazzy; what pyserial and tf_transformations
-    do with their arguments.
+    **Source.** The annotations of the packages of ROS 2 Jazzy; the code of pyserial and
+    tf_transformations.
     """
 
     code = "TY005"

@@ -64,7 +64,8 @@ class ModuleUnknown(TypeRule):
     **Fix.** Correct the name, or use a replacement such as ``importlib``. Import message classes
     from their module: ``from std_msgs.msg import String``.
 
-    **Source.** The Python that the distribution runs on, 3.12 for Jazzy; its packages of ROS 2.
+    **Source.** The standard library of the distribution's Python, 3.12 for Jazzy; its ROS 2
+    packages.
     """
 
     code = "TY001"

@@ -121,8 +121,8 @@ class NameNotInModule(TypeRule):
             "message removed in this distribution",
             {"talker.py": "from geometry_msgs.msg import Pose2D\n"},
             "1:31: 'geometry_msgs.msg' has no 'Pose2D': ImportError; it was removed in Lyrical: "
-            "use geometry_msgs/msg/Pose, or a message of your own with x, y and theta: which is "
-            "right depends on who reads it (common_interfaces 283)",
+            "use geometry_msgs/msg/Pose, or a message of your own with x, y and theta, depending "
+            "on the subscribers (common_interfaces 283)",
             distro="lyrical",
         ),
     )

@@ -34,7 +34,7 @@ class MainGuardMissing(Rule):
             {"CMakeLists.txt": _LISTS, "talker/node.py": _MAIN},
             Report(
                 "talker/node.py:5:5",
-                "installed as a program, but main() is never called: it exits at once; "
+                "installed as an executable, but main() is never called: it exits at once; "
                 "add the call",
                 fix="Add a call of main()",
             ),
@@ -71,7 +71,7 @@ class MainGuardMissing(Rule):
             fix = Fix("Add a call of main()", (Edit(path, end, end, text),))
             yield self.report(
                 main,
-                "installed as a program, but main() is never called: it exits "
+                "installed as an executable, but main() is never called: it exits "
                 "at once; add the call",
                 fix,
             )

@@ -77,7 +77,7 @@ after the wrong one.
 author, dependencies, group_depend, member_of_group, export. Comments go with the element that
 they precede; where there are any, the author should look at the result.
 
-**Source.** The schemas ``package_format1.xsd`` to ``package_format3.xsd``; REP-149.
+**Source.** The schemas ``package_format1.xsd`` to ``package_format3.xsd``; REP 149.
 """,
     ),
     AmentCode(
@@ -94,7 +94,7 @@ they precede; where there are any, the author should look at the result.
 **Fix.** Use the element of this format: ``<exec_depend>`` instead of ``<run_depend>`` since
 format 2, or declare the later format.
 
-**Source.** REP-127, REP-140, REP-149; ``catkin_pkg/package.py``.
+**Source.** REP 127, REP 140, REP 149; ``catkin_pkg/package.py``.
 """,
     ),
     AmentCode(
@@ -109,7 +109,7 @@ format 2, or declare the later format.
 
 **Fix.** Add the element. No automatic fix: the author has to say what is in it.
 
-**Source.** REP-149, "Required tags"; ``catkin_pkg/package.py``.
+**Source.** REP 149, "Required tags"; ``catkin_pkg/package.py``.
 """,
     ),
     AmentCode(
@@ -125,7 +125,7 @@ format 2, or declare the later format.
 
 **Fix.** Keep one; put everything that is exported into one ``<export>``.
 
-**Source.** REP-149; ``catkin_pkg/package.py``.
+**Source.** REP 149; ``catkin_pkg/package.py``.
 """,
     ),
     AmentCode(
@@ -134,14 +134,14 @@ format 2, or declare the later format.
         "An element of package.xml has an attribute that its format does not know",
         XMLLINT,
         Severity.ERROR,
-        message=("<version compatibility> is in REP-149, but ament_xmllint's schema refuses it"),
+        message=("<version compatibility> is in REP 149, but ament_xmllint's schema refuses it"),
         documentation="""\
 **Why.** colcon refuses the manifest, or ``ament_xmllint`` fails under ``colcon test``.
 
 **Fix.** Correct the name or remove the attribute.
 
-**Source.** REP-127, REP-140, REP-149 and their schemas. ``<version compatibility>`` is in
-REP-149 but not in the schema of format 3, so the linter refuses it.
+**Source.** REP 127, REP 140, REP 149 and their schemas. ``<version compatibility>`` is in
+REP 149 but not in the schema of format 3, so the linter refuses it.
 """,
     ),
     AmentCode(
@@ -161,7 +161,7 @@ schema and fails under ``colcon test`` when the two differ. Without ``format`` i
 
 **Fix.** Write the same number in both; 3 is the format of ROS 2.
 
-**Source.** REP-149; ``catkin_pkg/package.py``; ``ament_xmllint/main.py``.
+**Source.** REP 149; ``catkin_pkg/package.py``; ``ament_xmllint/main.py``.
 """,
     ),
     AmentCode(
@@ -197,7 +197,7 @@ such a name have been released.
 **Fix.** Use lower-case letters, digits and single underscores between them, a letter first.
 No automatic fix: the name is in other files, too.
 
-**Source.** REP-144; REP-149, ``<name>``; the schemas.
+**Source.** REP 144; REP 149, ``<name>``; the schemas.
 """,
     ),
     AmentCode(
@@ -213,7 +213,7 @@ number with a leading zero fails in ``ament_xmllint`` only.
 
 **Fix.** Write ``MAJOR.MINOR.PATCH`` such as ``0.1.0``.
 
-**Source.** REP-149, ``<version>``; ``catkin_pkg/package.py``.
+**Source.** REP 149, ``<version>``; ``catkin_pkg/package.py``.
 """,
     ),
     AmentCode(
@@ -228,7 +228,7 @@ link.
 
 **Fix.** Use one of the three; without ``type`` it is a website.
 
-**Source.** REP-149, ``<url>``; the schemas.
+**Source.** REP 149, ``<url>``; the schemas.
 """,
     ),
     AmentCode(
@@ -244,7 +244,7 @@ into the release.
 
 **Fix.** Write ``1``, ``1.2`` or ``1.2.3``.
 
-**Source.** REP-149, "Dependency tags"; the schemas.
+**Source.** REP 149, "Dependency tags"; the schemas.
 """,
     ),
     AmentCode(
@@ -260,7 +260,7 @@ into the release.
 **Fix.** Declare format 3; only dependencies and groups have conditions. Those of groups take
 no quotes in the schema: write the bare word.
 
-**Source.** REP-149, "Conditions"; ``package_format3.xsd``.
+**Source.** REP 149, "Conditions"; ``package_format3.xsd``.
 """,
     ),
     AmentCode(
@@ -275,7 +275,7 @@ no quotes in the schema: write the bare word.
 
 **Fix.** Add ``email="..."``. No automatic fix: the tool does not know the address.
 
-**Source.** REP-149, ``<maintainer>``; ``catkin_pkg/package.py``.
+**Source.** REP 149, ``<maintainer>``; ``catkin_pkg/package.py``.
 """,
     ),
     AmentCode(
@@ -290,7 +290,7 @@ no quotes in the schema: write the bare word.
 
 **Fix.** Write ``name@domain.org``; letters of ASCII, digits and ``-_%+`` only.
 
-**Source.** REP-149; ``catkin_pkg/package.py``; the schemas.
+**Source.** REP 149; ``catkin_pkg/package.py``; the schemas.
 """,
     ),
     AmentCode(
@@ -305,7 +305,7 @@ no quotes in the schema: write the bare word.
 
 **Fix.** Close the outer element first; only ``<description>`` and ``<export>`` hold others.
 
-**Source.** REP-149; ``catkin_pkg/package.py``; the schemas.
+**Source.** REP 149; ``catkin_pkg/package.py``; the schemas.
 """,
     ),
     AmentCode(
@@ -319,7 +319,7 @@ no quotes in the schema: write the bare word.
 
 **Fix.** Correct the URL: a port is a number, ``%`` begins two hexadecimal digits.
 
-**Source.** REP-149, ``<url>``; the schemas, type ``anyURI``.
+**Source.** REP 149, ``<url>``; the schemas, type ``anyURI``.
 """,
     ),
 )

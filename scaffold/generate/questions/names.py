@@ -57,7 +57,7 @@ def package_name(text: str) -> str:
     """Return the name of a new package.
 
     Raises:
-        InputError: REP-144, Python or CMake forbids it, or another package has it.
+        InputError: REP 144, Python or CMake forbids it, or another package has it.
     """
     _check_form(text, "package name", at_least=2)
     reason = _why_taken(text)

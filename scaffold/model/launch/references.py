@@ -123,7 +123,7 @@ def meant_package(package: Package, use: Reference) -> Suggestion | None:
         return None
     own = programs_of(package).sources
     if isinstance(use.executable, str) and use.executable in own:
-        return Suggestion(package.name, f"it has the program {use.executable!r}")
+        return Suggestion(package.name, f"it has the executable {use.executable!r}")
     if is_near(use.name, package.name):
         return Suggestion(package.name, "this package")
     for other in package.workspace.names:

@@ -134,8 +134,8 @@ def test_missing_user_template_is_an_error(
     for command in (["update", "talker"], ["add", "timer", "x", "--package-directory", "talker"]):
         assert main(command) == 2
         assert capsys.readouterr().err == (
-            "ros2-scaffold: error: talker/.ros2-scaffold.json: made with the template 'beacon', "
-            "which does not exist here; --content names the directory, or the URL@REV, of a team's "
+            "ros2-scaffold: error: talker/.ros2-scaffold.json: created with the template 'beacon', "
+            "which does not exist here; use --content with the directory, or the URL@REV, of its "
             "templates\n"
         )
 
