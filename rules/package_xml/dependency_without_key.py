@@ -118,6 +118,20 @@ class DependencyWithoutKey(Rule):
             },
         ),
         Example(
+            "OpenCV, for C++ that finds its dependencies automatically",
+            {
+                "package.xml": "<package>\n  <depend>OpenCV</depend>\n</package>\n",
+                "CMakeLists.txt": "project(talker)\nfind_package(ament_cmake_auto REQUIRED)\n"
+                "ament_auto_find_build_dependencies()\n",
+            },
+            Report(
+                "package.xml:2:11",
+                "'OpenCV' is not a rosdep key: rosdep stops; the key is 'libopencv-dev'",
+                fix="Replace with libopencv-dev",
+            ),
+            fixed={"package.xml": "<package>\n  <depend>libopencv-dev</depend>\n</package>\n"},
+        ),
+        Example(
             "OpenCV, for C++",
             {
                 "package.xml": "<package>\n  <depend>opencv</depend>\n</package>\n",
@@ -196,7 +210,7 @@ def _key(package: Package, module: str) -> str:
     """Return the key of a library; C++ code needs the key of OpenCV for C++."""
     keys = keys_of_module(module)
     try:
-        is_compiled = module == "cv2" and package.cmake.finds("OpenCV")
+        is_found = package.cmake.finds_automatically or package.cmake.finds("OpenCV")
     except ViewError:
-        is_compiled = False
-    return "libopencv-dev" if is_compiled else keys[0]
+        is_found = False
+    return "libopencv-dev" if is_found and module == "cv2" else keys[0]

@@ -6,11 +6,17 @@ import re
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
-from scaffold.api.catalog import transitive_dependencies
+from scaffold.api.catalog import (
+    ROS_PACKAGES,
+    is_released,
+    keys_of_module,
+    transitive_dependencies,
+)
 from scaffold.api.distributions import removed_package, target
 from scaffold.api.manifest import (
     declared,
     declaring,
+    is_fetched,
     is_in_requirements,
     required_packages,
     requirements,
@@ -331,7 +337,8 @@ class ImportUndeclared(Rule):
             Report(
                 "talker/node.py:2:1",
                 "imports 'arm_msgs', which package.xml does not declare; add "
-                "<exec_depend>arm_msgs</exec_depend>",
+                "<exec_depend>arm_msgs</exec_depend>, and the package to the "
+                "workspace: Jazzy lacks it",
                 fix="Declare arm_msgs",
                 severity=Severity.WARNING,
             ),
@@ -502,6 +509,8 @@ class ImportUndeclared(Rule):
             message = (
                 f"imports {need.module!r}, which {_why_missing(package, need)}; {needed.advice}"
             )
+            if _is_unknown(package, need.module):
+                message += f", and the package to the workspace: {target().title} lacks it"
             cause = f"dependency {need.keys[0]}"
             yield self.report(need, message, needed.fix, severity=severity, cause=cause)
 
@@ -517,6 +526,13 @@ def _why_missing(package: Package, need: requirements.Requirement) -> str:
                 "does not install it where the package runs"
             )
     return "package.xml does not declare"
+
+
+def _is_unknown(package: Package, module: str) -> bool:
+    """Tell whether interfaces are those of a package that is neither released nor nearby."""
+    is_known = is_released(module) or module in ROS_PACKAGES or bool(keys_of_module(module))
+    is_near = package.workspace.get(module) is not None or is_fetched(package, module)
+    return not (is_known or is_near)
 
 
 def _comes_with_launch(need: requirements.Requirement) -> bool:
