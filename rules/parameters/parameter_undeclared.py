@@ -249,7 +249,8 @@ class ParameterUndeclared(Rule):
                             other.name: comparable_in_file(other.value) for other in section.entries
                         }
                         ignored = _Ignored(package, owners, declarations, entry.name, value, others)
-                        yield self._report(entry.location, ignored, owners[0].node_name)
+                        name = owners[0].node_name if section.is_pattern else section.name
+                        yield self._report(entry.location, ignored, name)
 
     def _in_launch_files(self, package: Package) -> Iterator[Diagnostic]:
         for node in started_nodes(package):

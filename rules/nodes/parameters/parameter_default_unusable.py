@@ -244,7 +244,10 @@ class ParameterDefaultUnusable(RclpyRule):
             )
             error = problem.rpartition(": ")[2]
             if problem and not is_handled(file.module, parameter.call, error):
-                yield self.report(file.module.location(node or parameter.call), problem)
+                cause = _NO_DEFAULT if error == "ValueError" else ""
+                yield self.report(
+                    file.module.location(node or parameter.call), problem, cause=cause
+                )
         for parameter in file.parameters:
             yield from self._check_commas(file, parameter)
             problem = _missing_problem(parameter)
