@@ -113,6 +113,13 @@ class BuildTypeWrong(Rule):
             },
         ),
         Example(
+            "a build type outside of <export>, which PX061 reports",
+            {
+                "package.xml": "<package><build_type>ament_python</build_type></package>\n",
+                "setup.py": "",
+            },
+        ),
+        Example(
             "a setup.py, and no build type",
             {"package.xml": "<package>\n  <name>talker</name>\n</package>\n", "setup.py": ""},
             Report(
@@ -247,7 +254,8 @@ class BuildTypeWrong(Rule):
 
     def _check_missing(self, package: Package) -> Iterator[Diagnostic]:
         manifest = package.manifest
-        if manifest.build_type_elements or "catkin" in manifest.declared_names:
+        is_misplaced = manifest.one("build_type") is not None  # reported as unknown element
+        if manifest.build_type_elements or is_misplaced or "catkin" in manifest.declared_names:
             return
         if package.has("CMakeLists.txt"):
             uses_ament = any(name.startswith("ament_") for name in manifest.declared_names) or any(
