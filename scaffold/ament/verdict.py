@@ -52,6 +52,9 @@ _TAKEN = "E211 E261 E262 E265 E266 E401 W605"
 TAKEN = frozenset(_TAKEN.split())
 """Codes for which ruff and pycodestyle agree."""
 
+_EXCEPTIONS = "multiple exception types must be parenthesized"
+"""The start of ruff's message about ``except A, b:``, which Python 3.14 allows again."""
+_OF_PYTHON_2 = "exceptions without parentheses; write `except A as b:`, or `except (A, B):`"
 _OWN = (blank_lines, statements, indirect_names, comprehensions)
 _CONFIGURED = (
     indentation,
@@ -171,6 +174,8 @@ def _broken(
     if not errors:
         return None
     line, column, message = min(errors)
+    if message.startswith(_EXCEPTIONS):
+        message = _OF_PYTHON_2
     if own is not None and own.lineno:
         # It reports the same line as flake8.
         line, column = own.lineno, max(own.offset or 1, 1)

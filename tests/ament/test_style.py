@@ -151,6 +151,13 @@ def test_syntax_after_python_3_12_is_an_error() -> None:
     assert (finding.code, finding.severity, finding.location.line) == ("E999", Severity.ERROR, 1)
 
 
+def test_exceptions_of_python_2_are_not_sent_to_python_3_14() -> None:
+    package = Package.of({"a.py": "try:\n    x = 1\nexcept ValueError, e:\n    pass\n"})
+    (finding,) = [d for d in check(package) if d.code == "E999"]
+    assert "except A as b:" in finding.message
+    assert "3.14" not in finding.message
+
+
 # -- which files
 
 
