@@ -31,14 +31,14 @@ class Effect(IntEnum):
     """A program or a launch file does not start."""
     STOPS_PROGRAM = 3
     """A program stops or hangs, maybe only later or in some cases."""
-    WRONG_BEHAVIOR = 4
-    """A program runs, but does the wrong thing, such as waiting for messages that never arrive."""
-    IGNORED = 5
-    """Code or a setting has no effect."""
-    SPOILS_INSTALL = 6
+    SPOILS_INSTALL = 4
     """The build or installation is incomplete; a program that needs it stops later."""
-    MISSING_ELSEWHERE = 7
-    """A program stops on a machine that lacks a package."""
+    MISSING_ELSEWHERE = 5
+    """A program or the build stops on a machine that lacks a package."""
+    WRONG_BEHAVIOR = 6
+    """A program runs, but does the wrong thing, such as waiting for messages that never arrive."""
+    IGNORED = 7
+    """Code or a setting has no effect."""
     DECLARED_WRONG = 8
     """The manifest, a name or a test is wrong; nothing stops here."""
     UNPUBLISHABLE = 9

@@ -150,7 +150,7 @@ def in_order(entries: Sequence[Entry]) -> list[Entry]:
     """Return entries by severity; within one, files that cannot be read or built come first.
 
     Then come names at which rosdep stops, programs and launch files that do not start, crashes,
-    wrong behavior, code without effect, wrong builds, missing dependencies, and declarations.
+    wrong builds, missing dependencies, wrong behavior, code without effect, and declarations.
 
     Directories such as ``archive`` or ``old`` come last.
     """
@@ -190,5 +190,5 @@ def _effect(first: Diagnostic, rules: Mapping[str, type[Rule]]) -> Effect:
     if _is_dependency(first) and effect is not Effect.STOPS_ROSDEP:
         return Effect.MISSING_ELSEWHERE
     if effect in _AT_RUN_TIME and _TESTS.search(first.location.path):
-        return Effect.SPOILS_INSTALL
+        return Effect.DECLARED_WRONG
     return effect

@@ -61,7 +61,9 @@ def brief(entry: Entry, width: int, lines: int, link: str | None = None) -> Text
     """
     names = _dependencies(entry, (2 * lines - 1) * width)
     others = len(entry.places) - 1
-    more = Text(f" and {count(others, 'more place')}" if others and not names else "", style="dim")
+    more = Text(
+        f" (and {count(others, 'more place')})" if others and not names else "", style="dim"
+    )
     room = lines * width - len(_line(entry, "", link)) - len(more)
     message = _cut(printable(entry.first.text), max(_MIN_BRIEF, room))
     return Text("\n").join([_line(entry, message, link) + more, *names])

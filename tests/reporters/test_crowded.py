@@ -75,7 +75,7 @@ def test_long_messages_have_two_lines_if_there_is_room() -> None:
 def test_further_places_are_counted() -> None:
     entries = _entries([("TY003", "same"), ("TY003", "same"), ("TY003", "same")])
     (line,), _ = _shown(entries, room=1)
-    assert line == "node.py:1:1: error TY003 same and 2 more places"
+    assert line == "node.py:1:1: error TY003 same (and 2 more places)"
 
 
 def test_missing_dependencies_of_all_packages_are_one_entry_with_their_names() -> None:

@@ -65,7 +65,7 @@ def test_build_failures_come_before_crashes() -> None:
     codes = ["LY020", "PX001", "PF004", "CM014", "ND001", "LF006", "PX081", "CM011", "E999"]
     ordered = in_order([entry for code in codes for entry in by_cause(_result(".", code, "a"))])
     assert [entry.first.code for entry in ordered] == [
-        *("CM011", "E999", "PX081", "LF006", "ND001", "PF004", "CM014", "PX001", "LY020")
+        *("CM011", "E999", "PX081", "LF006", "ND001", "CM014", "PF004", "PX001", "LY020")
     ]
 
 
