@@ -94,7 +94,8 @@ class MarkupRefused(Rule):
                 .replace("find-pkg-share", "find-package-share")
                 .replace("name='rate'", "name='rate' if='true'"),
             },
-            "3:27: launch knows no $(find-package-share ...); did you mean $(find-pkg-share ...)?",
+            "3:27: unknown substitution $(find-package-share ...): the launch stops; did you mean "
+            "$(find-pkg-share ...)?",
             "4:34: <node> has no attribute 'executable', which belongs to Python; XML has exec",
             "5:28: <param> has no attribute 'if'",
             "7:18: <remap> has no attribute 'form'; did you mean 'from'?",
@@ -118,7 +119,7 @@ class MarkupRefused(Rule):
             {
                 "launch/a.launch.xml": _RIGHT.replace(" to='b'", "").replace("<let", "<lett"),
             },
-            "3:4: launch knows no <lett>; did you mean <let>?",
+            "3:4: unknown element <lett>: the launch stops; did you mean <let>?",
             "7:6: <remap> needs the attribute 'to'",
         ),
         Example(
@@ -195,7 +196,7 @@ def _problems(element: Element) -> Iterator[tuple[Location, str]]:
         if closest:
             yield (
                 element.name_location,
-                f"launch knows no <{element.tag}>; did you mean <{closest}>?",
+                f"unknown element <{element.tag}>: the launch stops; did you mean <{closest}>?",
             )
     else:
         yield from _of_attributes(element, known)
@@ -235,7 +236,9 @@ def _of_substitution(kind: str) -> str:
     if kind in _SUBSTITUTIONS:
         return f"$({kind} ...) is ROS 1 syntax: the launch stops; use {_SUBSTITUTIONS[kind]}"
     closest = _closest(kind, SUBSTITUTIONS) if kind not in SUBSTITUTIONS else ""
-    return f"launch knows no $({kind} ...); did you mean $({closest} ...)?" if closest else ""
+    if not closest:
+        return ""
+    return f"unknown substitution $({kind} ...): the launch stops; did you mean $({closest} ...)?"
 
 
 def _closest(word: str, names: Collection[str]) -> str:

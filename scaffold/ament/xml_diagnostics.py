@@ -220,7 +220,7 @@ def _explain_attribute(structure: Structure, element: Element, attribute: Attrib
     if (tag, name) == ("license", "file"):
         return f"<license file> needs format 3, but this manifest has format {structure.format}"
     if (tag, name) == ("version", "compatibility"):
-        return "<version compatibility> is in REP 149, but ament_xmllint's schema refuses it"
+        return "<version compatibility> is in REP 149, but ament_xmllint's schema rejects it"
     allowed = structure.attributes(element)
     closest = get_close_matches(name, allowed, n=1)
     if closest:

@@ -339,7 +339,7 @@ def violations(data: bytes, number: int) -> list[tuple[int, str]]:
         raise ValueError(str(error)) from error
     if schema.validate(document):
         return []
-    return [(entry.line, entry.message) for entry in schema.error_log] or [(1, "is refused")]
+    return [(entry.line, entry.message) for entry in schema.error_log] or [(1, "is rejected")]
 
 
 @lru_cache(maxsize=3)

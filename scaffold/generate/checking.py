@@ -142,7 +142,7 @@ def ahead() -> Iterator[RuleProcess | None]:
     """Load the rules in a second process, which ends with the block.
 
     It is ``None`` where that is not possible or does not pay: without ``fork``, with one
-    processor, or beside threads, whose locks the process would inherit.
+    processor, or next to threads, whose locks the process would inherit.
     """
     threading = sys.modules.get("threading")
     is_alone = threading is None or threading.active_count() == 1

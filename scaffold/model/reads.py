@@ -135,7 +135,7 @@ class StoredFact(NamedTuple):
 
 
 Settled = dict[FactId, StoredFact | Fact | None]
-"""The facts that somebody asked about in this run: as stored, or made again with the same value;
+"""The facts that were requested in this run: as stored, or computed again with the same value;
 ``None`` for others."""
 
 

@@ -305,7 +305,7 @@ CASES: Mapping[str, tuple[Example, ...]] = {
             },
             Report(
                 "package.xml:2:12",
-                "<version compatibility> is in REP 149, but ament_xmllint's schema refuses it",
+                "<version compatibility> is in REP 149, but ament_xmllint's schema rejects it",
             ),
             Report(
                 "package.xml:3:12",

@@ -134,7 +134,7 @@ format 2, or declare the later format.
         "An element of package.xml has an attribute that its format does not know",
         XMLLINT,
         Severity.ERROR,
-        message=("<version compatibility> is in REP 149, but ament_xmllint's schema refuses it"),
+        message=("<version compatibility> is in REP 149, but ament_xmllint's schema rejects it"),
         documentation="""\
 **Why.** colcon refuses the manifest, or ``ament_xmllint`` fails under ``colcon test``.
 

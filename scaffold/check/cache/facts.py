@@ -92,7 +92,7 @@ class EarlierFacts:
                 ask_again(package, key)
         except ViewError:
             pass  # the fact raises the error
-        except Exception:  # noqa: BLE001  whoever asks for it fails in the same way
+        except Exception:  # noqa: BLE001  the rule that needs it fails in the same way
             return None
         result = package.known_fact(key)
         is_same = result is not None and result.encoded == self._stored[wanted].encoded

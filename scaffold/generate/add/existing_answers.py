@@ -81,7 +81,7 @@ def license_of(package: Package, templates: Sequence[str]) -> str | None:
 
 
 def identify_text(data: bytes) -> str | None:
-    """Return the license with a text; BSD licenses are told apart by their clauses."""
+    """Return the license with a text; BSD licenses are distinguished by their clauses."""
     license_ = notices.identify_file("LICENSE", data)
     text = " ".join(data.decode("utf-8", "replace").split())
     if license_ is not None or _BSD not in text:

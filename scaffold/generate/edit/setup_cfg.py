@@ -20,7 +20,7 @@ def add_to_setup_cfg(source: Source, addition: Addition) -> Outcome:
     """Declare an executable below the others.
 
     Raises:
-        ParseError: setuptools would refuse the file.
+        ParseError: setuptools would reject the file.
     """
     option = scripts(IniFile.parse(source))
     program = addition.program
@@ -55,7 +55,7 @@ def add_directories(source: Source, addition: Addition, *, has_others: bool) -> 
         has_others: Whether the package has executables already, which would be moved.
 
     Raises:
-        ParseError: setuptools would refuse the file.
+        ParseError: setuptools would reject the file.
     """
     directory = f"$base/lib/{addition.package}"
     by_hand: list[ByHand] = []

@@ -20,9 +20,10 @@ _COPY = re.compile(
     r"|[ ](?:-[ ]|\((?:another[ ]|\d{1,2}\w\w[ ])?)(?:copy|kopie|kopia|copia|copie)\b[^/]{0,5}$",
     re.IGNORECASE,
 )
-"""Matches the name of a file that somebody has kept beside the one that is used.
+"""Matches the name of a backup copy next to the file that is used.
 
-The last ones are of file managers: ``talk (copy).py``, ``talk (3rd copy).py``, ``talk - Copy.py``.
+The last ones are written by file managers: ``talk (copy).py``, ``talk (3rd copy).py``,
+``talk - Copy.py``.
 """
 _UNUSED_DIRECTORY = re.compile(
     r"(?:^|[\W_])(?:unused|deprecated|backups?|bak|archived?|old)(?:$|[\W_])", re.IGNORECASE

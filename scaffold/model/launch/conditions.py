@@ -11,7 +11,7 @@ import warnings
 from collections.abc import Iterable, Sequence
 
 from scaffold.distributions import VARIABLE, target
-from scaffold.model.python.distribution_conditions import asks, holds, worth
+from scaffold.model.python.distribution_conditions import asks, holds, value_on_target
 from scaffold.model.python.module import PythonModule
 from scaffold.record import NamedTuple
 from scaffold.source import Source, ViewError
@@ -103,7 +103,7 @@ def _evaluated(expression: Text) -> Text:
     if not isinstance(statement, ast.Expr):
         return UNKNOWN
     is_asked = expression.is_asked or asks(module, statement.value)
-    value, _ = worth(module, statement.value)
+    value, _ = value_on_target(module, statement.value)
     if isinstance(value, str):
         return Text(value, is_asked)
     return as_text(holds(module, statement.value, is_asked=True), is_asked=is_asked)

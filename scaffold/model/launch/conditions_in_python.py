@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from scaffold.model.launch.conditions import UNKNOWN, Text, applied, as_text, joined, truth
-from scaffold.model.python.distribution_conditions import holds, worth
+from scaffold.model.python.distribution_conditions import holds, value_on_target
 
 if TYPE_CHECKING:
     from scaffold.model.launch.calls import LaunchCall
@@ -71,7 +71,7 @@ class Conditions:
         match node:
             case ast.Call(func=ast.Name(id="str"), args=[inner], keywords=[]):
                 return self._plain(inner)
-        value, is_asked = worth(module, node)
+        value, is_asked = value_on_target(module, node)
         if isinstance(value, str):
             return Text(value, is_asked)
         decided = holds(module, node)

@@ -277,7 +277,7 @@ class MessageTypes:
         return parameters[index] if index < len(parameters) else None
 
     def _is_for_others(self, name: str) -> bool:
-        """Tell whether a callback is also handed to something that may pass other objects."""
+        """Tell whether a callback is also passed to something that may pass other objects."""
         for use in self.module.index.attributes(name):
             match self.module.parent(use):
                 case ast.AugAssign(value=value) if value is use:

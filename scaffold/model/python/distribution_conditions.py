@@ -105,7 +105,7 @@ def text_on_target(module: SyntaxTree, value: ast.expr) -> str | None:
     return text if notes and isinstance(text, str) else None
 
 
-def worth(module: SyntaxTree, value: ast.expr) -> tuple[object, bool]:
+def value_on_target(module: SyntaxTree, value: ast.expr) -> tuple[object, bool]:
     """Return an expression's value on the target, and whether it depends on the distribution."""
     result, notes = _DistributionEvaluator(module).trace(value)
     return result, bool(notes)

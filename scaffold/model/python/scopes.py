@@ -239,12 +239,12 @@ class ScopeIndex:
         return binding[1] if binding else ()
 
     def only_node(self, node: ast.AST | None) -> ast.AST | None:
-        """Return what binds the name that an expression is, if that happens once."""
+        """Return the node that binds a name, if it is bound only once."""
         bindings = self.bindings_of(node)
         return bindings[0].node if len(bindings) == 1 else None
 
     def only_value(self, node: ast.AST | None) -> ast.expr | None:
-        """Return what the name that an expression is stands for, if it is bound once."""
+        """Return the value of a name that is bound only once; ``None`` for other expressions."""
         bindings = self.bindings_of(node)
         return bindings[0].value if len(bindings) == 1 else None
 

@@ -85,7 +85,7 @@ def robot_file(package: Package, path: str) -> RobotFile | None:
             message = error.message.replace("package.xml", path).replace(" such as <package>", "")
             if '"xacro:" is not declared' in message:
                 message += (
-                    "; xacro and urdfdom refuse the file: write "
+                    "; xacro and urdfdom reject the file: write "
                     'xmlns:xacro="http://www.ros.org/wiki/xacro" in its root element'
                 )
             is_read = path.endswith(".urdf") and _is_read_by_urdfdom(package, path, error)

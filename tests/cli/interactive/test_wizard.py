@@ -92,7 +92,7 @@ def answer_publisher_questions(terminal: Terminal, then: str = ENTER) -> None:
     terminal.answer("What is in the package?", "publisher" + ENTER)
     terminal.answer("Name of the node", "\x15speaker" + ENTER)
     terminal.answer("Topic to publish on", "\x15chatter" + ENTER)
-    terminal.answer("What to publish:", "\x15sensor_msgs/msg/Temperature" + ENTER)
+    terminal.answer("Type of the published messages:", "\x15sensor_msgs/msg/Temperature" + ENTER)
     terminal.answer("Messages per second", "\x155" + ENTER)
     terminal.answer("Quality of service", ENTER)
     terminal.answer("What else is in the package?", then)
@@ -185,7 +185,7 @@ def test_message_types_are_completed(terminal: Terminal) -> None:
     terminal.answer("What is in the package?", "publisher" + ENTER)
     terminal.answer("Name of the node", ENTER)
     terminal.answer("Topic to publish on", ENTER)
-    terminal.answer("What to publish:", "\x15LaserSc")
+    terminal.answer("Type of the published messages:", "\x15LaserSc")
     terminal.says("sensor_msgs/msg/LaserScan")
 
 
@@ -195,7 +195,7 @@ def test_interrupted_run_writes_nothing(
     terminal: Terminal, tmp_path: Path, questions: int, key: str
 ) -> None:
     asked = ["new package:", "Build system:", "What is in", "Name of the node", "Topic to"]
-    asked += ["What to publish", "Messages per", "Quality of", "What else", "else to add"]
+    asked += ["Type of the published", "Messages per", "Quality of", "What else", "else to add"]
     for question, text in zip(asked[:questions], ["talker", *[""] * questions], strict=False):
         terminal.answer(question, text + ENTER)
     terminal.answer(asked[questions], key)
@@ -251,10 +251,10 @@ def test_conflicting_parts_are_asked_for_again(terminal: Terminal) -> None:
     terminal.answer("Name of the node", ENTER)
     terminal.answer("Topic to subscribe to", "\x15chatter" + ENTER)
     terminal.answer("Topic to publish on", "\x15chatter" + ENTER)
-    terminal.answer("What to publish:", ENTER)
-    terminal.answer("What to receive (default: the same as what is published):", ENTER)
+    terminal.answer("Type of the published messages:", ENTER)
+    terminal.answer("Type of the received messages (default: the published type):", ENTER)
     terminal.answer("Quality of service", ENTER)
-    terminal.answer("Quality of service of what is received", ENTER)
+    terminal.answer("Quality of service of the subscription", ENTER)
     terminal.says("both '/chatter'")
     terminal.answer("What is in the package?", "timer" + ENTER)
     terminal.answer("Name of the node", ENTER)
@@ -287,13 +287,13 @@ def test_going_back_to_an_earlier_question(terminal: Terminal) -> None:
     terminal.answer("What is in the package?", "\x15publisher" + ENTER)
     terminal.answer("Name of the node", ENTER)
     terminal.answer("Topic to publish on", "\x15chatter" + ENTER)
-    terminal.answer("What to publish:", ENTER)
+    terminal.answer("Type of the published messages:", ENTER)
     terminal.answer("Messages per second", ENTER)
     terminal.answer("Quality of service", ENTER)
     terminal.answer("What else is in the package?", BACK)
     terminal.answer("Quality of service", BACK)
     terminal.answer("Messages per second", "2" + BACK + ENTER)  # an edited line needs enter
-    terminal.answer("What to publish:", "\x15LaserScan" + ENTER)
+    terminal.answer("Type of the published messages:", "\x15LaserScan" + ENTER)
     terminal.answer("Messages per second", ENTER)
     terminal.answer("Quality of service", ENTER)
     terminal.answer("What else is in the package?", ENTER)
@@ -313,13 +313,19 @@ def test_qos_is_chosen_from_a_menu(terminal: Terminal) -> None:
     terminal.answer("new package:", "talker" + ENTER)
     terminal.answer("Build system:", ENTER)
     terminal.answer("What is in the package?", "publisher_subscriber" + ENTER)
-    for question in ("Name of", "Topic to sub", "Topic to pub", "What to publish", "What to rec"):
+    for question in (
+        "Name of",
+        "Topic to sub",
+        "Topic to pub",
+        "Type of the published",
+        "Type of the rec",
+    ):
         terminal.answer(question, ENTER)
     terminal.says("Quality of service:")
     terminal.says("sensor_data")
     terminal.says("best effort")
     terminal.answer("settings such as", "sensor" + ENTER)
-    terminal.answer("Quality of service of what is received:", "other" + ENTER)
+    terminal.answer("Quality of service of the subscription:", "other" + ENTER)
     terminal.answer("Depth, profile or settings:", "reliably" + ENTER)
     terminal.says("neither a depth")
     terminal.answer("Depth, profile or settings:", "\x15best_effort,depth=1" + ENTER)

@@ -99,7 +99,7 @@ RECIPES: dict[str, Recipe] = {
         checks=("message.x**2 + message.y**2 == pytest.approx(1.0)",),
     ),
     "PoseArray": Recipe(
-        summary="poses beside each other that move forward and back",
+        summary="a row of poses that moves forward and back",
         code="""
             for index in range(5):
                 pose = Pose()
