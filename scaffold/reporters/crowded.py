@@ -50,6 +50,8 @@ def choose(
     """
     chosen: dict[int, Shown] = {}
     for at in _by_turns(entries):
+        if room <= 0:
+            break
         shown = Shown(entries[at], 1)
         needed = shown.height(width, options)
         if needed <= room or not chosen:
