@@ -11,7 +11,8 @@ from scaffold.api.launch import is_named_elsewhere
 from scaffold.api.messages import message_paths
 from scaffold.api.parameters import keeps_default_name
 from scaffold.api.programs import is_remapped, topics_of
-from scaffold.api.robot import bridge_entries
+
+from ._bridges import bridge_entries
 
 _ENTRY = (
     "- ros_topic_name: {}\n  gz_topic_name: /cmd_vel\n  ros_type_name: geometry_msgs/msg/{}\n"

@@ -21,7 +21,8 @@ from scaffold.api import (
 )
 from scaffold.api.formats import Mapping
 from scaffold.api.launch import launch_paths, markup_files
-from scaffold.api.robot import BRIDGED_TYPES, BridgeEntry, bridge_entries, bridge_roots
+
+from ._bridges import BRIDGED_TYPES, BridgeEntry, bridge_entries, bridge_roots
 
 _ENTRY = (
     "- ros_topic_name: scan\n  gz_topic_name: /scan\n  ros_type_name: sensor_msgs/msg/LaserScan\n"

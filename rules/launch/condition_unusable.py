@@ -7,14 +7,9 @@ import re
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, LaunchRule, Report, Severity
-from scaffold.api.launch import (
-    NODES,
-    LaunchCall,
-    LaunchFile,
-    failure,
-    never_equal,
-    never_equals,
-)
+from scaffold.api.launch import NODES, LaunchCall, LaunchFile
+
+from ._substitutions import failure, never_equal, never_equals
 
 _TRUTHS = frozenset({"true", "false", "1", "0"})
 _CONDITIONS = ("IfCondition", "UnlessCondition")

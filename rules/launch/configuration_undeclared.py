@@ -14,14 +14,9 @@ from scaffold.api import (
     Severity,
     listed_names,
 )
-from scaffold.api.launch import (
-    LaunchCall,
-    LaunchFile,
-    later_declarations,
-    may_be_set_elsewhere,
-    set_names,
-    steps,
-)
+from scaffold.api.launch import LaunchCall, LaunchFile, may_be_set_elsewhere, set_names
+
+from ._execution_order import later_declarations, steps
 
 _LAUNCH = (
     "from launch import LaunchDescription\nfrom launch.actions import DeclareLaunchArgument\n"

@@ -7,7 +7,9 @@ from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, LaunchRule
 from scaffold.api.launch import ACTIONS, CALLBACKS, HANDLERS, LaunchCall, LaunchFile, function_of
-from scaffold.api.python import misfit_of_context, returned
+from scaffold.api.python import returned
+
+from ._signatures import misfit_of_context
 
 _LAUNCH = (
     "from launch import LaunchDescription\nfrom launch.actions import OpaqueFunction\n\n\n"

@@ -6,7 +6,9 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, LaunchRule
-from scaffold.api.launch import CONDITION, LaunchFile, text_uses, truth_tests
+from scaffold.api.launch import LaunchFile
+
+from ._substitutions import CONDITION, text_uses, truth_tests
 
 _SHOWN = frozenset({"in an f-string", "in str()", "in a % format", "in format()"})
 """Uses that do not fail: the text is the representation of the object."""

@@ -5,13 +5,6 @@ from __future__ import annotations
 from scaffold.model.cmake.lists import CMakeLists, FoundPackage, Install, InstallItem
 from scaffold.model.cmake.parser import Argument, Command
 from scaffold.model.cmake.rosidl import Generation
-from scaffold.model.cmake.targets import (
-    BUILT_IN,
-    OF_AMENT,
-    TAKING_TARGETS,
-    defined_targets,
-    targets_named_once,
-)
 from scaffold.model.contents.ament_cmake import (
     PACKAGE_COMMANDS,
     has_unknown_commands,
@@ -33,10 +26,7 @@ from scaffold.model.contents.interface_files import (
 )
 
 __all__ = [
-    "BUILT_IN",
-    "OF_AMENT",
     "PACKAGE_COMMANDS",
-    "TAKING_TARGETS",
     "Argument",
     "CMakeLists",
     "Command",
@@ -44,7 +34,6 @@ __all__ = [
     "Generation",
     "Install",
     "InstallItem",
-    "defined_targets",
     "generations",
     "has_unknown_commands",
     "installs_directory",
@@ -58,6 +47,5 @@ __all__ = [
     "programs",
     "runs_if_exists",
     "runs_with_python",
-    "targets_named_once",
     "uses_ament",
 ]

@@ -29,7 +29,6 @@ from scaffold.model.launch.configurations import (
     set_names,
 )
 from scaffold.model.launch.evaluator import SHARE
-from scaffold.model.launch.execution_order import later_declarations, steps
 from scaffold.model.launch.files import DATA_DIRECTORIES, data_files, is_named, launch_files
 from scaffold.model.launch.includes import Included, given_arguments, included
 from scaffold.model.launch.markup_file import MarkupNode, is_known, markup_files, markup_paths
@@ -69,14 +68,6 @@ from scaffold.model.launch.share_paths import (
     why_missing,
 )
 from scaffold.model.launch.signatures import ACTIONS, signature
-from scaffold.model.launch.substitutions import (
-    CONDITION,
-    failure,
-    never_equal,
-    never_equals,
-    text_uses,
-    truth_tests,
-)
 from scaffold.model.launch.unlaunched import is_unread
 from scaffold.model.launch.unread_arguments import is_of_unread_argument, unread_arguments
 
@@ -84,7 +75,6 @@ __all__ = [
     "ACTIONS",
     "BY_LAUNCH",
     "CALLBACKS",
-    "CONDITION",
     "DATA_DIRECTORIES",
     "FUNCTION",
     "HANDLERS",
@@ -112,7 +102,6 @@ __all__ = [
     "describe",
     "entities",
     "exists",
-    "failure",
     "function_of",
     "given_arguments",
     "has_name",
@@ -125,7 +114,6 @@ __all__ = [
     "is_of_unread_argument",
     "is_reversed",
     "is_unread",
-    "later_declarations",
     "launch_files",
     "launch_paths",
     "markup_files",
@@ -137,8 +125,6 @@ __all__ = [
     "missing_in",
     "names_alike",
     "names_of",
-    "never_equal",
-    "never_equals",
     "node_names",
     "nodes_for",
     "package_uses",
@@ -152,9 +138,6 @@ __all__ = [
     "start_of_value",
     "started_nodes",
     "static_transforms",
-    "steps",
-    "text_uses",
-    "truth_tests",
     "unread_arguments",
     "use_of",
     "values_in_files",

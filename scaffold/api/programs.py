@@ -20,7 +20,6 @@ from scaffold.model.programs.blocking import (
 )
 from scaffold.model.programs.entry_points import Execution, paths_of, run_of, starts_of
 from scaffold.model.programs.executables import programs_of
-from scaffold.model.programs.executors import Shutdowns, used_of_executor
 from scaffold.model.programs.initialization import calls_others, late_init, may_init
 from scaffold.model.programs.known_nodes import KnownNode
 from scaffold.model.programs.publishing import publish_calls, published_at_start
@@ -48,7 +47,6 @@ __all__ = [
     "KnownNode",
     "NamedEndpoint",
     "Phases",
-    "Shutdowns",
     "Waits",
     "blocks_node",
     "calls_others",
@@ -80,7 +78,6 @@ __all__ = [
     "spins_in_one_thread",
     "starts_of",
     "topics_of",
-    "used_of_executor",
     "waits_alone",
     "waits_in",
 ]

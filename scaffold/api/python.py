@@ -26,7 +26,6 @@ from scaffold.model.python.returns import (
     value_set_before,
 )
 from scaffold.model.python.scopes import FunctionNode
-from scaffold.model.python.signatures import misfit_of_context
 from scaffold.model.python.values import (
     UNKNOWN,
     Glob,
@@ -59,7 +58,6 @@ __all__ = [
     "kind_of",
     "may_end",
     "may_end_with_items",
-    "misfit_of_context",
     "paths_importing",
     "returned",
     "rospack_lookups",

@@ -53,7 +53,6 @@ from scaffold.model.rclpy.names import (
     topic_problem,
 )
 from scaffold.model.rclpy.nodes import NodeClass, NodeDefinition
-from scaffold.model.rclpy.parameters.callbacks import RESULT, wrong_value
 from scaffold.model.rclpy.parameters.descriptors import DESCRIPTOR, message_made
 from scaffold.model.rclpy.parameters.objects import (
     CALLBACKS,
@@ -69,11 +68,8 @@ from scaffold.model.rclpy.parameters.objects import (
     parameters_set,
     types_compared,
 )
-from scaffold.model.rclpy.parameters.values import objects_used
 from scaffold.model.rclpy.qos import conflict_of
 from scaffold.model.rclpy.stopping import only_while_stopping
-from scaffold.model.rclpy.time_units import unit_problems
-from scaffold.model.rclpy.times import NUMBER, clocks_of
 from scaffold.model.rclpy.transforms import (
     CONVERSIONS,
     Lookup,
@@ -91,10 +87,8 @@ __all__ = [
     "GOAL_HANDLE",
     "LOG_METHODS",
     "NODE",
-    "NUMBER",
     "PARAMETER",
     "PLACES",
-    "RESULT",
     "ActionClient",
     "ActionServer",
     "Argument",
@@ -123,7 +117,6 @@ __all__ = [
     "changed_calls",
     "changed_uses",
     "class_of",
-    "clocks_of",
     "conflict_of",
     "defined_by",
     "given_from_outside",
@@ -151,7 +144,6 @@ __all__ = [
     "namespace_problem",
     "node_problem",
     "numbers_taken",
-    "objects_used",
     "only_while_stopping",
     "parameter_read",
     "parameters_set",
@@ -160,8 +152,6 @@ __all__ = [
     "rclpy_paths",
     "topic_problem",
     "types_compared",
-    "unit_problems",
     "used_by_classes",
     "worker",
-    "wrong_value",
 ]

@@ -2,12 +2,6 @@
 
 from __future__ import annotations
 
-from scaffold.model.robot.bridges import (
-    BRIDGED_TYPES,
-    BridgeEntry,
-    bridge_entries,
-    bridge_roots,
-)
 from scaffold.model.robot.expressions import UNKNOWN_MARK, is_known
 from scaffold.model.robot.files import RobotFile, robot_file, robot_paths
 from scaffold.model.robot.robots import (
@@ -23,9 +17,7 @@ from scaffold.model.robot.xacro.parts import NamedFile, Part
 from scaffold.model.robot.xacro.problems import Misfit, Problems, Undefined
 
 __all__ = [
-    "BRIDGED_TYPES",
     "UNKNOWN_MARK",
-    "BridgeEntry",
     "Expansion",
     "Misfit",
     "NamedFile",
@@ -34,8 +26,6 @@ __all__ = [
     "RobotFile",
     "Robots",
     "Undefined",
-    "bridge_entries",
-    "bridge_roots",
     "is_argument_given",
     "is_known",
     "is_launched",

@@ -10,7 +10,6 @@ from scaffold.api.parameters import declared_alone, declared_by, has_always
 from scaffold.api.python import returned
 from scaffold.api.rclpy import (
     CALLBACKS,
-    RESULT,
     Callback,
     NodeClass,
     RclpyFile,
@@ -20,6 +19,8 @@ from scaffold.api.rclpy import (
     names_compared,
     types_compared,
 )
+
+from ._callbacks import RESULT
 
 _TYPES = ("rclpy.parameter.Parameter.Type.", "rclpy.Parameter.Type.")
 _NODE = (

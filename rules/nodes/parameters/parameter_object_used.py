@@ -7,7 +7,9 @@ from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, RclpyRule, Report
 from scaffold.api.python import is_handled
-from scaffold.api.rclpy import FIELDS, PARAMETER, RclpyFile, class_of, objects_used
+from scaffold.api.rclpy import FIELDS, PARAMETER, RclpyFile, class_of
+
+from ._values import objects_used
 
 _NODE = (
     "from rclpy.node import Node\n\n\n"

@@ -6,9 +6,9 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, RclpyRule, Report, Severity
-from scaffold.api.programs import Shutdowns, used_of_executor
 from scaffold.api.rclpy import RclpyCall, RclpyFile, class_of
 
+from ._executors import Shutdowns, used_of_executor
 from ._spinning import needs_spin
 
 _NODE = (

@@ -7,7 +7,9 @@ from collections.abc import Iterator, Mapping
 
 from scaffold.api import Diagnostic, Example, RclpyRule, Report, Severity
 from scaffold.api.python import conditions_on, is_handled
-from scaffold.api.rclpy import NUMBER, RclpyFile, clocks_of
+from scaffold.api.rclpy import RclpyFile
+
+from ._times import NUMBER, clocks_of
 
 _NAMES = {
     "ROS_TIME": "the ROS clock",

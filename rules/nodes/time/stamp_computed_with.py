@@ -6,7 +6,9 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, RclpyRule
-from scaffold.api.rclpy import NUMBER, RclpyFile, class_of, clocks_of
+from scaffold.api.rclpy import RclpyFile, class_of
+
+from ._times import NUMBER, clocks_of
 
 _SPANS = frozenset({"rclpy.duration.Duration", "rclpy.time.Time"})
 _NODE = (

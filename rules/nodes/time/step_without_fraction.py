@@ -6,7 +6,9 @@ import ast
 from collections.abc import Iterator, Sequence
 
 from scaffold.api import Diagnostic, Effect, Example, RclpyRule
-from scaffold.api.rclpy import RclpyFile, unit_problems
+from scaffold.api.rclpy import RclpyFile
+
+from ._time_units import unit_problems
 
 _PARTS = ("sec", "nanosec")
 _STEPS = frozenset({"dt", "delta_t", "delta_time", "time_delta", "time_step", "timestep", "d_t"})

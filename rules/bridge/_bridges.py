@@ -6,15 +6,13 @@ Derived from ros_gz 1.0 (Jazzy): ``bridge_config.cpp`` and ``mappings.py``.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
-from scaffold.formats import yaml as yaml_tree
-from scaffold.formats.yaml import Mapping, Scalar, Sequence
-from scaffold.record import NamedTuple
-from scaffold.source import Location, ParseError, ViewError
+from scaffold.api import Location, ParseError, ViewError
+from scaffold.api.formats import Mapping, Scalar, Sequence, yaml_tree
 
 if TYPE_CHECKING:
-    from scaffold.model.package import Package
+    from scaffold.api import Package
 
 _MARKS = (
     *("gz_type_name", "ros_type_name", "ign_type_name", "gz_topic_name"),

@@ -4,15 +4,12 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
-from scaffold.model.launch.actions import function_of
-from scaffold.model.launch.calls import LaunchCall
-from scaffold.model.launch.python_file import NODES, LaunchFile
-from scaffold.record import NamedTuple
+from scaffold.api.launch import NODES, LaunchCall, LaunchFile, function_of
 
 if TYPE_CHECKING:
-    from scaffold.model.python.scopes import FunctionNode
+    from scaffold.api.python import FunctionNode
 
 _AT_ONCE = (
     *NODES,

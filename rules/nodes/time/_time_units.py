@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from scaffold.model.rclpy.file import RclpyFile
+    from scaffold.api.rclpy import RclpyFile
 
 _LARGEST = 10_000
 """The number of nanoseconds below which a compared number has another unit."""

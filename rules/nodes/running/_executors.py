@@ -6,8 +6,7 @@ import ast
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from scaffold.model.rclpy.file import RclpyFile
-    from scaffold.model.rclpy.init_and_spin import RclpyCall
+    from scaffold.api.rclpy import RclpyCall, RclpyFile
 
 _FAR = 200
 """The maximum number of statements between, which are not checked."""

@@ -7,8 +7,7 @@ from itertools import takewhile
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from scaffold.model.cmake.lists import CMakeLists
-    from scaffold.model.cmake.parser import Argument, Command
+    from scaffold.api.cmake import Argument, CMakeLists, Command
 
 
 _DEFINING = (

@@ -6,12 +6,11 @@ import ast
 import re
 from typing import TYPE_CHECKING, TypeGuard
 
-from scaffold.model.python.returns import is_generator, may_end, returned
-from scaffold.model.rclpy.parameters.descriptors import message_made
-from scaffold.model.rclpy.parameters.objects import CALLBACKS
+from scaffold.api.python import is_generator, may_end, returned
+from scaffold.api.rclpy import CALLBACKS, message_made
 
 if TYPE_CHECKING:
-    from scaffold.model.rclpy.file import RclpyFile
+    from scaffold.api.rclpy import RclpyFile
 
 _PRE = CALLBACKS[-1]
 RESULT = "rcl_interfaces.msg.SetParametersResult"

@@ -6,11 +6,11 @@ import ast
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
-from scaffold.model.python.returns import returned
-from scaffold.model.rclpy.api import class_of
+from scaffold.api.python import returned
+from scaffold.api.rclpy import class_of
 
 if TYPE_CHECKING:
-    from scaffold.model.rclpy.file import RclpyFile
+    from scaffold.api.rclpy import RclpyFile
 
 _DEFAULTS: Mapping[str, tuple[int, str]] = {
     "rclpy.time.Time.from_msg": (1, "ROS_TIME"),

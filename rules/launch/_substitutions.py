@@ -7,15 +7,13 @@ import builtins
 import math
 import warnings
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
-from scaffold.model.python.values import UNKNOWN, Unknown
-from scaffold.record import NamedTuple
+from scaffold.api.python import UNKNOWN, Unknown
 
 if TYPE_CHECKING:
-    from scaffold.model.launch.calls import LaunchCall
-    from scaffold.model.launch.python_file import LaunchFile
-    from scaffold.model.python.module import PythonModule
+    from scaffold.api.launch import LaunchCall, LaunchFile
+    from scaffold.api.python import PythonModule
 
 
 _KINDS = frozenset(

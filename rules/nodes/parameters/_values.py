@@ -6,12 +6,11 @@ import ast
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
-from scaffold.model.python.values import is_none_literal
-from scaffold.model.rclpy.api import PARAMETER, class_of
+from scaffold.api.python import is_none_literal
+from scaffold.api.rclpy import PARAMETER, class_of
 
 if TYPE_CHECKING:
-    from scaffold.model.rclpy.entities import Entity
-    from scaffold.model.rclpy.file import RclpyFile
+    from scaffold.api.rclpy import Entity, RclpyFile
 
 _BUILTINS = frozenset(
     {"abs", "bool", "dict", "enumerate", "float", "int", "len", "list", "max", "min", "open"}
