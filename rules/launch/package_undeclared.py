@@ -8,7 +8,7 @@ from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
 from scaffold.api.catalog import OTHER_NAMES, ROS1_PACKAGES, is_released
 from scaffold.api.distributions import target
 from scaffold.api.launch import Reference, exists, meant_package, package_uses
-from scaffold.api.manifest import declared, declaring
+from scaffold.api.manifest import declared, declaring, is_installed_to_build
 
 _LAUNCH = (
     "from launch import LaunchDescription\nfrom launch_ros.actions import Node\n\n\n"
@@ -38,8 +38,8 @@ class PackageUndeclared(Rule):
     code = "LF005"
     name = "package-undeclared"
     other_severities = {
-        Severity.WARNING: "the package is in the workspace, provides a ros2 command, or may come "
-        "with an unknown dependency, whose name is related"
+        Severity.WARNING: "the package is in the workspace, provides a ros2 command, is installed "
+        "to build the workspace, or may come with an unknown dependency"
     }
     examples = (
         Example(
@@ -64,6 +64,25 @@ class PackageUndeclared(Rule):
             fixed={
                 "package.xml": _MANIFEST.format(
                     "  <exec_depend>launch_ros</exec_depend>\n  <exec_depend>rviz2</exec_depend>\n"
+                )
+            },
+        ),
+        Example(
+            "a dependency outside of every distribution that may bring it",
+            {
+                "package.xml": _MANIFEST.format("  <exec_depend>arm_bringup</exec_depend>\n"),
+                "launch/a.launch.py": _LAUNCH,
+            },
+            Report(
+                "launch/a.launch.py:8:22",
+                "starts a node of 'rviz2', which package.xml does not declare; add "
+                "<exec_depend>rviz2</exec_depend>",
+                fix="Declare rviz2",
+                severity=Severity.WARNING,
+            ),
+            fixed={
+                "package.xml": _MANIFEST.format(
+                    "  <exec_depend>arm_bringup</exec_depend>\n  <exec_depend>rviz2</exec_depend>\n"
                 )
             },
         ),
@@ -264,7 +283,8 @@ class PackageUndeclared(Rule):
                 yield self.report(use.location, f"{message}; use {replacement}")
                 continue
             is_near = package.workspace.get(use.name) is not None or use.name.startswith("ros2")
-            is_near = is_near or dependencies.may_bring(package, use.name)
+            is_near = is_near or dependencies.may_use(package, use.name)
+            is_near = is_near or is_installed_to_build(package, [use.name])
             severity = Severity.WARNING if is_near else Severity.ERROR
             other = next((item for item in manifest.dependencies if item.name == use.name), None)
             if other is not None:

@@ -18,6 +18,7 @@ from scaffold.api.manifest import (
     declaring,
     is_fetched,
     is_in_requirements,
+    is_installed_to_build,
     required_packages,
     requirements,
 )
@@ -63,8 +64,8 @@ class ImportUndeclared(Rule):
     other_severities = {
         Severity.WARNING: "it is installed with `ros2 launch` and only imported by launch files, "
         "only scripts in the share directory import it, requirements.txt or pyproject.toml lists "
-        "it, an unknown dependency with a related name may bring it, or it is torch, which is "
-        "often installed with pip",
+        "it, an unknown dependency may bring it, it is installed to build the workspace, or it is "
+        "torch, which is often installed with pip",
     }
     examples = (
         Example(
@@ -173,6 +174,7 @@ class ImportUndeclared(Rule):
                 "build only: <build_depend> does not install it where the package "
                 "runs; add <exec_depend>std_msgs</exec_depend>",
                 fix="Declare std_msgs",
+                severity=Severity.WARNING,
             ),
             fixed={
                 "package.xml": _manifest(
@@ -189,13 +191,80 @@ class ImportUndeclared(Rule):
             },
             Report(
                 "talker/node.py:2:1",
-                "imports 'std_srvs', which line 4 of package.xml declares for tests only: "
-                "<test_depend> does not install it where the package runs; add "
+                "imports 'std_srvs', which line 4 of package.xml declares for tests "
+                "only: <test_depend> does not install it where the package runs; add "
                 "<exec_depend>std_srvs</exec_depend>",
                 fix="Declare std_srvs",
+                severity=Severity.WARNING,
             ),
             fixed={
                 "package.xml": _manifest("rclpy", "std_srvs", "<test_depend>std_srvs</test_depend>")
+            },
+        ),
+        Example(
+            "a library that a dependency outside of every distribution may bring",
+            {
+                "package.xml": _manifest("arm_driver", "rclpy"),
+                "talker/__init__.py": "",
+                "talker/node.py": "import rclpy\nimport scipy\n",
+            },
+            Report(
+                "talker/node.py:2:1",
+                "imports 'scipy', which package.xml does not declare; add "
+                "<exec_depend>python3-scipy</exec_depend>",
+                fix="Declare python3-scipy",
+                severity=Severity.WARNING,
+            ),
+            fixed={"package.xml": _manifest("arm_driver", "python3-scipy", "rclpy")},
+        ),
+        Example(
+            "a library that no interface package brings; the client library",
+            {
+                "package.xml": _manifest("arm_msgs"),
+                "talker/__init__.py": "",
+                "talker/node.py": "import rclpy\nimport scipy\nfrom nav_msgs.msg import Path\n",
+            },
+            Report(
+                "talker/node.py:1:1",
+                "imports 'rclpy', which package.xml does not declare; add "
+                "<exec_depend>rclpy</exec_depend>",
+                fix="Declare rclpy",
+            ),
+            Report(
+                "talker/node.py:2:1",
+                "imports 'scipy', which package.xml does not declare; add "
+                "<exec_depend>python3-scipy</exec_depend>",
+                fix="Declare python3-scipy",
+            ),
+            Report(
+                "talker/node.py:3:1",
+                "imports 'nav_msgs', which package.xml does not declare; add "
+                "<exec_depend>nav_msgs</exec_depend>",
+                fix="Declare nav_msgs",
+                severity=Severity.WARNING,
+            ),
+            fixed={"package.xml": _manifest("arm_msgs", "nav_msgs", "python3-scipy", "rclpy")},
+        ),
+        Example(
+            "a library that a package of the workspace is built with",
+            {
+                "package.xml": _manifest("arm"),
+                "talker/__init__.py": "",
+                "talker/node.py": "import numpy\n",
+            },
+            Report(
+                "talker/node.py:1:1",
+                "imports 'numpy', which package.xml does not declare; add "
+                "<exec_depend>python3-numpy</exec_depend>",
+                fix="Declare python3-numpy",
+                severity=Severity.WARNING,
+            ),
+            fixed={"package.xml": _manifest("arm", "python3-numpy")},
+            neighbors={
+                "arm": {
+                    "package.xml": "<package><name>arm</name>\n"
+                    "<build_depend>python3-numpy</build_depend></package>\n"
+                }
             },
         ),
         Example(
@@ -491,7 +560,8 @@ class ImportUndeclared(Rule):
                 continue  # reported by module-of-ros1-imported
             comes_otherwise = _comes_with_launch(need) or need.module in _INDEX or need.in_data
             comes_otherwise = comes_otherwise or is_from_pip
-            comes_otherwise = comes_otherwise or dependencies.may_bring(package, need.keys[0])
+            comes_otherwise = comes_otherwise or dependencies.may_use(package, need.keys[0])
+            comes_otherwise = comes_otherwise or is_installed_to_build(package, need.keys)
             severity = Severity.WARNING if comes_otherwise else Severity.ERROR
             purposes = ("run", "test") if need.for_tests else ("run",)
             other = manifest.left_out(need.keys, *purposes)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from scaffold.model.contents import requirements
+from scaffold.model.contents.build_requirements import is_installed_to_build
 from scaffold.model.contents.package_name import name_used_elsewhere
 from scaffold.model.contents.requirements import declared, required_packages
 from scaffold.model.discovery.declaring import declaring, way_back
@@ -30,6 +31,7 @@ __all__ = [
     "holds",
     "is_fetched",
     "is_in_requirements",
+    "is_installed_to_build",
     "is_never_true",
     "is_placeholder",
     "is_placeholder_address",

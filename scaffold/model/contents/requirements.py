@@ -14,6 +14,8 @@ from scaffold.model.catalog import (
     keys_brought,
     keys_of_module,
     module_of_key,
+    similar_key,
+    similar_package,
 )
 from scaffold.model.contents.ament_cmake import programs
 from scaffold.model.contents.interface_files import generations
@@ -40,6 +42,8 @@ _NOT_INSTALLING = re.compile(
 """Matches CMake calls with C++ directories, and the search path of tests."""
 _OF_MESSAGES = ("_msgs", "_interfaces", "_msg")
 """The last parts of names of interface packages, which often use those of ROS."""
+_TOOLS = ("ament_", "launch", "rclcpp", "rclpy", "rosbag2", "rosidl_")
+"""The first parts of names of client libraries, and of tools for builds and tests."""
 _COMMON_WORDS = frozenset({"ament", "my", "python", "python3", "ros", "ros2"})
 """First parts of names that do not make packages related."""
 _OLD_STANDARD_LIBRARY = frozenset({"distutils", "imp", "asynchat", "asyncore", "smtpd"})
@@ -82,6 +86,16 @@ class Declared(NamedTuple):
         """
         return package.workspace.get(name) is None and any(
             _are_related(dependency, name) for dependency in self.unknown
+        )
+
+    def may_use(self, package: Package, name: str) -> bool:
+        """Tell whether an unknown dependency may bring a library or node that it uses itself.
+
+        ``arm_driver`` may use any one, which ``arm_msgs`` does not.
+        """
+        return self.may_bring(package, name) or (
+            package.workspace.get(name) is None
+            and any(_may_use(dependency, name) for dependency in self.unknown)
         )
 
 
@@ -163,6 +177,16 @@ def _are_related(dependency: str, name: str) -> bool:
     if first == name.partition("_")[0] and first not in _COMMON_WORDS:
         return True
     return dependency.endswith(_OF_MESSAGES) and _has_messages(name)
+
+
+def _may_use(dependency: str, name: str) -> bool:
+    """Tell whether a package may use a library or a node of ROS, as its name is of no other kind.
+
+    Programs themselves declare their client library, and the tools of builds and tests.
+    """
+    meant = similar_package(dependency) or similar_key(dependency)
+    is_of_ros = "_" in dependency and not dependency.endswith(_OF_MESSAGES) and meant is None
+    return is_of_ros and not dependency.startswith(_TOOLS) and not name.startswith(_TOOLS)
 
 
 def _has_messages(name: str) -> bool:

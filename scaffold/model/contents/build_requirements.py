@@ -1,0 +1,40 @@
+"""What is installed where a package is built from source."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from typing import TYPE_CHECKING
+
+from scaffold.model.catalog import keys_brought
+from scaffold.model.released import transitive_dependencies
+from scaffold.source import ViewError
+
+if TYPE_CHECKING:
+    from scaffold.model.package import Package
+
+
+def is_installed_to_build(package: Package, keys: Collection[str]) -> bool:
+    """Tell whether building a package and what it uses from source installs one of some keys.
+
+    rosdep installs the dependencies of all kinds, and colcon builds the used packages of the
+    workspace on the same machine; their test dependencies do not count.
+    """
+    return not package.remember("installed to build", lambda: _to_build(package)).isdisjoint(keys)
+
+
+def _to_build(package: Package) -> frozenset[str]:
+    result: set[str] = set()
+    pending = [package.name]
+    kinds = ["build", "build_export", "run", "test"]
+    while pending:
+        name = pending.pop()
+        neighbor = package if name == package.name else package.workspace.get(name)
+        try:
+            names = set() if neighbor is None else neighbor.manifest.names_for(*kinds)
+        except ViewError:
+            continue
+        kinds = ["build", "build_export", "run"]
+        pending += names - result
+        result |= names
+    result |= transitive_dependencies(result)
+    return frozenset(result | keys_brought(result))
