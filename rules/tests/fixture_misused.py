@@ -15,6 +15,7 @@ from scaffold.api.tests import (
     arguments,
     files_of_tests,
     fixtures,
+    may_be_imported,
     own_fixtures,
     test_functions,
     test_modules,
@@ -77,6 +78,13 @@ class FixtureMisused(Rule):
                 + "\n\nclass TestText:\n    def test_self(self):\n        assert self\n",
             },
             "test/test_a.py:9:5: there is no fixture 'word'; no test uses 'text'",
+        ),
+        Example(
+            "imported from a package outside of the workspace",
+            {
+                "test/test_text.py": "from arm_testing.fixtures import arm as arm, gripper\n"
+                + _TEST.format("return 'a'", "arm, gripper", "gripper")
+            },
         ),
         Example("used", {"test/test_text.py": _TEST.format("return 'a'", "text", "text")}),
         Example(
@@ -168,11 +176,10 @@ class FixtureMisused(Rule):
                 yield self.report(module.location(use), message)
         for module in test_modules(package):
             if LAUNCH not in module.functions:
-                yield from self._check_tests(module, fixtures(package, module))
+                yield from self._check_tests(package, module)
 
-    def _check_tests(
-        self, module: PythonModule, available: Mapping[str, Fixture]
-    ) -> Iterator[Diagnostic]:
+    def _check_tests(self, package: Package, module: PythonModule) -> Iterator[Diagnostic]:
+        available = fixtures(package, module)
         for test in test_functions(module):
             if test.class_ is not None and test.class_.bases:
                 continue
@@ -184,7 +191,11 @@ class FixtureMisused(Rule):
                             message = f"the fixture {name} returns nothing, so this is None"
                             yield self.report(module.location(node), message)
                             break
-                elif fixture is None and not test.node.decorator_list:
+                elif (
+                    fixture is None
+                    and not test.node.decorator_list
+                    and not may_be_imported(package, module, name)
+                ):
                     message = _missing(module, test, name, available)
                     if message:
                         yield self.report(module.name_location(test.node), message)

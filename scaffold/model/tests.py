@@ -126,15 +126,28 @@ def fixture_decorator(module: PythonModule, function: FunctionNode) -> ast.expr 
 def fixtures(package: Package, module: PythonModule) -> Mapping[str, Fixture]:
     """Return the fixtures of a test file and of its conftest.py files, by name."""
     result: dict[str, Fixture] = {}
-    directory = module.path.rpartition("/")[0]
-    paths = [
-        path for path in package.python_files if path == module.path or _is_near(path, directory)
-    ]
-    for other in package.modules(paths):
+    for other in _with_conftests(package, module):
         for fixture in own_fixtures(other):
             if other is module or fixture.name not in result:
                 result[fixture.name] = fixture
     return result
+
+
+def may_be_imported(package: Package, module: PythonModule, name: str) -> bool:
+    """Tell whether a test file or one of its conftest.py files may import a fixture."""
+    return any(
+        taken.name == "*" or (taken.asname or taken.name) == name
+        for other in _with_conftests(package, module)
+        for item in other.imports
+        for taken in item.names
+    )
+
+
+def _with_conftests(package: Package, module: PythonModule) -> Iterator[PythonModule]:
+    directory = module.path.rpartition("/")[0]
+    return package.modules(
+        path for path in package.python_files if path == module.path or _is_near(path, directory)
+    )
 
 
 def _is_near(path: str, directory: str) -> bool:
