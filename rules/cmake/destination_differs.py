@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Container, Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, Severity
 from scaffold.api.cmake import Command, Install
 from scaffold.api.distributions import target
-from scaffold.api.launch import DATA_DIRECTORIES
+from scaffold.api.launch import DATA_DIRECTORIES, is_named
 
 _LISTS = "project(talker)\ninstall(PROGRAMS talker/node.py DESTINATION {})\n"
 _RIGHT = "lib/${PROJECT_NAME}"
@@ -91,6 +91,34 @@ class DestinationDiffers(Rule):
                 fix="Install to share/${PROJECT_NAME}",
             ),
             fixed={"CMakeLists.txt": _LISTS_SHARE.format(_WANTED)},
+        ),
+        Example(
+            "data that no code looks for in the share directory, and a launch file that does",
+            {
+                "CMakeLists.txt": "project(talker)\n"
+                "install(DIRECTORY config DESTINATION lib/${PROJECT_NAME})\n"
+                "install(DIRECTORY params DESTINATION lib/${PROJECT_NAME})\n"
+                "install(DIRECTORY launch DESTINATION share/${PROJECT_NAME})\n",
+                "package.xml": "<package><name>talker</name></package>\n",
+                "config/states.yaml": "start: done\n",
+                "params/talk.yaml": "talker: {ros__parameters: {rate: 1.0}}\n",
+                "launch/talk.launch.py": "import os\n\n"
+                "from ament_index_python.packages import get_package_share_directory\n\n\n"
+                "def generate_launch_description():\n"
+                "    share = get_package_share_directory('talker')\n"
+                "    print(os.path.join(share, 'params', 'talk.yaml'))\n",
+            },
+            Report(
+                "CMakeLists.txt:3:38",
+                "installs to lib/talker/, but `ros2 launch` searches share/talker/",
+                fix="Install to share/${PROJECT_NAME}",
+            ),
+            fixed={
+                "CMakeLists.txt": "project(talker)\n"
+                "install(DIRECTORY config DESTINATION lib/${PROJECT_NAME})\n"
+                "install(DIRECTORY params DESTINATION share/${PROJECT_NAME})\n"
+                "install(DIRECTORY launch DESTINATION share/${PROJECT_NAME})\n"
+            },
         ),
         Example("relative", {"CMakeLists.txt": _LISTS_ABSOLUTE.format("share/${PROJECT_NAME}")}),
         Example(
@@ -195,16 +223,13 @@ class DestinationDiffers(Rule):
             given = (install.destination or "").rstrip("/")
             if install.kind != "DIRECTORY" or argument is None or not given:
                 continue
-            if given.startswith((right, "/", "$", ".")) or not self._holds_data(install, placed):
+            if given.startswith((right, "/", "$", ".")) or not _holds_data(
+                package, install, placed
+            ):
                 continue
             edit = Edit("CMakeLists.txt", argument.start, argument.end, _WANTED)
             message = f"installs to {given}/, but `ros2 launch` searches {right}/"
             yield self.report(argument, message, Fix(f"Install to {_WANTED}", (edit,)))
-
-    def _holds_data(self, install: Install, placed: set[str | None]) -> bool:
-        """Tell whether only launch data is installed, and only here."""
-        paths = [item.path for item in install.items]
-        return bool(paths) and all(path in DIRECTORIES and path not in placed for path in paths)
 
     def _check_absolute(self, package: Package) -> Iterator[Diagnostic]:
         for install in package.cmake.installs:
@@ -231,6 +256,14 @@ class DestinationDiffers(Rule):
                 is_searched = f"python{target().python_version}/" in where
                 severity = Severity.WARNING if is_searched else None
                 yield self.report(argument, message, severity=severity)
+
+
+def _holds_data(package: Package, install: Install, placed: Container[str | None]) -> bool:
+    """Tell whether an install has launch files, or only data that is looked for in share."""
+    paths = [item.path for item in install.items]
+    if not all(path in DIRECTORIES and path not in placed for path in paths):
+        return False
+    return any(path == "launch" or (path and is_named(package, path)) for path in paths)
 
 
 def _is_asked_for(command: Command) -> bool:
