@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
 
 from scaffold.api import (
     Diagnostic,
     Example,
     Package,
+    Report,
     Rule,
+    Severity,
     ViewError,
     closest_name,
     listed_names,
@@ -117,6 +120,10 @@ def _files(
     }
 
 
+_STARTING = (".py", ".xml", ".yaml", ".yml", ".sh", ".cpp", ".hpp", ".xacro")
+"""Ends of the names of files that may start a controller."""
+
+
 class ControllerUnfit(Rule):
     """A controller of ros2_control has no type, a ROS 1 type, or unknown joints.
 
@@ -133,6 +140,7 @@ class ControllerUnfit(Rule):
 
     code = "PF010"
     name = "controller-unfit"
+    other_severities = {Severity.WARNING: "no other file names the controller with the joint"}
     examples = (
         Example("matching controllers and joints", _files()),
         Example(
@@ -149,6 +157,18 @@ class ControllerUnfit(Rule):
             _files(joint="right_wheel_joint"),
             "config/controllers.yaml:10:25: the robot has no joint 'right_wheel_joint': the "
             "controller fails; did you mean 'right_joint'?",
+        ),
+        Example(
+            "an unknown joint of a controller that nothing starts",
+            _files(joint="right_wheel_joint", words="'--help'", loaded="other"),
+            Report(
+                "config/controllers.yaml:10:25",
+                "the robot has no joint 'right_wheel_joint': the controller fails; did "
+                "you mean 'right_joint'?",
+                severity=Severity.WARNING,
+            ),
+            "launch/robot.launch.py:15:29: no file sets the type of 'other' for the controller "
+            "manager: it is not loaded; known: base_controller",
         ),
         Example(
             "an interface that another controller exports to a chained one",
@@ -260,7 +280,7 @@ class ControllerUnfit(Rule):
         joints = _joints(package)
         for file in files:
             named = [
-                item
+                (section.name, item)
                 for section in file.sections
                 if section.name in types
                 for entry in section.entries
@@ -268,9 +288,9 @@ class ControllerUnfit(Rule):
                 for item in _texts(entry)
             ]
             # For another robot, unless at least one is of this robot.
-            if not any(item.text in joints for item in named):
+            if not any(item.text in joints for _, item in named):
                 continue
-            for item in named:
+            for controller, item in named:
                 exporter = item.text.partition("/")[0]
                 if exporter in types and exporter != item.text:
                     continue  # a reference interface of a controller, for a chained one
@@ -278,7 +298,9 @@ class ControllerUnfit(Rule):
                     closest = closest_name(package, item.text, joints, 0.6)
                     hint = f"; did you mean {closest!r}?" if closest else ""
                     message = f"the robot has no joint {item.text!r}: the controller fails{hint}"
-                    yield self.report(item.location, message)
+                    is_started = _is_named_elsewhere(package, controller, file.path)
+                    severity = None if is_started else Severity.WARNING
+                    yield self.report(item.location, message, severity=severity)
 
     def _check_spawned(self, package: Package, types: Mapping[str, Entry]) -> Iterator[Diagnostic]:
         spawned = list(_spawned(package)) if types else []
@@ -294,6 +316,17 @@ class ControllerUnfit(Rule):
                     f"not loaded; known: {listed_names(types, word.text)}"
                 )
                 yield self.report(word.location, message)
+
+
+def _is_named_elsewhere(package: Package, controller: str, path: str) -> bool:
+    """Tell whether another file of the workspace names a controller, perhaps to start it."""
+    for other in package.workspace:
+        for place in other.files:
+            if place.endswith(_STARTING) and (other is not package or place != path):
+                with suppress(ViewError):
+                    if controller.encode() in other.data(place):
+                        return True
+    return False
 
 
 def _spawned(package: Package) -> Iterator[tuple[str, Word]]:
