@@ -199,6 +199,6 @@ def _text_for_bytes(finding: TypeFinding) -> str:
     matched = finding.match(
         r"Argument to bound method `bytes\.(?P<method>\w+)` is incorrect: .*, found `(?P<given>.+)`"
     )
-    if matched is None or in_words(matched["given"]) != "a str":
+    if matched is None or in_words(matched["given"]) != "a str" or finding.may_be_text():
         return ""
     return f"{matched['method']}() of bytes cannot use a str: TypeError; decode() the bytes first"

@@ -120,6 +120,30 @@ class ArgumentTypeUnfit(TypeRule):
             "geometry_msgs.msg.Quaternion: euler_from_quaternion() fails",
         ),
         Example(
+            "path of an address that may be None, str passed to a method of bytes",
+            {
+                "upload.py": "import os\nfrom urllib.parse import urlparse\n\nimport rclpy\n\n"
+                "rclpy.init()\nplace = urlparse(os.getenv('BUCKET'))\n"
+                "print(place.path.strip('/'), b'/'.strip('/'))\n"
+            },
+            "8:41: strip() of bytes cannot use a str: TypeError; decode() the bytes first",
+        ),
+        Example(
+            "call that a test expects to fail, call that it does not",
+            {
+                "test/test_driver.py": "import unittest\n\nimport pytest\nimport rclpy\n"
+                "import serial\n\n\n"
+                "class TestDriver(unittest.TestCase):\n    def test_write(self):\n"
+                "        rclpy.init()\n        port = serial.Serial()\n\n"
+                "        def write():\n            port.write('go')\n\n"
+                "        self.assertRaises(TypeError, write)\n"
+                "        self.assertRaises(TypeError, lambda: port.write('go'))\n"
+                "        with pytest.raises(TypeError):\n            port.write('go')\n"
+                "        port.write('go')\n"
+            },
+            "20:20: 'b' of write() must be bytes, not a str: write() fails",
+        ),
+        Example(
             "too many arguments: not reported by this rule",
             {"driver.py": _DRIVER.format("b'go'", "0.0, 0.0, q.z")},
         ),

@@ -688,6 +688,15 @@ class AttributeMissing(TypeRule):
             "4:1: std_msgs.msg.String has no 'text': AttributeError; it has data",
         ),
         Example(
+            "generated metaclass of a message, and a name that its module does not have",
+            {
+                "say.py": "import std_msgs.msg\n\n"
+                "print(std_msgs.msg._string.Metaclass_String, std_msgs.msg._string.Words)\n"
+            },
+            "3:46: std_msgs.msg._string has no 'Words': AttributeError; it has Metaclass_String, "
+            "String",
+        ),
+        Example(
             "coroutine that is awaited, coroutine that is closed",
             {
                 "home.py": _HOMING.format("await self.ask()", "success")

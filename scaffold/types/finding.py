@@ -12,7 +12,7 @@ from scaffold.model.package import Package
 from scaffold.model.python.distribution_branches import stretches_not_run
 from scaffold.model.python.distribution_conditions import open_parts
 from scaffold.model.python.guards import Condition, all_conditions, has_fallback, values_asked
-from scaffold.model.python.handlers import last_names
+from scaffold.model.python.handlers import is_tested_to_fail, last_names
 from scaffold.model.python.module import PythonModule
 from scaffold.source import Location
 from scaffold.types import origins
@@ -39,7 +39,6 @@ _PROBED = frozenset(
     {"AttributeError", "ImportError", "ModuleNotFoundError", "NameError", "TypeError"}
 )
 _ANYTHING = frozenset({"Exception", "BaseException"})
-_EXPECTING = frozenset({"raises", "suppress", "assertRaises", "assertRaisesRegex", "assertWarns"})
 _OF_ELEMENTS = frozenset({"not-subscriptable", "not-iterable"})
 """Kinds of reports about an object, not about a call."""
 _OF_ARGUMENTS = frozenset(
@@ -164,6 +163,11 @@ class TypeFinding:
                 yield node
             pending.extend(ast.iter_child_nodes(node))
 
+    def may_be_text(self) -> bool:
+        """Tell whether the called method of bytes may be one of a str."""
+        call = self.enclosing_call
+        return call is not None and origins.may_be_text(self.module, call.func)
+
     def is_certain(self) -> bool:
         """Tell whether no code around the place anticipates the reported error.
 
@@ -172,7 +176,7 @@ class TypeFinding:
         node = self.innermost
         if node is None or self._is_of_several(node) or self._is_of_another(node):
             return False
-        if self._is_patched(node) or self._is_imported_anew(node) or self._is_defined_again(node):
+        if is_tested_to_fail(self.module, node) or self._is_changed_later(node):
             return False
         conditions = [*all_conditions(self.module, node)]
         if (
@@ -187,10 +191,16 @@ class TypeFinding:
                 case ast.Try() if self._is_tried(parent, child):
                     return False
                 case ast.With(items=items) | ast.AsyncWith(items=items):
-                    if any(_expects(item.context_expr) for item in items):
+                    if any(_suppresses(item.context_expr) for item in items):
                         return False
             child = parent
         return child not in self.module.passed_over and not is_for_ros1(self.module, node)
+
+    def _is_changed_later(self, node: ast.AST) -> bool:
+        """Tell whether what is used is patched, imported or defined again."""
+        return (
+            self._is_patched(node) or self._is_imported_anew(node) or self._is_defined_again(node)
+        )
 
     def _is_patched(self, node: ast.AST) -> bool:
         """Tell whether a test patches what is used."""
@@ -399,5 +409,5 @@ def _cases(condition: ast.expr) -> Iterator[ast.Compare]:
             yield node
 
 
-def _expects(expression: ast.expr) -> bool:
-    return isinstance(expression, ast.Call) and bool(last_names(expression.func) & _EXPECTING)
+def _suppresses(expression: ast.expr) -> bool:
+    return isinstance(expression, ast.Call) and "suppress" in last_names(expression.func)

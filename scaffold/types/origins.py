@@ -16,6 +16,8 @@ _MAX_FUNCTIONS = 4
 """The maximum number of functions that pass it on."""
 _HANDING_ON = frozenset({"enumerate", "iter", "list", "next", "reversed", "sorted", "tuple", "zip"})
 _PUTTING = frozenset({"append", "appendleft", "insert", "setdefault"})
+_OF_TEXT_OR_BYTES = frozenset({"fnmatch", "glob", "os", "re", "shutil", "tempfile", "urllib"})
+"""Modules whose functions return bytes for bytes, and some of them for ``None``."""
 _FUNCTIONS = (ast.FunctionDef, ast.AsyncFunctionDef)
 
 
@@ -65,6 +67,22 @@ def has_default(module: PythonModule, node: ast.AST) -> bool:
     return any(
         not stored.isdisjoint(module.index.bindings(class_))
         for class_ in (module.walk(ast.ClassDef) if stored else ())
+    )
+
+
+def may_be_text(module: PythonModule, node: ast.AST) -> bool:
+    """Tell whether a value that is reported as bytes is a str if the argument is not ``None``.
+
+    The type checker takes all overloads that fit some types of an argument.
+    """
+    return any(
+        isinstance(origin, ast.Call)
+        and (module.qualified_name(origin.func) or "").partition(".")[0] in _OF_TEXT_OR_BYTES
+        and not any(
+            isinstance(part, ast.Constant) and isinstance(part.value, bytes)
+            for part in ast.walk(origin)
+        )
+        for origin in _origins(module, node)
     )
 
 

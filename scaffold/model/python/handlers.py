@@ -3,11 +3,16 @@
 from __future__ import annotations
 
 import ast
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from scaffold.model.python.module import PythonModule
 
 IMPORT_ERRORS = frozenset({"ImportError", "ModuleNotFoundError", "Exception", "BaseException"})
 """The exceptions that catch a missing import."""
-_EXPECT = frozenset({"suppress", "raises", "assertRaises", "assertRaisesRegex"})
-"""Functions that expect an exception: ``with pytest.raises(ImportError):``."""
+_RAISES = frozenset({"raises", "assertRaises", "assertRaisesRegex", "assertWarns"})
+"""Functions of test libraries that expect an exception: ``with pytest.raises(ImportError):``."""
+_EXPECT = _RAISES | {"suppress"}
 
 
 def catches_import_errors(node: ast.Try) -> bool:
@@ -21,9 +26,38 @@ def catches_import_errors(node: ast.Try) -> bool:
 def expected_errors(item: ast.withitem) -> set[str]:
     """Return the last parts of the names of exceptions in ``suppress``, ``raises`` and the like."""
     match item.context_expr:
-        case ast.Call(func=func, args=args) if not _EXPECT.isdisjoint(last_names(func)):
+        case ast.Call(args=args) as call if _calls(call, _EXPECT):
             return set().union(*map(last_names, args))
     return set()
+
+
+def is_tested_to_fail(module: PythonModule, node: ast.AST) -> bool:
+    """Tell whether a test expects that a node fails.
+
+    It may be in a ``with``, in a lambda or in a nested function: ``assertRaises(TypeError, call)``.
+    """
+    child = node
+    for parent in module.parents(node):
+        match parent:
+            case ast.With(items=items) | ast.AsyncWith(items=items) if child in parent.body:
+                if any(_calls(item.context_expr, _RAISES) for item in items):
+                    return True
+            case ast.Call() if isinstance(child, ast.Lambda) and _calls(parent, _RAISES):
+                return True
+            case ast.FunctionDef(name=name) | ast.AsyncFunctionDef(name=name):
+                around = module.enclosing_function(parent)
+                return around is not None and any(
+                    _calls(call, _RAISES)
+                    and any(isinstance(item, ast.Name) and item.id == name for item in call.args)
+                    for call in module.below(around, ast.Call)
+                )
+        child = parent
+    return False
+
+
+def _calls(node: ast.expr, names: frozenset[str]) -> bool:
+    """Tell whether an expression calls a function with one of some names."""
+    return isinstance(node, ast.Call) and not names.isdisjoint(last_names(node.func))
 
 
 def last_names(node: ast.expr) -> set[str]:

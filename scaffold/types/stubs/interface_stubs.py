@@ -139,7 +139,10 @@ class _Renderer:
             self._imports.add("import builtins")
         parts = [self._render(class_) for class_ in classes]
         imports = sorted(self._imports, key=lambda line: (line.startswith("from _"), line))
-        return "\n".join([*imports, "", *parts])
+        metaclasses = [
+            f"class Metaclass_{class_.name}({self._builtins}type): ..." for class_ in classes
+        ]
+        return "\n".join([*imports, "", *parts, *metaclasses, ""])
 
     def _classes(self) -> Iterator[_Class]:
         name = self._interface.name
