@@ -445,6 +445,23 @@ def test_module_of_a_package_that_cmake_does_not_install(
     assert severities(capsys, "MS002,PX020") == {"talker/node.py": severity}
 
 
+def test_python_of_ros_1_in_a_library(package: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    manifest = MANIFEST.format("").replace("ament_python", "ament_cmake")
+    write(package / "package.xml", manifest)
+    lists = (
+        "project(talker)\nadd_library(${PROJECT_NAME}\n  src/talk.cpp)\n"
+        "# install(DIRECTORY src/talker)\nament_add_gtest(talk test/talk.cpp)\n"
+    )
+    write(package / "CMakeLists.txt", lists)
+    write(package / "src" / "talker" / "__init__.py", MISTAKE)
+    write(package / "test" / "CMakeLists.txt", "catkin_add_nosetests(parser.py)\n")
+    write(package / "test" / "parser.py", "from talker import talk\n" + MISTAKE)
+    found = {"src/talker/__init__.py": "warning", "test/parser.py": "warning"}
+    assert severities(capsys, "MS002") == found
+    write(package / "CMakeLists.txt", f"{lists}add_subdirectory(test)\n")
+    assert severities(capsys, "MS002") == dict.fromkeys(found, "error")
+
+
 LAUNCH = """from launch import LaunchDescription
 from launch_ros.actions import Node
 

@@ -37,6 +37,11 @@ _ADDS_DIRECTORY = re.compile(rb"\badd_subdirectory\s*\([^)]{0,200}\)")
 _INSTALLS_PYTHON = re.compile(rb"ament_python_install|python_setup|setup\.py")
 """Matches commands that may install a whole Python package."""
 _RUNS_SETUP = re.compile(rb"python_setup|setup\.py|\bpip3?\b")
+_OF_TARGETS = re.compile(
+    rb"\b(?:add_executable|add_library|ament_export_\w+|ament_target_dependencies|target_\w+"
+    rb"|install\s*\(\s*TARGETS|ament_(?:auto_)?add_(?:executable|gmock|gtest|library))\b[^)]{0,9999}\)"
+)
+"""Matches commands about C++."""
 _OF_PROJECT = re.compile(rb"(?<![/\w])\$\{PROJECT_NAME\}/?(?=[\s\")])")
 """Matches what may be the directory with the name of the package."""
 _PROJECT = re.compile(rb"\bproject\s*\([^)]{0,200}\)")
@@ -51,8 +56,9 @@ _BUILDING = ("CMakeLists.txt", "setup.py", "setup.cfg", "pyproject.toml")
 _NAMING = (*_KEPT, ".txt", ".cfg", ".toml", ".cmake", ".sh", ".bash")
 TEXTS = (".md", ".rst")
 """The endings of texts that tell people what to start."""
-_SETUP = "setup.py"
-_RUN_AS_THEY_ARE = frozenset({_SETUP, "__init__.py", "__main__.py"})
+_OF_CMAKE = ("CMakeLists.txt", ".cmake")
+_SETUP, _INIT = "setup.py", "__init__.py"
+_RUN_AS_THEY_ARE = frozenset({_SETUP, _INIT, "__main__.py"})
 _FOR_TESTS = "conftest.py"
 """The file that pytest loads for the tests in and below a directory."""
 
@@ -98,6 +104,8 @@ def _is_never_reached(package: Package, path: str, texts: tuple[str, ...]) -> bo
                 continue
             for naming in _files_naming(package, item, _stem(item), texts):
                 if not naming.endswith(".py"):
+                    if item.endswith(_INIT):
+                        continue  # which may mean the ROS package
                     return False
                 if naming not in seen:
                     seen.add(naming)
@@ -108,21 +116,25 @@ def _is_never_reached(package: Package, path: str, texts: tuple[str, ...]) -> bo
 
 
 def _stem(path: str) -> str:
-    return path.rpartition("/")[2].removesuffix(".py")
+    """Return the name under which a file is imported."""
+    return path.removesuffix(f"/{_INIT}").rpartition("/")[2].removesuffix(".py")
 
 
 def _is_apart(package: Package, path: str) -> bool:
     """Tell whether a Python file is in no directory that is installed, or no test that is run."""
     directory, _, name = path.rpartition("/")
     stem = name.removesuffix(".py")
-    if stem == name or name in _RUN_AS_THEY_ARE or ".launch." in name or stem.endswith("launch"):
+    if stem == name or ".launch." in name or stem.endswith("launch"):
+        return False
+    if name in _RUN_AS_THEY_ARE and not (name == _INIT and _is_built_by_cmake(package)):
         return False
     if is_in_tests(path):
         return is_unrun_test(package, path)
     if not any(package.has(item) for item in _BUILDING[:2]):
         return False
     parts = directory.split("/") if directory else []
-    installing = [without_comments(package.data(item)) for item in _building(package)]
+    building = (without_comments(package.data(item)) for item in _building(package))
+    installing = [_OF_TARGETS.sub(b"", data) for data in building]
     if is_in_python_package(package, path):
         whole = [_INSTALLS_PYTHON, *([_OF_PROJECT] if package.name in parts else [])]
         is_whole = any(pattern.search(data) for pattern in whole for data in installing)
@@ -152,9 +164,7 @@ def _building(package: Package) -> list[str]:
 def _uses_setup_py(package: Package) -> bool:
     """Tell whether CMake may run setup.py."""
     return any(
-        _RUNS_SETUP.search(without_comments(package.data(path)))
-        for path in package.files
-        if path.endswith(("CMakeLists.txt", ".cmake"))
+        _RUNS_SETUP.search(without_comments(package.data(path))) for path in _lists(package)
     )
 
 
@@ -186,13 +196,40 @@ def is_unrun_test(package: Package, path: str) -> bool:
 
 def _runs_in_cmake(package: Package, directories: Sequence[str]) -> bool:
     """Tell whether CMake runs Python, and names one of some directories as a whole, if any."""
-    lists = (item for item in package.files if item.endswith(("CMakeLists.txt", ".cmake")))
-    calls = [_ADDS_DIRECTORY.sub(b"", without_comments(package.data(item))) for item in lists]
+    lists = [without_comments(package.data(item)) for item in _lists(package)]
+    calls = [_ADDS_DIRECTORY.sub(b"", text) for text in lists]
     return any(
         _RUNS_PYTHON.search(text)
         and (not directories or any(_mentions_directory(text, part) for part in directories))
         for text in calls
     )
+
+
+def _lists(package: Package) -> frozenset[str]:
+    """Return the files of CMake, except those of directories that none of them adds."""
+    return package.remember("files of CMake", lambda: frozenset(_added_lists(package)))
+
+
+def _added_lists(package: Package) -> Iterator[str]:
+    names = [item for item in package.files if item.endswith(_OF_CMAKE)]
+    texts = {item: _commands_in(package, item) for item in names}
+    for item in names:
+        directory = item.removesuffix("/CMakeLists.txt")
+        added = directory.rpartition("/")[2].encode("utf-8", "surrogateescape")
+        if directory == item or any(
+            b"$" in call or added in call
+            for other, text in texts.items()
+            if other != item
+            for call in _ADDS_DIRECTORY.findall(text)
+        ):
+            yield item
+
+
+def _commands_in(package: Package, path: str) -> bytes:
+    try:
+        return without_comments(package.data(path))
+    except ViewError:  # it may add any directory
+        return b"add_subdirectory(${all})"
 
 
 def is_named(package: Package, path: str, stem: str, texts: tuple[str, ...] = ()) -> bool:
@@ -216,6 +253,7 @@ def _files_naming(package: Package, path: str, stem: str, texts: tuple[str, ...]
     for item in package.files:
         if (
             item not in {path, *unused}
+            and (not item.endswith(_OF_CMAKE) or item in _lists(package))
             and (item.endswith((*_NAMING, *texts)) or item.startswith("scripts/"))
             and not item.startswith(("config/", "params/"))
             and _is_in_code(package, item, stem, directory)
