@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
@@ -14,7 +15,7 @@ from scaffold.api.parameters import (
     place_of,
     scalar_type,
 )
-from scaffold.api.python import is_handled
+from scaffold.api.python import conditions_on, is_handled, values_asked
 from scaffold.api.rclpy import NodeClass, NodeDefinition, ParameterRead
 
 _FILE = "talker:\n  ros__parameters:\n    rate: {}\n"
@@ -26,6 +27,8 @@ _NODE = (
     "        self.names = self.{}.value\n"
 )
 _FILE_EMPTY = "talker:\n  ros__parameters:\n    names: {}\n"
+_ASKING = frozenset({"NOT_SET", "get_parameter_or", "has_parameter", "type_"})
+"""Methods and attributes that tell whether a parameter has a value."""
 
 
 class ValueRefused(Rule):
@@ -101,6 +104,18 @@ class ValueRefused(Rule):
             },
         ),
         Example(
+            "an empty list, and a node that asks whether it is set",
+            {
+                "talker.py": _NODE.replace(
+                    "        self.names",
+                    "        kind = self.get_parameter_or('names').type_\n"
+                    "        if kind == Parameter.Type.NOT_SET:\n            return\n"
+                    "        self.names",
+                ).format("get_parameter('names')"),
+                "a.yaml": _FILE_EMPTY.format("[]"),
+            },
+        ),
+        Example(
             "an empty list",
             {
                 "talker.py": _NODE.format("get_parameter('names')"),
@@ -172,7 +187,22 @@ def _read(owner: NodeDefinition, name: str) -> ParameterRead | None:
         for read in current.parameter_reads:
             if read.name == name and read.method == "get_parameter":
                 module = current.file.module
-                if not is_handled(module, read.call, "ParameterUninitializedException"):
+                is_handled_here = is_handled(module, read.call, "ParameterUninitializedException")
+                if not is_handled_here and not _is_asked_before(current, read):
                     return read
         current = current.base if isinstance(current, NodeClass) else None
     return None
+
+
+def _is_asked_before(owner: NodeDefinition, read: ParameterRead) -> bool:
+    """Tell whether a condition on a parameter that may be unset decides about a read.
+
+    That of another parameter counts as well: their lists are often empty together.
+    """
+    module = owner.file.module
+    return any(
+        isinstance(part, ast.Attribute) and part.attr in _ASKING
+        for condition in conditions_on(module, read.call)
+        for value in values_asked(module, condition)
+        for part in ast.walk(value)
+    )

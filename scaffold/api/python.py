@@ -14,6 +14,7 @@ from scaffold.model.python.guards import (
     conditions_on,
     is_guarded_by,
     is_handled,
+    values_asked,
 )
 from scaffold.model.python.imports import Import
 from scaffold.model.python.literals import joined_names
@@ -62,4 +63,5 @@ __all__ = [
     "returned",
     "rospack_lookups",
     "value_set_before",
+    "values_asked",
 ]
