@@ -12,6 +12,7 @@ from scaffold.check import conflicts
 from scaffold.check.rules.engine_rules import RuleCrashed, UnparsableFile
 from scaffold.configuration.exclusion import Exclusion
 from scaffold.diagnostic import Diagnostic, Severity
+from scaffold.model.contents.constant_branches import is_in_disabled_branch
 from scaffold.model.contents.python_facts import imports_of, paths_importing
 from scaffold.model.discovery.foreign import ENVIRONMENTS, Foreign
 from scaffold.model.install.unused import (
@@ -215,11 +216,13 @@ def _is_unused_module(package: Package, path: str) -> bool:
 
 
 def _is_uncalled(package: Package, at: Location) -> bool:
-    """Tell whether code is in an unused module, or in an uncalled function."""
+    """Tell whether code is in an unused module, an uncalled function, or a disabled branch."""
     if _is_unused_module(package, at.path):
         return True
     try:
-        return is_in_uncalled_function(package, at.path, at.line)
+        return is_in_uncalled_function(package, at.path, at.line) or is_in_disabled_branch(
+            package, at.path, at.line
+        )
     except ViewError:
         return False
 

@@ -462,6 +462,31 @@ def test_python_of_ros_1_in_a_library(package: Path, capsys: pytest.CaptureFixtu
     assert severities(capsys, "MS002") == dict.fromkeys(found, "error")
 
 
+@pytest.mark.parametrize(
+    ("condition", "later", "severity"),
+    [
+        ("self.mode == 'raw'", "pass", "warning"),
+        ("not self.mode", "pass", "warning"),
+        ("self.mode == 'raw' and self.count_subscribers('a')", "pass", "warning"),
+        ("SHOWS", "pass", "warning"),
+        ("self.mode == 'all'", "pass", "error"),
+        ("self.mode == 'raw' or self.count_subscribers('a')", "pass", "error"),
+        ("self.mode == 'raw'", "self.mode = 'raw'", "error"),
+        ("self.mode == 'raw'", "setattr(self, 'mode', 'raw')", "error"),
+    ],
+)
+def test_branch_that_a_constant_disables(
+    package: Path, capsys: pytest.CaptureFixture[str], condition: str, later: str, severity: str
+) -> None:
+    write(package / "setup.py", CONSOLE_SCRIPT)
+    node = NODE.replace("from talker.speaker import Speaker\n\n", "\nSHOWS = False\n")
+    node = node.replace("        self.create", "        self.mode = 'all'\n        self.create")
+    node = node.replace("        return String().text\n", "        pass  # nothing\n")
+    saying = f"        if {condition}:\n            String().text = 'a'\n        {later}\n"
+    write(package / "talker" / "node.py", node.replace("        pass\n", saying))
+    assert severities(capsys, "MS002") == {"talker/node.py": severity}
+
+
 LAUNCH = """from launch import LaunchDescription
 from launch_ros.actions import Node
 
