@@ -47,6 +47,8 @@ _OF_TESTS = frozenset({"LY020", "LY021", "PX050"})
 """Codes that are errors only if a test of the package checks the file."""
 _QUOTED = re.compile(r"'([^']+)'")
 _UNDEFINED = "F821"
+_OF_FORMATS = ("F50", "F52")
+"""The first parts of codes about the format of a text."""
 _UNDECLARED = "PX020"
 """Codes of undeclared dependencies, reported at an import."""
 _OF_ROS1 = "IM044"
@@ -238,8 +240,11 @@ def _is_unlaunched(package: Package, at: Location) -> bool:
 def _is_hardly_reached(package: Package, undefined: Diagnostic) -> bool:
     """Tell whether an undefined name is only evaluated after spin, elsewhere, or never.
 
-    An undefined exception ends what the intended one would have ended.
+    An undefined exception ends what the intended one would have ended, as does an error in the
+    message of one that is handled and raised.
     """
+    if undefined.code.startswith(_OF_FORMATS):
+        return _is_before_raise(package, undefined.location)
     if undefined.code != _UNDEFINED:
         return False
     return _is_uncalled(package, undefined.location) or any(
@@ -247,6 +252,19 @@ def _is_hardly_reached(package: Package, undefined: Diagnostic) -> bool:
         or _is_of_platform(module, name)
         or _is_raised(module, name)
         for module, name in _names_at(package, undefined)
+    )
+
+
+def _is_before_raise(package: Package, at: Location) -> bool:
+    """Tell whether a line is in the handler of an exception that ends with another one."""
+    try:
+        module = package.module(at.path)
+    except ViewError:
+        return False
+    return any(
+        isinstance(handler.body[-1], ast.Raise) and handler.lineno <= at.line <= end
+        for handler in module.walk(ast.ExceptHandler)
+        if (end := handler.end_lineno or 0)
     )
 
 

@@ -487,6 +487,29 @@ def test_branch_that_a_constant_disables(
     assert severities(capsys, "MS002") == {"talker/node.py": severity}
 
 
+@pytest.mark.parametrize(("last", "severity"), [("raise", "warning"), ("pass", "error")])
+def test_format_of_a_handled_exception(
+    package: Path, capsys: pytest.CaptureFixture[str], last: str, severity: str
+) -> None:
+    write(package / "setup.py", CONSOLE_SCRIPT)
+    saying = (
+        "        try:\n            print(1)\n        except OSError:\n"
+        f"            print('{{}} {{}}'.format(1))\n            {last}\n"
+    )
+    write(package / "talker" / "node.py", NODE.replace("        pass\n", saying))
+    assert severities(capsys, "F524") == {"talker/node.py": severity}
+
+
+@pytest.mark.parametrize(("asked", "severity"), [("", "warning"), ("heard", "error")])
+def test_fixture_that_no_test_asks_for(
+    package: Path, capsys: pytest.CaptureFixture[str], asked: str, severity: str
+) -> None:
+    fixture = "import pytest\nfrom std_msgs.msg import String\n\n\n@pytest.fixture\n"
+    fixture += f"def heard():\n    return String().text\n\n\ndef test_a({asked}):\n    pass\n"
+    write(package / "test" / "test_a.py", fixture)
+    assert severities(capsys, "MS002") == {"test/test_a.py": severity}
+
+
 LAUNCH = """from launch import LaunchDescription
 from launch_ros.actions import Node
 

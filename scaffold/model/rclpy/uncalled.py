@@ -127,7 +127,7 @@ def _function_at(module: PythonModule, line: int, *, is_helper: bool) -> _Unment
         return None
     functions = [function]
     for item in functions:  # which grows
-        if item is None or _is_decorated(item) or not _is_called_by_name(module, item):
+        if item is None or _is_decorated(module, item) or not _is_called_by_name(module, item):
             return None
         if _may_be_computed(module, item):
             return None
@@ -284,10 +284,15 @@ def _outermost_function(module: PythonModule, line: int) -> FunctionNode | None:
     return None
 
 
-def _is_decorated(function: FunctionNode) -> bool:
-    """Tell whether a function may be reached other than by its name; always so for a property."""
-    names = [getattr(item, "id", "") for item in function.decorator_list]
-    return any(name != "property" for name in names)
+def _is_decorated(module: PythonModule, function: FunctionNode) -> bool:
+    """Tell whether a function may be reached other than by its name; always so for a property.
+
+    Tests ask for a fixture of their file by its name.
+    """
+    given = function.decorator_list
+    if module.in_tests and not module.path.endswith("conftest.py"):
+        given = [item for item in given if module.qualified_name(item) != "pytest.fixture"]
+    return any(getattr(item, "id", "") != "property" for item in given)
 
 
 def _is_called_by_name(module: PythonModule, function: FunctionNode) -> bool:
