@@ -42,6 +42,10 @@ _NOT_INSTALLING = re.compile(
 """Matches CMake calls with C++ directories, and the search path of tests."""
 _OF_MESSAGES = ("_msgs", "_interfaces", "_msg")
 """The last parts of names of interface packages, which often use those of ROS."""
+_INTERFACES = frozenset(
+    {"action", "interface", "interfaces", "messages", "msg", "msgs", "srv", "srvs"}
+)
+"""Words in names of packages that only contain interfaces."""
 _TOOLS = ("ament_", "launch", "rclcpp", "rclpy", "rosbag2", "rosidl_")
 """The first parts of names of client libraries, and of tools for builds and tests."""
 _COMMON_WORDS = frozenset({"ament", "my", "python", "python3", "ros", "ros2"})
@@ -185,8 +189,10 @@ def _may_use(dependency: str, name: str) -> bool:
     Programs themselves declare their client library, and the tools of builds and tests.
     """
     meant = similar_package(dependency) or similar_key(dependency)
-    is_of_ros = "_" in dependency and not dependency.endswith(_OF_MESSAGES) and meant is None
-    return is_of_ros and not dependency.startswith(_TOOLS) and not name.startswith(_TOOLS)
+    words = dependency.split("_")
+    if meant or not words[1:] or not _INTERFACES.isdisjoint(words):
+        return False
+    return not dependency.startswith(_TOOLS) and not name.startswith(_TOOLS)
 
 
 def _has_messages(name: str) -> bool:

@@ -163,9 +163,7 @@ def _building(package: Package) -> list[str]:
 
 def _uses_setup_py(package: Package) -> bool:
     """Tell whether CMake may run setup.py."""
-    return any(
-        _RUNS_SETUP.search(without_comments(package.data(path))) for path in _lists(package)
-    )
+    return any(_RUNS_SETUP.search(without_comments(package.data(path))) for path in _lists(package))
 
 
 def _is_built_by_cmake(package: Package) -> bool:
