@@ -484,6 +484,13 @@ def test_branch_that_a_constant_disables(
     node = node.replace("        return String().text\n", "        pass  # nothing\n")
     saying = f"        if {condition}:\n            String().text = 'a'\n        {later}\n"
     write(package / "talker" / "node.py", node.replace("        pass\n", saying))
+    other = "class Other:\n    def __init__(self):\n        self.mode = 'raw'\n"
+    write(package / "talker" / "other.py", other)
+    assert severities(capsys, "MS002") == {"talker/node.py": severity}
+    changing = "from talker.node import Talker\n\nTalker().mode = 'raw'\n"
+    write(package / "talker" / "other.py", changing)
+    is_of_file = condition == "SHOWS"
+    severity = severity if is_of_file else "error"
     assert severities(capsys, "MS002") == {"talker/node.py": severity}
 
 

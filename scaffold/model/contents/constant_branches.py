@@ -75,7 +75,7 @@ def _constant(package: Package, module: PythonModule, node: ast.expr) -> ast.Con
             value = _only_value(module, node)
         case _:
             return None
-    if not isinstance(value, ast.Constant) or _is_set_elsewhere(package, module, name):
+    if not isinstance(value, ast.Constant) or _is_set_elsewhere(package, module, node, name):
         return None
     return value
 
@@ -95,13 +95,19 @@ def _only_value(module: PythonModule, attribute: ast.Attribute) -> ast.expr | No
     return statement.value if isinstance(statement, ast.Assign) else None
 
 
-def _is_set_elsewhere(package: Package, module: PythonModule, name: str) -> bool:
-    """Tell whether another file may set an attribute, or this one by its name."""
+def _is_set_elsewhere(package: Package, module: PythonModule, node: ast.expr, name: str) -> bool:
+    """Tell whether another file may set a variable or an attribute, or this one by its name.
+
+    There ``self`` is another object, unless the file knows the class.
+    """
     if module.mentions("setattr(", "__dict__", "vars(", "globals("):
         return True
-    setting = re.compile(rb"\.%b\b[ \t]*(?::[^=\n]{1,80})?=(?!=)" % name.encode())
+    class_ = module.enclosing_class(node)
+    setting = rb"\.%b\b[ \t]*(?::[^=\n]{1,80})?=(?!=)" % name.encode()
     for path in package.python_files:
         with suppress(ViewError):
-            if path != module.path and setting.search(package.data(path)):
+            data = package.data(path) if path != module.path else b""
+            is_known = class_ is not None and class_.name.encode() in data
+            if re.search(setting if is_known else rb"(?<!\bself)" + setting, data):
                 return True
     return False
