@@ -9,6 +9,7 @@ from scaffold.model.contents.python_facts import (
     paths_importing,
     rospack_lookups,
 )
+from scaffold.model.python.given_arguments import arguments_for
 from scaffold.model.python.guards import (
     caught_around,
     conditions_on,
@@ -46,6 +47,7 @@ __all__ = [
     "PathValue",
     "PythonModule",
     "Unknown",
+    "arguments_for",
     "caught_around",
     "conditions_on",
     "exports_of",

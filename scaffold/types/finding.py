@@ -11,6 +11,7 @@ from typing import TypeVar
 from scaffold.model.package import Package
 from scaffold.model.python.distribution_branches import stretches_not_run
 from scaffold.model.python.distribution_conditions import open_parts
+from scaffold.model.python.given_arguments import arguments_for
 from scaffold.model.python.guards import Condition, all_conditions, has_fallback, values_asked
 from scaffold.model.python.handlers import is_tested_to_fail, last_names
 from scaffold.model.python.module import PythonModule
@@ -117,7 +118,7 @@ class TypeFinding:
         node = self._root
         if node is None or (node.id == "self" and node is self.expression()):
             return None
-        lines = [value.lineno for value in origins.arguments_for(self.module, node)]
+        lines = [value.lineno for value in arguments_for(self.module, node)]
         if lines:
             return node.id, f"line {min(lines)}"
         called = origins.called_as(self.module, node)
@@ -126,7 +127,7 @@ class TypeFinding:
 
     def arguments_for(self, name: ast.Name) -> Sequence[ast.expr]:
         """Return the arguments that calls in the file pass for a parameter."""
-        return origins.arguments_for(self.module, name)
+        return arguments_for(self.module, name)
 
     @cached_property
     def _root(self) -> ast.Name | None:
@@ -366,6 +367,7 @@ class TypeFinding:
             isinstance(asked, ast.Subscript) and self.module.text(asked.value) in wholes
             for condition in conditions
             for asked in ast.walk(condition.test)
+            if not _is_measured(self.module, asked)
         )
 
     @cached_property
@@ -400,6 +402,14 @@ class TypeFinding:
             return True
         logs = any(isinstance(part, ast.Call) for part in ast.walk(handler))
         return self.kind not in _OF_ARGUMENTS and len(node.body) <= _SHORT and not logs
+
+
+def _is_measured(module: PythonModule, node: ast.AST) -> bool:
+    """Tell whether a number is compared with a limit, which tells nothing about types."""
+    compared = module.enclosing(node, ast.Compare)
+    return compared is not None and all(
+        isinstance(operator, ast.Lt | ast.LtE | ast.Gt | ast.GtE) for operator in compared.ops
+    )
 
 
 def _cases(condition: ast.expr) -> Iterator[ast.Compare]:

@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator, Sequence
 from collections.abc import Set as AbstractSet
 
-from scaffold.model.python.given_arguments import given_argument
+from scaffold.model.python.given_arguments import arguments_for, parameter_of
 from scaffold.model.python.module import PythonModule
 from scaffold.model.python.values import is_none_literal
 
@@ -18,7 +18,6 @@ _HANDING_ON = frozenset({"enumerate", "iter", "list", "next", "reversed", "sorte
 _PUTTING = frozenset({"append", "appendleft", "insert", "setdefault"})
 _OF_TEXT_OR_BYTES = frozenset({"fnmatch", "glob", "os", "re", "shutil", "tempfile", "urllib"})
 """Modules whose functions return bytes for bytes, and some of them for ``None``."""
-_FUNCTIONS = (ast.FunctionDef, ast.AsyncFunctionDef)
 
 
 def is_of_several(
@@ -228,31 +227,9 @@ def _is_class(value: ast.expr) -> bool:
     return name[:1].isupper()
 
 
-def arguments_for(module: PythonModule, name: ast.Name) -> Sequence[ast.expr]:
-    """Return the arguments that calls in the file pass for a parameter; empty for other names."""
-    parameter, function = _parameter(module, name)
-    if parameter is None or function is None:
-        return ()
-    class_ = module.parent(function)
-    is_bound = isinstance(class_, ast.ClassDef)
-    is_bound = is_bound and not any(map(_is_static, function.decorator_list))
-    names: Sequence[ast.expr] = module.index.names(function.name)
-    if isinstance(class_, ast.ClassDef):
-        is_constructor = function.name == "__init__"
-        index = module.index
-        names = index.names(class_.name) if is_constructor else index.attributes(function.name)
-    calls = [call for call in map(module.parent, names) if isinstance(call, ast.Call)]
-    given = (
-        given_argument(function, call, parameter, is_method=is_bound)
-        for call in calls
-        if call.func in names
-    )
-    return [value for value in given if value is not None]
-
-
 def called_as(module: PythonModule, name: ast.Name) -> str:
     """Return the name of the function of a parameter: ``to_pose``, ``Arm.move``."""
-    function = _parameter(module, name)[1]
+    function = parameter_of(module, name)[1]
     class_ = module.parent(function) if function is not None else None
     if function is None or not isinstance(class_, ast.ClassDef):
         return function.name if function is not None else ""
@@ -261,28 +238,12 @@ def called_as(module: PythonModule, name: ast.Name) -> str:
 
 def other_parameters(module: PythonModule, name: ast.Name) -> frozenset[str]:
     """Return the other parameters of the function of a parameter; empty for other names."""
-    parameter, function = _parameter(module, name)
+    parameter, function = parameter_of(module, name)
     if parameter is None or function is None or parameter.arg == "self":
         return frozenset()
     given = function.args
     names = {item.arg for item in (*given.posonlyargs, *given.args, *given.kwonlyargs)}
     return frozenset(names - {parameter.arg, "self"})
-
-
-def _parameter(
-    module: PythonModule, name: ast.Name
-) -> tuple[ast.arg | None, ast.FunctionDef | ast.AsyncFunctionDef | None]:
-    """Return the parameter that a name refers to, and its function."""
-    lookup = module.index.lookup(name.id, name)
-    parameter = lookup[1][0].node if lookup is not None and lookup[1] else None
-    function = lookup[0] if lookup is not None else None
-    if not isinstance(parameter, ast.arg) or not isinstance(function, _FUNCTIONS):
-        return None, None
-    return parameter, function
-
-
-def _is_static(decorator: ast.expr) -> bool:
-    return isinstance(decorator, ast.Name) and decorator.id == "staticmethod"
 
 
 def _looped_over(module: PythonModule, name: ast.Name) -> ast.expr | None:

@@ -104,6 +104,16 @@ class ParameterDeclaredWrongly(RclpyRule):
             "9:45: type without a value: ValueError",
         ),
         Example(
+            "a name in parentheses, which is no tuple",
+            {
+                "talker.py": _NODE_MADE.format(
+                    "('rate', 1.0)], parameters=[('rate', 1.0), ('mode')",
+                    _RIGHT[1],
+                ).replace("'', [('rate', 1.0)], ", "namespace='', ")
+            },
+            "8:75: expected a pair ('name', default): TypeError",
+        ),
+        Example(
             "constructed with a value instead of the type; with a different type",
             {
                 "talker.py": _NODE_MADE.format(
@@ -176,7 +186,8 @@ def _without_default(file: RclpyFile) -> Iterator[tuple[ast.AST, str]]:
         call = file.module.parent(called)
         if not isinstance(call, ast.Call) or call.func is not called:
             continue
-        listed = call.args[1] if len(call.args) > 1 else None
+        words = {word.arg: word.value for word in call.keywords}
+        listed = call.args[1] if len(call.args) > 1 else words.get("parameters")
         if isinstance(listed, ast.List) and file.owner_of(called.value) is not None:
             for item in listed.elts:
                 if isinstance(item, ast.Constant):

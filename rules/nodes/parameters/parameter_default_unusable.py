@@ -14,6 +14,8 @@ from scaffold.api.rclpy import PARAMETER, Parameter, RclpyFile, class_of, is_of_
 _TYPES = "rcl_interfaces.msg.ParameterType.PARAMETER_"
 _TYPE = "expected Parameter.Type.{}"
 _CLASSES = {"bool": "BOOL", "float": "DOUBLE", "int": "INTEGER", "str": "STRING"}
+_PATHS = frozenset({"pathlib.Path", "pathlib.Path.cwd", "pathlib.Path.home"})
+"""The calls that return a Path."""
 _NO_DEFAULT = "parameters without a default"
 _NODE = (
     "from rcl_interfaces.msg import ParameterDescriptor, ParameterType\n"
@@ -100,6 +102,18 @@ class ParameterDefaultUnusable(RclpyRule):
             "a.py:10:47: a parameter cannot hold a set: TypeError",
             "b.py:9:40: a type and dynamic_typing=True exclude each other: ValueError",
             "b.py:10:47: a parameter of type NOT_SET cannot be declared: ValueError",
+        ),
+        Example(
+            "a Path; the text of one",
+            {
+                "talker.py": "from pathlib import Path\n\n"
+                + _PLAIN.format("'map', Path.home() / 'maps' / 'office.yaml'")
+                + "        folder = Path('/opt/maps')\n"
+                "        self.declare_parameter('folder', folder)\n"
+                "        self.declare_parameter('other', str(folder / 'other'))\n"
+            },
+            "9:39: a parameter cannot hold a Path: TypeError; pass str(...)",
+            "11:42: a parameter cannot hold a Path: TypeError; pass str(...)",
         ),
         Example("only a name and a default", {"talker.py": _PLAIN.format("'rate', 2.0")}),
         Example(
@@ -343,11 +357,23 @@ def _default_problem(file: RclpyFile, parameter: Parameter, node: ast.expr) -> s
         return f"{_TYPE.format(_CLASSES[node.id])}, not the class {node.id!r}: TypeError"
     if class_of(file, node) == PARAMETER:
         return "expected the default itself, not a Parameter: TypeError"
+    if _is_path(file, node):
+        return "a parameter cannot hold a Path: TypeError; pass str(...)"
     is_dictionary = isinstance(parameter.default, dict) and "parameters" in parameter.arguments
     if is_dictionary or isinstance(node, ast.Set) or isinstance(parameter.default, bytes):
         word = "set" if isinstance(node, ast.Set) else type(parameter.default).__name__
         return f"a parameter cannot hold a {word}: TypeError"
     return ""
+
+
+def _is_path(file: RclpyFile, node: ast.expr) -> bool:
+    """Tell whether a value is a ``pathlib.Path``, or one with parts appended to it."""
+    value = file.evaluator.single_value(node)
+    while isinstance(value, ast.BinOp) and isinstance(value.op, ast.Div):
+        value = file.evaluator.single_value(value.left)
+    if not isinstance(value, ast.Call):
+        return False
+    return file.module.qualified_name(value.func) in _PATHS
 
 
 def _type_problem(parameter: Parameter) -> str:

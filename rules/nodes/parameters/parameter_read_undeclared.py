@@ -49,7 +49,9 @@ _LOADING = (
 class ParameterReadUndeclared(RclpyRule):
     """A node reads or sets a parameter that it has not declared, or not yet.
 
-    **Why.** ``rclpy.exceptions.ParameterNotDeclaredException`` when the line is executed.
+    **Why.** ``rclpy.exceptions.ParameterNotDeclaredException`` when the line is executed, which
+    ``except KeyError`` does not catch. ``get_parameter_or`` returns its alternative, even if a
+    parameter file sets the parameter.
 
     **Fix.** Call ``self.declare_parameter`` with a default first.
 
@@ -113,6 +115,32 @@ class ParameterReadUndeclared(RclpyRule):
             "mean 'rate'?",
         ),
         Example(
+            "names passed to a method that reads them",
+            {
+                "talker.py": _NODE.format(_DECLARED, "        self.turn = self.read('turn')\n")
+                + "\n    def read(self, name):\n"
+                "        try:\n"
+                "            return self.get_parameter(name).value\n"
+                "        except KeyError:\n"
+                "            return 0.0\n"
+            },
+            "9:31: parameter 'turn' is not declared: ParameterNotDeclaredException",
+        ),
+        Example(
+            "an undeclared parameter with an alternative",
+            {
+                "talker.py": _NODE.format(
+                    _DECLARED,
+                    "        default = Parameter('gain', Parameter.Type.DOUBLE, 1.0)\n"
+                    "        self.gain = self.get_parameter_or('gain', default).value\n"
+                    "        self.other = self.get_parameter_or('rate', default).value\n",
+                ).replace(
+                    "node import Node", "node import Node\nfrom rclpy.parameter import Parameter"
+                )
+            },
+            "11:21: parameter 'gain' is never declared: any value set for it is ignored",
+        ),
+        Example(
             "declared after the call of a method that reads it",
             {
                 "talker.py": _LOADING.format("", _DECLARED),
@@ -154,11 +182,13 @@ class ParameterReadUndeclared(RclpyRule):
 
 
 def _message(package: Package, read: ParameterRead, declared: dict[str, list[Parameter]]) -> str:
-    if read.method != "get_parameter" or not isinstance(read.name, str):
-        return ""
-    if has_always(read.name):
+    if not isinstance(read.name, str) or has_always(read.name):
         return ""
     same = declared.get(read.name, [])
+    if read.method == "get_parameter_or" and not same:
+        return f"parameter {read.name!r} is never declared: any value set for it is ignored"
+    if read.method != "get_parameter":
+        return ""
     if not same:
         return _undeclared(package, read.name, declared)
     late = [

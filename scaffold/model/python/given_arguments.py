@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -51,3 +52,43 @@ def given_argument(
     )
     defaults.update(zip(signature.kwonlyargs, signature.kw_defaults, strict=True))
     return defaults.get(parameter)
+
+
+def arguments_for(module: SyntaxTree, name: ast.Name) -> Sequence[ast.expr]:
+    """Return the arguments that calls in the file pass for a parameter; empty for other names."""
+    parameter, function = parameter_of(module, name)
+    if parameter is None or function is None:
+        return ()
+    class_ = module.parent(function)
+    is_bound = isinstance(class_, ast.ClassDef)
+    is_bound = is_bound and not any(map(_is_static, function.decorator_list))
+    names: Sequence[ast.expr] = module.index.names(function.name)
+    if isinstance(class_, ast.ClassDef):
+        is_constructor = function.name == "__init__"
+        index = module.index
+        names = index.names(class_.name) if is_constructor else index.attributes(function.name)
+    calls = [call for call in map(module.parent, names) if isinstance(call, ast.Call)]
+    given = (
+        given_argument(function, call, parameter, is_method=is_bound)
+        for call in calls
+        if call.func in names
+    )
+    return [value for value in given if value is not None]
+
+
+def parameter_of(
+    module: SyntaxTree, name: ast.Name
+) -> tuple[ast.arg | None, ast.FunctionDef | ast.AsyncFunctionDef | None]:
+    """Return the parameter that a name refers to, and its function."""
+    lookup = module.index.lookup(name.id, name)
+    parameter = lookup[1][0].node if lookup is not None and lookup[1] else None
+    function = lookup[0] if lookup is not None else None
+    if not isinstance(parameter, ast.arg) or not isinstance(
+        function, ast.FunctionDef | ast.AsyncFunctionDef
+    ):
+        return None, None
+    return parameter, function
+
+
+def _is_static(decorator: ast.expr) -> bool:
+    return isinstance(decorator, ast.Name) and decorator.id == "staticmethod"

@@ -6,6 +6,7 @@ import ast
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
+from scaffold.model.python.given_arguments import arguments_for
 from scaffold.model.python.values import UNKNOWN, Unknown
 from scaffold.model.rclpy.entities import parameter_type
 from scaffold.model.rclpy.per_file import per_file
@@ -221,7 +222,10 @@ def names_used(file: RclpyFile) -> Iterator[NameUsed]:
     for read in file.parameter_reads:
         name = read.argument("name")
         if read.owner is not None and read.method == "get_parameter" and name is not None:
-            yield from _texts(file, read.owner, read.call, _looped(file, name.node))
+            nodes = _looped(file, name.node)
+            if isinstance(name.node, ast.Name):
+                nodes += _passed(file, name.node)
+            yield from _texts(file, read.owner, read.call, nodes)
 
 
 def names_used_by(package: Package, owner: NodeDefinition) -> Sequence[NameUsed]:
@@ -253,6 +257,14 @@ def _looped(file: RclpyFile, node: ast.expr) -> list[ast.expr]:
         return []
     is_plain = isinstance(loop.target, ast.Name) and isinstance(loop.iter, ast.List | ast.Tuple)
     return list(loop.iter.elts) if is_plain and isinstance(loop.iter, ast.List | ast.Tuple) else []
+
+
+def _passed(file: RclpyFile, name: ast.Name) -> Iterator[ast.expr]:
+    """Yield the arguments for a parameter of a method in the calls of that method by its class."""
+    for value in arguments_for(file.module, name):
+        match file.module.parent(value):
+            case ast.Call(func=ast.Attribute(value=ast.Name(id="self"))):
+                yield value
 
 
 def types_compared(file: RclpyFile, attribute: ast.Attribute, name: str) -> set[str]:
