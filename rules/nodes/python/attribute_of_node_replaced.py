@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 from scaffold.api import Diagnostic, Example, RclpyRule, Report, Severity
 from scaffold.api.python import FunctionNode
@@ -17,6 +17,16 @@ _LISTS = frozenset({"clients", "guards", "services", "subscriptions", "timers", 
 """Properties that an executor iterates over."""
 _ASKED = frozenset({"get_clock", "get_logger", "get_name", "get_namespace"})
 """Methods that rclpy calls without arguments."""
+_CALLED: Mapping[str, int] = {
+    "add_on_set_parameters_callback": 1,
+    "create_publisher": 3,
+    "create_service": 3,
+    "declare_parameter": 2,
+    "declare_parameters": 3,
+    "get_parameter": 1,
+    "has_parameter": 1,
+}
+"""Methods that the constructor of Node calls, with the number of arguments that it passes."""
 _PRIVATE = frozenset(
     {"_clients", "_clock", "_context", "_descriptors", "_guards", "_logger", "_parameters"}
     | {"_publishers", "_services", "_subscriptions", "_timers", "_waitables"}
@@ -79,6 +89,19 @@ class AttributeOfNodeReplaced(RclpyRule):
             "9:9: 'timers' overrides an attribute of rclpy's Node; choose another name",
         ),
         Example(
+            "a method that the constructor of Node calls with arguments",
+            {
+                "talker.py": _NODE.format("rates") + "        self.declare_parameters()\n\n"
+                "    def declare_parameters(self):\n"
+                "        self.declare_parameter('rate', 1.0)\n",
+                "relay.py": _NODE.format("rates")
+                + "\n    def declare_parameters(self, namespace, parameters, *others):\n"
+                "        return super().declare_parameters(namespace, parameters, *others)\n",
+            },
+            "talker.py:10:9: 'declare_parameters' overrides a method of rclpy's Node, whose "
+            "constructor passes it 3 arguments: TypeError; choose another name",
+        ),
+        Example(
             "destroy_node with super()",
             {"driver.py": _NODE_DESTROY.format("super().destroy_node()")},
         ),
@@ -103,12 +126,15 @@ class AttributeOfNodeReplaced(RclpyRule):
                 subject = f"{target.attr!r} is an attribute of rclpy's Node"
                 yield self.report(at, f"{subject}: {effect}; choose another name")
             for name, method in node.methods.items():
-                if _breaks_node(name, method):
-                    at = file.module.name_location(method)
-                    message = (
-                        f"{name!r} overrides an attribute of rclpy's Node; choose another name"
+                problem = "an attribute of rclpy's Node" if _breaks_node(name, method) else ""
+                if _takes_too_few(name, method):
+                    problem = (
+                        f"a method of rclpy's Node, whose constructor passes it {_CALLED[name]} "
+                        f"argument{'s' * (_CALLED[name] > 1)}: TypeError"
                     )
-                    yield self.report(at, message)
+                if problem:
+                    at = file.module.name_location(method)
+                    yield self.report(at, f"{name!r} overrides {problem}; choose another name")
 
     def _check_destroy(self, file: RclpyFile) -> Iterator[Diagnostic]:
         for node in file.classes:
@@ -136,6 +162,14 @@ def _breaks_node(name: str, method: FunctionNode) -> bool:
         return not method.decorator_list
     arguments = [*method.args.posonlyargs, *method.args.args]
     return name in _ASKED and len(arguments) - len(method.args.defaults) > 1
+
+
+def _takes_too_few(name: str, method: FunctionNode) -> bool:
+    """Tell whether a method cannot be called with the arguments that rclpy passes."""
+    given = method.args
+    if name not in _CALLED or given.vararg is not None or method.decorator_list:
+        return False
+    return len(given.posonlyargs) + len(given.args) - 1 < _CALLED[name]
 
 
 def _targets(node: NodeClass) -> Iterator[ast.Attribute]:
