@@ -46,6 +46,7 @@ from scaffold.model.rclpy.files import rclpy_paths
 from scaffold.model.rclpy.init_and_spin import RclpyCall
 from scaffold.model.rclpy.latched import latched_topics
 from scaffold.model.rclpy.logging import LOG_METHODS, is_of_rclpy, log_calls
+from scaffold.model.rclpy.named_attributes import read_by_name
 from scaffold.model.rclpy.names import (
     namespace_problem,
     node_problem,
@@ -150,6 +151,7 @@ __all__ = [
     "part_problem",
     "rclpy_file",
     "rclpy_paths",
+    "read_by_name",
     "topic_problem",
     "types_compared",
     "used_by_classes",

@@ -17,6 +17,7 @@ from scaffold.api.rclpy import (
     known_names,
     names_of_bases,
     only_while_stopping,
+    read_by_name,
     used_by_classes,
 )
 
@@ -64,6 +65,31 @@ class AttributeOfNodeUnknown(RclpyRule):
     name = "attribute-of-node-unknown"
     other_severities = {Severity.WARNING: "it only fails while the node shuts down"}
     examples = (
+        Example(
+            "attributes that are set and read by name",
+            {
+                "wheels.py": "from rclpy.node import Node\n"
+                "from std_msgs.msg import Float64, String\n\n"
+                "TOPICS = [('mode', String), ('gain', Float64)]\n\n\n"
+                "class Wheels(Node):\n"
+                "    def __init__(self):\n"
+                "        super().__init__('wheels')\n"
+                "        for side in ('left', 'right'):\n"
+                "            publisher = self.create_publisher(Float64, side, 10)\n"
+                "            setattr(self, side + '_pub', publisher)\n"
+                "        for name, kind in TOPICS:\n"
+                "            callback = getattr(self, f'on_{name}')\n"
+                "            self.create_subscription(kind, name, callback, 10)\n\n"
+                "    def on_mode(self, msg):\n"
+                "        self.left_pub.publish(Float64())\n"
+                "        self.rear_pub.publish(Float64())\n\n"
+                "    def on_gains(self, msg):\n"
+                "        pass\n"
+            },
+            "14:24: neither Wheels nor rclpy's Node has 'on_gain': AttributeError; did you mean "
+            "'on_gains'?",
+            "19:9: neither Wheels nor rclpy's Node has 'rear_pub': AttributeError",
+        ),
         Example("defined", {"talker.py": _NODE.format("on_timer", "pub")}),
         Example(
             "never reached",
@@ -128,8 +154,12 @@ class AttributeOfNodeUnknown(RclpyRule):
         bases, given = names_of_bases(package), given_from_outside(package)
         used = used_by_classes(file) if file.classes else {}
         for node in file.classes:
-            if node.node in used and node.name not in bases and is_read_in_full(node):
+            if node.name in bases or not is_read_in_full(node):
+                continue
+            if node.node in used:
                 yield from self._check(package, node, given, used[node.node])
+            if file.module.mentions("getattr("):
+                yield from self._check_by_name(package, node, given)
 
     def _check(
         self, package: Package, node: NodeClass, given: frozenset[str], used: list[ast.Attribute]
@@ -152,6 +182,21 @@ class AttributeOfNodeUnknown(RclpyRule):
             severity = Severity.WARNING if is_late else Severity.ERROR
             cause = f"attributes of {node.name} in {module.path}"
             yield self.report(module.location(attribute), message, severity=severity, cause=cause)
+
+    def _check_by_name(
+        self, package: Package, node: NodeClass, given: frozenset[str]
+    ) -> Iterator[Diagnostic]:
+        """Check the attributes that a node reads with getattr()."""
+        module = node.file.module
+        if module.mentions("hasattr("):
+            return
+        known = {*defined_by(node), *given, *_names_of_rclpy()}
+        for call, name in read_by_name(node.file, node.node):
+            if name not in known and not is_handled(module, call, "AttributeError"):
+                closest = _closest(package, name, known)
+                hint = f"; did you mean {closest!r}?" if closest else ""
+                message = f"neither {node.name} nor rclpy's Node has {name!r}: AttributeError{hint}"
+                yield self.report(module.location(call), message)
 
 
 def _inner_function(node: NodeClass, name: str) -> ast.FunctionDef | None:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from scaffold.model.facts import fact
 from scaffold.model.rclpy.api import NODE, has, known_names
+from scaffold.model.rclpy.named_attributes import set_by_name
 from scaffold.source import ViewError
 
 _LIFECYCLE = "rclpy.lifecycle.node.LifecycleNode"
@@ -60,6 +61,7 @@ def defined_by(node: NodeClass) -> set[str]:
         result.update(name.removesuffix("()") for name in known_names()[_LIFECYCLE])
     while owner is not None:
         result |= set(owner.file.module.index.bindings(owner.node))
+        result |= set_by_name(owner.file) or set()
         for attribute in owner.file.module.below(owner.node, ast.Attribute):
             if isinstance(attribute.ctx, ast.Load):
                 continue
@@ -79,7 +81,7 @@ def is_read_in_full(node: NodeClass) -> bool:
             return False
         if "__getattr__" in bindings or "__getattribute__" in bindings:
             return False
-        if owner.file.module.mentions("setattr(", "__dict__", "vars(self"):
+        if owner.file.module.mentions("__dict__", "vars(self") or set_by_name(owner.file) is None:
             return False
         owner = owner.base
     return True
