@@ -19,6 +19,22 @@ from scaffold.api.rclpy import (
     numbers_taken,
 )
 
+from ._tables import calls_of_tables
+
+_NODE_OF_TABLE = (
+    "from rclpy.node import Node\nfrom std_msgs.msg import String\n\n\n"
+    "class Listener(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('listener')\n"
+    "        self.commands = {{'start': self.start, 'stop': self.stop}}\n"
+    "        self.create_subscription(String, 'command', self.hear, 10)\n\n"
+    "    def hear(self, msg):\n"
+    "        {}\n\n"
+    "    def start(self):\n"
+    "        pass\n\n"
+    "    def stop(self, now=False):\n"
+    "        pass\n"
+)
 _NODE = (
     "from rclpy.node import Node\nfrom std_msgs.msg import String\n\n\n"
     "class Listener(Node):\n"
@@ -102,6 +118,26 @@ class CallbackArity(RclpyRule):
     code = "ND003"
     name = "callback-arity"
     examples = (
+        Example(
+            "a table of methods, called with the arguments that they take",
+            {"listener.py": _NODE_OF_TABLE.format("self.commands[msg.data]()")},
+        ),
+        Example(
+            "tables of methods, called with an argument too many",
+            {
+                "a.py": _NODE_OF_TABLE.format("self.commands[msg.data](True)"),
+                "b.py": _NODE_OF_TABLE.format(
+                    "command = self.commands.get(msg.data)\n"
+                    "        if command is not None:\n            command(msg)"
+                ),
+                "c.py": _NODE_OF_TABLE.format(
+                    "if msg.data == 'stop':\n            self.commands[msg.data](True)\n"
+                    "        else:\n            self.commands[msg.data]()"
+                ),
+            },
+            "a.py:8:35: callback 'start' takes 0 arguments, but line 12 passes 1: TypeError",
+            "b.py:8:35: callback 'start' takes 0 arguments, but line 14 passes 1: TypeError",
+        ),
         Example(
             "replaced in a class of another module, by methods with and without a parameter",
             {
@@ -285,11 +321,26 @@ def _given_callbacks(file: RclpyFile) -> Iterator[tuple[tuple[tuple[int, ...], s
         given = _argument_counts(entity)
         if given is not None:
             yield given, callback
+    yield from _called_from_tables(file)
     for attribute in file.module.index.attributes("add_done_callback"):
         match file.module.parent(attribute):
             case ast.Call(func=func, args=[passed], keywords=[]) if func is attribute:
                 if not file.module.mentions("def add_done_callback"):
                     yield ((1,), "a future passes itself: TypeError"), file.callback(passed)
+
+
+def _called_from_tables(
+    file: RclpyFile,
+) -> Iterator[tuple[tuple[tuple[int, ...], str], Callback]]:
+    """Yield the functions in tables, each with the arguments it gets."""
+    for table, calls in calls_of_tables(file):
+        if any(isinstance(part, ast.Starred) for call in calls for part in call.args):
+            continue
+        if any(call.keywords for call in calls):
+            continue
+        counts = tuple({len(call.args) for call in calls})
+        passes = f"line {calls[0].lineno} passes {counts[0] or 'none'}: TypeError"
+        yield from (((counts, passes), file.callback(value)) for value in table.values)
 
 
 def _argument_counts(entity: Entity) -> tuple[tuple[int, ...], str] | None:

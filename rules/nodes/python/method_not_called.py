@@ -59,6 +59,22 @@ class MethodNotCalled(RclpyRule):
         Severity.WARNING: "it is a shutdown at the end of the program, or a log message"
     }
     examples = (
+        Example(
+            "lambdas in a table and in a callback, which return a method",
+            {
+                "keys.py": "import tkinter\n\nfrom rclpy.node import Node\n\n\n"
+                "class Keys(Node):\n"
+                "    def __init__(self):\n"
+                "        super().__init__('keys')\n"
+                "        self.actions = {'w': lambda: self.drive, 's': lambda: self.stop()}\n"
+                "        self.button = tkinter.Button(command=lambda: self.stop)\n"
+                "        self.later = lambda: self.stop\n\n"
+                "    def drive(self):\n        pass\n\n"
+                "    def stop(self):\n        pass\n"
+            },
+            "9:38: 'drive' is a method that is not called; write drive()",
+            "10:54: 'stop' is a method that is not called; write stop()",
+        ),
         Example("called", {"talker.py": _NODE.format("()", "()", "()", "()", "()")}),
         Example(
             "not called: as a value, as conditions, as a statement",
@@ -171,7 +187,8 @@ class MethodNotCalled(RclpyRule):
 
 
 _PLACES = frozenset(
-    {ast.Attribute, ast.BoolOp, ast.Compare, ast.Expr, ast.If, ast.IfExp, ast.UnaryOp, ast.While}
+    {ast.Attribute, ast.BoolOp, ast.Compare, ast.Expr, ast.If, ast.IfExp, ast.Lambda}
+    | {ast.UnaryOp, ast.While}
 )
 """Nodes in which an uncalled method may be an error."""
 
@@ -184,6 +201,8 @@ def _level(file: RclpyFile, node: ast.Attribute) -> Severity:
     return Severity.WARNING if is_late or node.attr in _LOGGING else Severity.ERROR
 
 
+_CALLBACKS = frozenset({"callback", "command", "on_press", "target"})
+"""Arguments that are called without using the result."""
 _LOGGING = frozenset({"debug", "info", "warn", "warning", "error", "fatal"})
 _TIDYING = frozenset({"shutdown", "try_shutdown", "destroy_node"})
 _OF_THREADS = {
@@ -220,6 +239,12 @@ def _needs_value(file: RclpyFile, node: ast.Attribute) -> bool:
             return not attr.startswith("__") and attr not in _FUNCTION_HAS
         case ast.Expr():
             return True
+        case ast.Lambda() as function:  # in a table of functions, or a callback
+            match file.module.parent(function):
+                case ast.Dict(values=values):
+                    return function in values
+                case ast.keyword(arg=name):
+                    return name in _CALLBACKS
     return _is_compared(file, node) or _is_condition(file, node)
 
 
