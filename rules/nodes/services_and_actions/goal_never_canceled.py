@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from scaffold.api import Diagnostic, Effect, Example, RclpyRule
 from scaffold.api.programs import spins_in_one_thread
 from scaffold.api.python import FunctionNode
-from scaffold.api.rclpy import GOAL_HANDLE, ActionServer, RclpyFile, class_of
+from scaffold.api.rclpy import GOAL_HANDLE, LOG_METHODS, ActionServer, RclpyFile, class_of
 
 _WAITING = frozenset({"sleep", "wait", "sleep_for", "sleep_until"})
 _NODE = (
@@ -38,7 +38,7 @@ _THREADS = ", executor=MultiThreadedExecutor()"
 
 
 class GoalNeverCanceled(RclpyRule):
-    """An action server checks for cancel requests that it can never receive.
+    """An action server checks for cancel requests that it can never receive, or never checks.
 
     **Why.** Without a ``cancel_callback``, every cancel request is rejected. With one thread, the
     request is only processed after the goal is done, because the execute callback occupies the
@@ -96,6 +96,17 @@ class GoalNeverCanceled(RclpyRule):
                     "    def is_stopped(self):\n        return self.stopped\n\n    def cancel(",
                 )
             },
+        ),
+        Example(
+            "requests that are accepted, and never checked",
+            {
+                "server.py": _NODE.format(_CANCEL, _THREADS)
+                .replace("            if goal_handle.is_cancel_requested:\n", "")
+                .replace("                goal_handle.canceled()\n", "")
+                .replace("                return Fibonacci.Result()\n", "")
+            },
+            "13:89: cancel requests are accepted without effect: the execute callback never reads "
+            "is_cancel_requested; check it in the loop, and call canceled()",
         ),
         Example(
             "canceled too early",
@@ -158,13 +169,52 @@ class GoalNeverCanceled(RclpyRule):
             used = (item for node in work for item in file.module.below(node, ast.Attribute))
             if any(item.attr in kept for item in used):
                 continue
-            for function in work:
-                for call in _cancels(file, function):
-                    message = (
-                        "no cancel request was received: canceled() raises RCLError; "
-                        "check is_cancel_requested, or call abort()"
-                    )
-                    yield self.report(file.module.location(call), message)
+            canceled = [call for function in work for call in _cancels(file, function)]
+            for call in canceled:
+                message = (
+                    "no cancel request was received: canceled() raises RCLError; "
+                    "check is_cancel_requested, or call abort()"
+                )
+                yield self.report(file.module.location(call), message)
+            if not canceled:
+                yield from self._check_ignored(file, server)
+
+    def _check_ignored(self, file: RclpyFile, server: ActionServer) -> Iterator[Diagnostic]:
+        """Check a server that accepts cancel requests and ignores them."""
+        given = server.argument("cancel_callback")
+        if given is not None and _accepts(file, given.node) and _only_reports(file, server):
+            message = (
+                "cancel requests are accepted without effect: the execute callback never "
+                "reads is_cancel_requested; check it in the loop, and call canceled()"
+            )
+            yield self.report(given, message)
+
+
+def _accepts(file: RclpyFile, node: ast.expr) -> bool:
+    """Tell whether a cancel callback accepts requests and does nothing else but log."""
+    function = file.callback(node).function
+    if function is None:
+        return False
+    names = [
+        file.module.qualified_name(item) for item in file.module.below(function, ast.Attribute)
+    ]
+    return "rclpy.action.CancelResponse.ACCEPT" in names and all(
+        isinstance(call.func, ast.Attribute) and call.func.attr in {*LOG_METHODS, "get_logger"}
+        for call in file.calls_in(function)
+    )
+
+
+def _only_reports(file: RclpyFile, server: ActionServer) -> bool:
+    """Tell whether an execute callback waits in a loop, and no other code gets its goal handle."""
+    function = server.callback.function if server.callback else None
+    if function is None or not function.args.args or not _waits(file, server):
+        return False
+    handle = function.args.args[-1].arg
+    return all(
+        isinstance(file.module.parent(name), ast.Attribute)
+        for name in file.module.below(function, ast.Name)
+        if name.id == handle
+    )
 
 
 def _cancels(file: RclpyFile, function: FunctionNode | ast.Lambda) -> Iterator[ast.Call]:

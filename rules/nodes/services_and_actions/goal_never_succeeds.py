@@ -10,6 +10,7 @@ from scaffold.api.python import FunctionNode
 from scaffold.api.rclpy import ActionServer, Callback, RclpyFile, worker
 
 _ENDS = frozenset({"abort", "canceled"})
+_FUNCTIONS = (ast.FunctionDef, ast.AsyncFunctionDef)
 _MAX_DEPTH = 3
 """The maximum number of functions to follow a goal handle through."""
 _NODE = (
@@ -95,6 +96,34 @@ class GoalNeverSucceeds(RclpyRule):
             "aborted; call goal_handle.canceled() first",
         ),
         Example(
+            "succeeds after canceled() and a break",
+            {
+                "server.py": "from example_interfaces.action import Fibonacci\n"
+                "from rclpy.action import ActionServer\nfrom rclpy.node import Node\n\n\n"
+                "class Server(Node):\n"
+                "    def __init__(self):\n"
+                "        super().__init__('server')\n"
+                "        self.server = ActionServer(self, Fibonacci, 'count', self.work)\n\n"
+                "    def work(self, goal_handle):\n"
+                "        for step in range(10):\n"
+                "            if goal_handle.is_cancel_requested:\n"
+                "                goal_handle.canceled()\n"
+                "                break\n"
+                "        goal_handle.succeed()\n"
+                "        return Fibonacci.Result()\n\n"
+                "    def other(self, goal_handle):\n"
+                "        while True:\n"
+                "            if goal_handle.is_cancel_requested:\n"
+                "                goal_handle.canceled()\n"
+                "                break\n"
+                "        if goal_handle.is_active:\n"
+                "            goal_handle.succeed()\n"
+                "        return Fibonacci.Result()\n"
+            },
+            "14:17: succeed() in line 16 follows: RCLError, and the client gets an empty result; "
+            "return the result after canceled()",
+        ),
+        Example(
             "sets no state",
             {"server.py": _NODE.format("")},
             "15:9: returns the result without succeed(): goals of the action server in line 9 end "
@@ -133,6 +162,13 @@ class GoalNeverSucceeds(RclpyRule):
     def _check_state(self, package: Package, file: RclpyFile) -> Iterator[Diagnostic]:
         if package.name == "rclpy":
             return
+        for canceled, succeeded in _succeeding_after_cancel(file):
+            line = file.module.location(succeeded).line
+            message = (
+                f"succeed() in line {line} follows: RCLError, and the client gets an empty result; "
+                "return the result after canceled()"
+            )
+            yield self.report(file.module.location(canceled), message)
         for returned in _returned_uncanceled(file):
             message = (
                 "returns after a cancel request without canceled(): the goal ends as aborted; "
@@ -181,6 +217,41 @@ def _returned_uncanceled(file: RclpyFile) -> Iterator[ast.Return]:
             last = test.body[-1]
             if asks and isinstance(last, ast.Return) and not _ends_in(file, test.body):
                 yield last
+
+
+def _succeeding_after_cancel(file: RclpyFile) -> Iterator[tuple[ast.stmt, ast.stmt]]:
+    """Yield calls of ``canceled()`` after which the same goal certainly succeeds, with both."""
+    for attribute in file.module.index.attributes("canceled"):
+        call = file.module.parent(attribute)
+        statement = file.module.parent(call) if isinstance(call, ast.Call) else None
+        if isinstance(statement, ast.Expr) and not file.module.in_tests:
+            goal = file.module.text(attribute.value)
+            for following in _executed_after(file, statement):
+                match following:
+                    case ast.Expr(value=ast.Call(func=ast.Attribute(attr="succeed", value=other))):
+                        if file.module.text(other) == goal:
+                            yield statement, following
+                        break
+
+
+def _executed_after(file: RclpyFile, statement: ast.stmt) -> Iterator[ast.stmt]:
+    """Yield the statements that are certainly executed after one in its function."""
+    module = file.module
+    node: ast.AST | None = statement
+    while isinstance(node, ast.stmt) and not isinstance(node, _FUNCTIONS):
+        parent = module.parent(node)
+        block, at = module.index.place(node)
+        if parent is None or block != "body":
+            return
+        for following in getattr(parent, block)[at + 1 :]:
+            if isinstance(following, ast.Break):
+                node = module.enclosing(following, ast.For, ast.While)
+                break
+            yield following
+            if not isinstance(following, ast.Expr | ast.Assign | ast.AugAssign | ast.AnnAssign):
+                return
+        else:
+            node = None if isinstance(parent, ast.For | ast.While) else parent
 
 
 def _ends_in(file: RclpyFile, body: list[ast.stmt]) -> bool:
