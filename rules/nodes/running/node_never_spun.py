@@ -57,6 +57,19 @@ class NodeNeverSpun(RclpyRule):
             "16:12: Talker is never spun: its callbacks never run; call rclpy.spin()",
         ),
         Example(
+            "sleeping in a loop of a method, in the same thread and in another one",
+            {
+                name: _NODE.format(f"    {start}\n").replace(
+                    "        pass\n", "        pass\n\n    def run(self):\n        time.sleep(9)\n"
+                )
+                for name, start in {
+                    "talker.py": "node.run()",
+                    "threads.py": "threading.Thread(target=node.run).start()",
+                }.items()
+            },
+            "talker.py:19:12: Talker is never spun: its callbacks never run; call rclpy.spin()",
+        ),
+        Example(
             "one of two nodes, and a node in a node",
             {
                 "talker.py": _NODE.replace(
@@ -114,6 +127,7 @@ class NodeNeverSpun(RclpyRule):
         """Return whether anything in the file may run callbacks in another way."""
         names = {node.attr for node in file.module.walk(ast.Attribute)}
         names |= {node.id for node in file.module.walk(ast.Name)}
+        names -= {node.name for node in file.module.walk(ast.FunctionDef)}  # also looked through
         return any(word in name.lower() for name in names for word in _RUNNING)
 
 
