@@ -147,6 +147,39 @@ class HeaderIncomplete(MessageRule):
             "header.frame_id",
         ),
         Example(
+            "map without a resolution; with one; with a whole info",
+            {
+                "map.py": "from nav_msgs.msg import MapMetaData, OccupancyGrid\n"
+                "from rclpy.node import Node\n\n\n"
+                "class Maps(Node):\n"
+                "    def __init__(self):\n"
+                "        super().__init__('maps')\n"
+                "        self.maps = self.create_publisher(OccupancyGrid, 'map', 1)\n\n"
+                "    def send(self):\n"
+                "        grid = OccupancyGrid()\n"
+                "        grid.header.stamp = self.get_clock().now().to_msg()\n"
+                "        grid.header.frame_id = 'map'\n"
+                "        grid.info.width = grid.info.height = 2\n"
+                "        grid.data = [0, 0, 0, 0]\n"
+                "        self.maps.publish(grid)\n\n"
+                "    def send_scaled(self):\n"
+                "        grid = OccupancyGrid(data=[0])\n"
+                "        grid.header.stamp = self.get_clock().now().to_msg()\n"
+                "        grid.header.frame_id = 'map'\n"
+                "        grid.info.width = grid.info.height = 1\n"
+                "        grid.info.resolution = 0.05\n"
+                "        self.maps.publish(grid)\n\n"
+                "    def send_whole(self):\n"
+                "        grid = OccupancyGrid(data=[0])\n"
+                "        grid.header.stamp = self.get_clock().now().to_msg()\n"
+                "        grid.header.frame_id = 'map'\n"
+                "        grid.info = MapMetaData(width=1, height=1, resolution=0.05)\n"
+                "        self.maps.publish(grid)\n"
+            },
+            "11:16: nav_msgs/msg/OccupancyGrid is published in line 16 with its data, and "
+            "info.resolution is left at its default, zero or empty: set it",
+        ),
+        Example(
             "trajectory points without time_from_start",
             {
                 "arm.py": "from rclpy.node import Node\n"

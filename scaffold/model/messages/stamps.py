@@ -44,7 +44,7 @@ _NEEDED: Mapping[str, tuple[str, tuple[str, ...]]] = {
     "sensor_msgs/msg/Image": ("data", ("height", "width", "encoding", "step")),
     "sensor_msgs/msg/CompressedImage": ("data", ("format",)),
     "sensor_msgs/msg/PointCloud2": ("data", ("width", "height", "fields", "point_step")),
-    "nav_msgs/msg/OccupancyGrid": ("data", ("info",)),
+    "nav_msgs/msg/OccupancyGrid": ("data", ("info", "info.resolution")),
 }
 """Fields without which messages with other fields set are useless."""
 _SENDS = frozenset({"publish", "sendTransform"})
@@ -108,7 +108,11 @@ def lacking(types: MessageTypes) -> Iterator[Unstamped]:
         data, needed = _NEEDED[message.name]
         with suppress(_Doubt):
             given = _fields(types, made, source)
-            missing = [field for field in needed if field not in given]
+            missing = [
+                field
+                for field in needed
+                if given.isdisjoint({field, f"{field.partition('.')[0]}.*"})
+            ]
             if data in given and missing:
                 seen.add(made)
                 yield Unstamped(made, message, sent, missing[0])
@@ -136,15 +140,20 @@ def _sent(
 
 
 def _fields(types: MessageTypes, made: ast.Call, sent: ast.expr) -> set[str]:
-    """Return the fields of a message that are set; raise `_Doubt` if other code may set them."""
+    """Return the fields of a message that are set; raise `_Doubt` if other code may set them.
+
+    Fields of a field have dotted names, such as ``info.width``; ``info.*`` if all may be set.
+    """
     words = {word.arg for word in made.keywords}
     if None in words:
         raise _Doubt
-    result = {word for word in words if word is not None}
+    result = {name for word in words if word is not None for name in (word, f"{word}.*")}
     for use in _uses(types, made, sent) if sent is not made else ():
         match types.module.parent(use):
-            case ast.Attribute(attr=field):
-                result.add(field)
+            case ast.Attribute(attr=field) as part:
+                inner = types.module.parent(part)
+                name = inner.attr if isinstance(inner, ast.Attribute) else "*"
+                result |= {field, f"{field}.{name}"}
             case ast.Call(func=ast.Attribute(attr=name)) if name in _SENDS:
                 pass
             case ast.Return():
