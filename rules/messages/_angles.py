@@ -12,6 +12,8 @@ Flaw = tuple[ast.expr, str]
 """The place and the problem."""
 _WORDS = frozenset({"yaw", "theta", "heading", "psi"})
 """Parts of the names of such angles."""
+_OF_EULER = ("tf_transformations.quaternion_from_euler", "transforms3d.euler.euler2quat")
+"""Functions of roll, pitch and yaw."""
 _DEGREES = frozenset({30, 45, 60, 90, 120, 135, 180, 270, 360})
 """Angles in degrees that are no sensible velocities in radians per second."""
 
@@ -34,6 +36,12 @@ def flaws(types: MessageTypes) -> Iterator[Flaw]:
                     f"implausibly fast; use math.radians()"
                 ),
             )
+    for call in types.module.calls_of(*_OF_EULER):
+        match call.args:
+            case [angle, _, ast.Constant(value=0)] if _is_angle(angle) and not call.keywords:
+                text = types.module.text(angle)
+                name = types.module.text(call.func)
+                yield angle, f"the first argument of {name}() is roll; write (0, 0, {text})"
     for assigned in types.module.walk(ast.Assign):
         match assigned:
             case ast.Assign(targets=[ast.Name() | ast.Attribute() as name], value=value) if (
@@ -83,6 +91,9 @@ def _whole_angle(types: MessageTypes, holder: ast.expr, z: ast.expr) -> str:
         return ""
     if isinstance(types.file.evaluator.single_value(angle), ast.BinOp):
         return ""
+    bindings = types.module.index.bindings_of(angle) if isinstance(angle, ast.Name) else ()
+    if any(isinstance(binding.value, ast.BinOp) for binding in bindings):
+        return ""  # halved before
     text = types.module.text(angle)
     function = types.module.enclosing_function(holder)
     for item in types.assigned:

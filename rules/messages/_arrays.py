@@ -29,6 +29,7 @@ def problems(types: MessageTypes) -> Iterator[tuple[ast.expr, str]]:
     yield from _arrays_as_numbers(types)
     yield from _fields_in_arithmetic(types)
     yield from _arrays_given(types)
+    yield from _written_as_json(types)
     yield from _columns_of_clouds(types)
     yield from _elements_indexed(types)
     yield from _shapes_unpacked(types)
@@ -116,6 +117,32 @@ def _arrays_given(types: MessageTypes) -> Iterator[tuple[ast.expr, str]]:
         if call.args and _is_plain_array(types.field_type_of(call.args[0])):
             text, name = types.module.text(call.args[0]), types.module.text(call.func)
             yield call, f"{name}() does not accept {text}, an array.array: {advice.format(text)}"
+
+
+def _written_as_json(types: MessageTypes) -> Iterator[tuple[ast.expr, str]]:
+    """Yield the messages and arrays in dictionaries and lists that are written as JSON."""
+    module = types.module
+    for call in module.calls_of("json.dump", "json.dumps"):
+        if call.args and {word.arg for word in call.keywords} <= {"indent", "sort_keys"}:
+            for value in _contents(types, call.args[0]):
+                is_array = _is_plain_array(types.field_type_of(value))
+                owner = types.type_of(value)
+                if is_array or owner is not None:
+                    text = module.text(value)
+                    what = f"a {owner.name}" if owner is not None else "an array.array"
+                    hint = "its fields" if owner is not None else f"list({text})"
+                    yield value, f"JSON cannot contain {text}, {what}: TypeError; write {hint}"
+
+
+def _contents(types: MessageTypes, node: ast.expr) -> Iterator[ast.expr]:
+    """Yield the innermost values of a dictionary or list."""
+    value = types.file.evaluator.single_value(node)
+    match value:
+        case ast.Dict(values=parts) | ast.List(elts=parts) | ast.Tuple(elts=parts):
+            for part in parts:
+                yield from _contents(types, part)
+        case _:
+            yield node
 
 
 def _columns_of_clouds(types: MessageTypes) -> Iterator[tuple[ast.expr, str]]:

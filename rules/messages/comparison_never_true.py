@@ -64,6 +64,26 @@ class ComparisonNeverTrue(MessageRule):
             "25:16: msg.data is of type int, which never equals '1'",
         ),
         Example(
+            "the status of a goal compared with a str",
+            {
+                "client.py": "from action_msgs.msg import GoalStatus\n"
+                "from example_interfaces.action import Fibonacci\n"
+                "from rclpy.action import ActionClient\nfrom rclpy.node import Node\n\n\n"
+                "class Client(Node):\n"
+                "    def __init__(self):\n"
+                "        super().__init__('client')\n"
+                "        self.client = ActionClient(self, Fibonacci, 'count')\n\n"
+                "    def on_accepted(self, future):\n"
+                "        future.result().get_result_async().add_done_callback(self.on_result)\n\n"
+                "    def on_result(self, future):\n"
+                "        response = future.result()\n"
+                "        print(response.status == GoalStatus.STATUS_SUCCEEDED)\n"
+                "        print(response.status == 'SUCCEEDED')\n"
+            },
+            "18:15: response.status is an int, which never equals 'SUCCEEDED'; use a constant of "
+            "GoalStatus",
+        ),
+        Example(
             "header compared with a str, number compared with NaN",
             {
                 "watch.py": _NODE.format(
@@ -126,6 +146,9 @@ def _problem(types: MessageTypes, field: ast.expr, other: ast.expr) -> str:
     if message is not None:
         text, other_text = types.module.text(field), types.module.text(other)
         return f"{text} is a {message.name}, which never equals {other_text}"
+    if isinstance(value, str) and _is_goal_status(types, field):
+        text = types.module.text(field)
+        return f"{text} is an int, which never equals {value!r}; use a constant of GoalStatus"
     type_ = types.field_type_of(field)
     is_plain = type_ is not None and type_.is_primitive and not type_.is_array
     if type_ is None or not is_plain or not isinstance(value, bool | int | float | str | bytes):
@@ -140,6 +163,18 @@ def _problem(types: MessageTypes, field: ast.expr, other: ast.expr) -> str:
         if not low <= value <= high:
             return f"{text} is of {type_.name}, {low} to {high}: it never equals {value}"
     return ""
+
+
+def _is_goal_status(types: MessageTypes, node: ast.expr) -> bool:
+    """Tell whether an expression is the status in the response with the result of a goal."""
+    match node:
+        case ast.Attribute(attr="status", value=response) if types.module.mentions(
+            "get_result_async"
+        ):
+            match types.file.evaluator.single_value(response):
+                case ast.Call(func=ast.Attribute(attr="result"), args=[], keywords=[]):
+                    return True
+    return False
 
 
 def _is_constant(types: MessageTypes, node: ast.expr) -> bool:

@@ -47,6 +47,19 @@ class MessageUsedAsValue(MessageRule):
             {"listener.py": _NODE.format("msg.data.upper()", "len(msg.data), msg.data[0]")},
         ),
         Example(
+            "fields written as JSON",
+            {
+                "listener.py": "import json\n\n"
+                + _NODE.format("msg.data", "json.dumps([{'row': msg.data}, msg.layout])")
+                + "\n    def on_row_sent(self, msg: Float32MultiArray):\n"
+                "        row = {'row': list(msg.data)}\n"
+                "        return json.dumps(row), json.dumps({'row': msg.data}, default=list)\n",
+            },
+            "17:36: JSON cannot contain msg.data, an array.array: TypeError; write list(msg.data)",
+            "17:47: JSON cannot contain msg.layout, a std_msgs/msg/MultiArrayLayout: TypeError; "
+            "write its fields",
+        ),
+        Example(
             "messages in format strings: plain, and formatted as numbers",
             {
                 "listener.py": _NODE.format(

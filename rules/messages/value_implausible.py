@@ -72,6 +72,19 @@ class ValueImplausible(MessageRule):
     }
     effect = Effect.WRONG_BEHAVIOR
     examples = (
+        Example(
+            "yaw as the first and as the last argument of quaternion_from_euler()",
+            {
+                "turn.py": "from geometry_msgs.msg import Quaternion\n"
+                "from tf_transformations import quaternion_from_euler\n\n\n"
+                "def turned(yaw, roll):\n"
+                "    quaternion_from_euler(0.0, 0.0, yaw)\n"
+                "    quaternion_from_euler(roll, 0.0, 0.0)\n"
+                "    x, y, z, w = quaternion_from_euler(yaw, 0.0, 0.0)\n"
+                "    return Quaternion(x=x, y=y, z=z, w=w)\n"
+            },
+            "8:40: the first argument of quaternion_from_euler() is roll; write (0, 0, yaw)",
+        ),
         Example("plausible values", {"talker.py": _NODE.format(*_GOOD)}),
         Example(
             "constants of another field",
