@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Severity, TestRule, ViewError
 from scaffold.api.python import PythonModule
+from scaffold.api.rclpy import LOG_METHODS
 from scaffold.api.tests import test_functions
 
 _MOCKED = ("called_once", "called_with", "called_once_with", "not_called", "has_calls")
@@ -59,6 +60,25 @@ class AssertionWithoutEffect(TestRule):
                 )
             },
             "11:5: this discards the AssertionError: the test always passes",
+        ),
+        Example(
+            "an AssertionError that is printed, or that fails the test",
+            {
+                "test/test_text.py": _TEST.format(
+                    "    try:\n        assert ready()\n    except Exception as error:\n"
+                    "        print(f'failed: {error}')\n"
+                ),
+                "test/test_fail.py": _TEST.format(
+                    "    try:\n        assert ready()\n    except Exception as error:\n"
+                    "        print(error)\n        pytest.fail('not ready')\n"
+                ),
+            },
+            "test/test_text.py:11:5: this discards the AssertionError: the test always passes",
+        ),
+        Example(
+            "a length compared with zero",
+            {"test/test_text.py": _ASSERTION.format("len('ab') > 0\n    assert len('ab') >= 0")},
+            "7:5: a length is never negative: the assertion is always true; write > 0",
         ),
         Example("a function that is called", {"test/test_text.py": _ASSERTION.format("ready()")}),
         Example(
@@ -206,8 +226,20 @@ def _drops(module: PythonModule, handler: ast.ExceptHandler) -> bool:
     """Tell whether a handler catches an AssertionError and does nothing."""
     kinds = handler.type.elts if isinstance(handler.type, ast.Tuple) else [handler.type]
     names = {module.qualified_name(kind) if kind is not None else "Exception" for kind in kinds}
-    nothing = all(isinstance(item, ast.Pass | ast.Continue) for item in handler.body)
+    nothing = all(_is_only_shown(module, item) for item in handler.body)
     return nothing and not names.isdisjoint({"Exception", "BaseException", "AssertionError"})
+
+
+def _is_only_shown(module: PythonModule, statement: ast.stmt) -> bool:
+    """Tell whether a statement does nothing but print or log."""
+    match statement:
+        case ast.Pass() | ast.Continue():
+            return True
+        case ast.Expr(value=ast.Call(func=func)):
+            return module.qualified_name(func) == "print" or (
+                isinstance(func, ast.Attribute) and func.attr in LOG_METHODS
+            )
+    return False
 
 
 def _condition_problem(module: PythonModule, condition: ast.expr) -> str:
@@ -217,17 +249,27 @@ def _condition_problem(module: PythonModule, condition: ast.expr) -> str:
             return "a non-empty string is always true: nothing is asserted"
         case ast.BoolOp(op=ast.Or(), values=values) if any(map(_is_true, values)):
             return "one side of this `or` is always true; compare both sides"
+        case ast.Compare(
+            left=ast.Call(func=ast.Name(id="len")),
+            ops=[ast.GtE()],
+            comparators=[ast.Constant(value=0)],
+        ):
+            return "a length is never negative: the assertion is always true; write > 0"
         case ast.Call(func=ast.Attribute(attr=name)) if name in _MOCKED:
             return f"mocks have no {name}(): the call fails, or is always true; use assert_{name}()"
-        case ast.Name(id=name):
-            function = module.functions.get(name)
-            lookup = module.index.lookup(name, condition)
-            if function is not None and lookup is not None and lookup[0] is module.tree:
-                plain = not function.node.decorator_list and len(lookup[1]) == 1
-                return f"{name} is a function, which is always true; call it" if plain else ""
-        case ast.Attribute() if module.qualified_name(condition) == "rclpy.ok":
-            return "rclpy.ok is a function, which is always true; call it"
+        case ast.Name() | ast.Attribute() if _is_function(module, condition):
+            return f"{module.text(condition)} is a function, which is always true; call it"
     return ""
+
+
+def _is_function(module: PythonModule, name: ast.Name | ast.Attribute) -> bool:
+    if isinstance(name, ast.Attribute):
+        return module.qualified_name(name) == "rclpy.ok"
+    function = module.functions.get(name.id)
+    lookup = module.index.lookup(name.id, name)
+    if function is None or lookup is None or lookup[0] is not module.tree:
+        return False
+    return not function.node.decorator_list and len(lookup[1]) == 1
 
 
 def _is_true(node: ast.expr) -> bool:
