@@ -13,7 +13,7 @@ from scaffold.api.launch import (
     given_arguments,
     parameters_given,
 )
-from scaffold.api.python import is_known
+from scaffold.api.python import arguments_for, is_known, is_none_literal
 
 Flaw = tuple[ast.expr, str]
 LOOSE = "choices must be a list of strings"
@@ -159,10 +159,22 @@ def _parameters(launch: LaunchFile, call: LaunchCall, node: ast.expr) -> Iterato
             needed = "parameters must be files or dictionaries {'name': value}"
             yield node, f"{needed}, not lists or pairs"
             break
+        if isinstance(item, ast.Name) and _may_be_none(launch, item):
+            yield item, f"a call passes None as {item.id!r}, which is not a file or a dictionary"
     for name, _, value in parameters_given(launch, call):
         problem = _parameter_problem(value)
         if problem:
             yield value, f"the parameter {name!r} {problem}"
+
+
+def _may_be_none(launch: LaunchFile, name: ast.Name) -> bool:
+    """Tell whether a name is the parameter of a function that some call passes None for."""
+    module = launch.module
+    if len(module.index.bindings_of(name)) != 1:
+        return False
+    if any(isinstance(parent, ast.If | ast.IfExp) for parent in module.parents(name)):
+        return False
+    return any(map(is_none_literal, arguments_for(module, name)))
 
 
 def _parameter_problem(node: ast.expr) -> str:

@@ -206,6 +206,21 @@ class ValueUnusable(LaunchRule):
         ),
         Example("a parameter: values of one type", {"launch/a.launch.py": _NODE.format("[1, 2]")}),
         Example(
+            "parameters: an argument that is None by default, and one that is replaced",
+            {
+                "launch/a.launch.py": "from launch import LaunchDescription\n"
+                "from launch_ros.actions import Node\n\n\n"
+                "def made(name, more=None):\n"
+                "    return Node(package='a', executable=name, parameters=[{'b': 1}, more])\n\n\n"
+                "def other(name, more=None):\n"
+                "    more = more or {}\n"
+                "    return Node(package='a', executable=name, parameters=[{'b': 1}, more])\n\n\n"
+                "def generate_launch_description():\n"
+                "    return LaunchDescription([made('b', {'c': 1}), made('d'), other('e')])\n"
+            },
+            "6:69: a call passes None as 'more', which is not a file or a dictionary",
+        ),
+        Example(
             "a parameter: None",
             {"launch/a.launch.py": _NODE.format("None")},
             "7:61: the parameter 'a' is None, which is not a parameter value",

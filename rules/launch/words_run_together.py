@@ -15,6 +15,7 @@ _PROGRAMS = frozenset({"bash", "cat", "echo", "gz", "python3", "ros2", "sh", "xa
 _PATHS = ("FindPackageShare", "PathJoinSubstitution", "ThisLaunchFileDir", "LaunchConfiguration")
 _LISTS = ("arguments", "ros_arguments", "cmd")
 _TWO_TEXTS = r"""(['"])((?:(?!\1)[^\\])*)\1\s+(['"])-"""
+_OPTION_WITH_VALUE = r"--?[A-Za-z][\w-]* +[^\s-]"
 _LAUNCH = (
     "from launch import LaunchDescription\nfrom launch_ros.actions import Node\n\n\n"
     "def generate_launch_description():\n"
@@ -84,6 +85,11 @@ class WordsRunTogether(LaunchRule):
         Example(
             "three words in one string",
             {"launch/a.launch.py": _LAUNCH.format("'--ros-args -r a:=b'")},
+            "7:62: this is one argument with spaces in it; write a separate string for each word",
+        ),
+        Example(
+            "an option with its value in one string",
+            {"launch/a.launch.py": _LAUNCH.format("'-d /opt/a.rviz', '--name=a b', '-x', '- a'")},
             "7:62: this is one argument with spaces in it; write a separate string for each word",
         ),
         Example(
@@ -168,7 +174,7 @@ def _joined_names(launch: LaunchFile, item: ast.expr) -> str:
 def _problem(launch: LaunchFile, item: ast.expr) -> str:
     if not isinstance(item, ast.Constant) or not isinstance(item.value, str):
         return ""
-    if item.value.startswith("--ros-args "):
+    if item.value.startswith("--ros-args ") or re.match(_OPTION_WITH_VALUE, item.value):
         return "this is one argument with spaces in it; write a separate string for each word"
     # linear: the first text cannot contain its closing quote
     written = re.match(_TWO_TEXTS, launch.module.text(item))
