@@ -2,12 +2,24 @@
 
 from __future__ import annotations
 
+import ast
 import re
 from collections.abc import Iterator
 from contextlib import suppress
 
-from scaffold.api import Diagnostic, Effect, Example, Package, Report, Rule, Severity, ViewError
-from scaffold.api.launch import is_named_elsewhere
+from scaffold.api import (
+    Diagnostic,
+    Effect,
+    Example,
+    Location,
+    Package,
+    Report,
+    Rule,
+    Severity,
+    ViewError,
+    fact,
+)
+from scaffold.api.launch import is_named_elsewhere, launch_paths
 from scaffold.api.messages import message_paths
 from scaffold.api.parameters import keeps_default_name
 from scaffold.api.programs import is_remapped, topics_of
@@ -36,6 +48,8 @@ _NODE_DIRECTION = (
     "        super().__init__('driver')\n"
     "        self.pub = self.create_publisher(Twist, 'cmd_vel', 10)\n"
 )
+_FROM_GAZEBO = re.compile(r"(/?\w[\w/]*)@\w+/msg/\w+\[(?:gz|ignition)\.msgs\.\w+")
+"""Matches an argument of a bridge from Gazebo to ROS."""
 _CLOCK = re.compile(r"\bclock\b")
 _SIM_TIME = re.compile(
     r"use_sim_time['\"]?[\s:,]{0,20}(?:(?:default_value|default|value)=)?['\"]?[Tt]rue"
@@ -138,6 +152,25 @@ class BridgeDiffersFromNodes(Rule):
             ),
         ),
         Example(
+            "the directions of arguments",
+            {
+                "driver.py": _NODE_DIRECTION,
+                "launch/sim.launch.py": "from launch import LaunchDescription\n"
+                "from launch_ros.actions import Node\n\n\n"
+                "def generate_launch_description():\n"
+                "    return LaunchDescription([\n"
+                "        Node(package='ros_gz_bridge', executable='parameter_bridge', arguments=[\n"
+                "            '/clock@rosgraph_msgs/msg/Clock[gz.msgs.Clock',\n"
+                "            '/cmd_vel@geometry_msgs/msg/Twist[gz.msgs.Twist'])])\n",
+            },
+            Report(
+                "launch/sim.launch.py:9:13",
+                "'/cmd_vel' comes from Gazebo, but driver.py:8 publishes it: nothing "
+                "arrives in Gazebo; write ] instead of [",
+                severity=Severity.WARNING,
+            ),
+        ),
+        Example(
             "both directions",
             {
                 "driver.py": _NODE_DIRECTION,
@@ -183,6 +216,7 @@ class BridgeDiffersFromNodes(Rule):
     def check(self, package: Package) -> Iterator[Diagnostic]:
         yield from self._check_type(package)
         yield from self._check_direction(package)
+        yield from self._check_arguments(package)
         yield from self._check_clock(package)
 
     def _check_clock(self, package: Package) -> Iterator[Diagnostic]:
@@ -228,6 +262,20 @@ class BridgeDiffersFromNodes(Rule):
                 is_set = endpoint.from_parameter is not None  # set at the start
                 yield self.report(type_, message, severity=Severity.WARNING if is_set else None)
 
+    def _check_arguments(self, package: Package) -> Iterator[Diagnostic]:
+        """Check the directions in the arguments of bridges in launch files."""
+        for path in launch_paths(package) if message_paths(package) else ():
+            with suppress(ViewError):
+                for name, at in _bridged_from_gazebo(package, path):
+                    topic = topics_of(package).get(name.removeprefix("/"))
+                    if topic is not None and topic.publishers and not topic.subscriptions:
+                        source = topic.publishers[0].location
+                        message = (
+                            f"{name!r} comes from Gazebo, but {source.path}:{source.line} "
+                            f"publishes it: nothing arrives in Gazebo; write ] instead of ["
+                        )
+                        yield self.report(at, message, severity=Severity.WARNING)
+
     def _check_direction(self, package: Package) -> Iterator[Diagnostic]:
         for entry in bridge_entries(package):
             direction = entry.values.get("direction")
@@ -249,6 +297,17 @@ class BridgeDiffersFromNodes(Rule):
                         f"publishes it: nothing arrives in Gazebo; write ROS_TO_GZ"
                     )
                     yield self.report(direction, message, severity=Severity.WARNING)
+
+
+@fact
+def _bridged_from_gazebo(package: Package, path: str) -> tuple[tuple[str, Location], ...]:
+    """Return the topics that the arguments of a bridge carry from Gazebo to ROS only."""
+    module = package.module(path)
+    return tuple(
+        (match[1], module.location(node))
+        for node in module.walk(ast.Constant)
+        if isinstance(node.value, str) and (match := _FROM_GAZEBO.fullmatch(node.value))
+    )
 
 
 def _line_with(package: Package, pattern: re.Pattern[str]) -> str:
