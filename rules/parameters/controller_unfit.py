@@ -38,6 +38,8 @@ from scaffold.api.parameters import (
 )
 from scaffold.api.robot import is_known, robot_file, robot_paths, robots
 
+from ._controllers import replacement
+
 _MANAGER = "controller_manager"
 _SPAWNER = "spawner"
 _TYPE = ".type"
@@ -46,6 +48,16 @@ _JOINTS = frozenset(
     | {"steering_joints_names", "front_wheels_names", "rear_wheels_names", "mimic_joints"}
 )
 """The parameters of controllers that name joints."""
+_LISTED = _JOINTS - {"joint"}
+"""Those of them that are lists."""
+_NEEDING = frozenset(
+    {
+        "diff_drive_controller/DiffDriveController",
+        "forward_command_controller/ForwardCommandController",
+    }
+    | {"joint_trajectory_controller/JointTrajectoryController"}
+)
+"""The types of controllers that do not start without joints."""
 _WITH_VALUE = frozenset(
     {"-c", "--controller-manager", "-n", "--namespace", "-p", "--param-file"}
     | {"--controller-manager-timeout", "--switch-timeout", "--service-call-timeout"}
@@ -57,24 +69,6 @@ _OTHER_SOURCE = frozenset(
 )
 """The options of the spawner that may specify the type."""
 _LOAD = ["ros2", "control", "load_controller"]
-_TRAJECTORY = "joint_trajectory_controller/JointTrajectoryController"
-_OF_ROS1: Mapping[str, str] = {
-    "joint_state_controller/JointStateController": "joint_state_broadcaster/JointStateBroadcaster",
-    **{
-        f"{kind}_controllers/JointTrajectoryController": _TRAJECTORY
-        for kind in ("position", "velocity", "effort")
-    },
-    "position_controllers/JointPositionController": (
-        "position_controllers/JointGroupPositionController"
-    ),
-    "velocity_controllers/JointVelocityController": (
-        "velocity_controllers/JointGroupVelocityController"
-    ),
-    "effort_controllers/JointEffortController": "effort_controllers/JointGroupEffortController",
-    "effort_controllers/JointPositionController": "pid_controller/PidController",
-    "effort_controllers/JointVelocityController": "pid_controller/PidController",
-}
-"""Controller types that ROS 2 does not have, with their replacements."""
 _FILE = (
     "controller_manager:\n  ros__parameters:\n    update_rate: {}\n"
     "    base_controller:\n      type: {}\n\n"
@@ -159,6 +153,7 @@ class ControllerUnfit(Rule):
             "controller fails; did you mean 'right_joint'?",
         ),
         Example(
+<<<<<<< HEAD
             "an unknown joint of a controller that nothing starts",
             _files(joint="right_wheel_joint", words="'--help'", loaded="other"),
             Report(
@@ -169,6 +164,30 @@ class ControllerUnfit(Rule):
             ),
             "launch/robot.launch.py:15:29: no file sets the type of 'other' for the controller "
             "manager: it is not loaded; known: base_controller",
+=======
+            "a misspelled type, and a name for a list of joints",
+            {
+                **_files(type_="diff_drive_controller/DiffDriveControler"),
+                "config/controllers.yaml": _FILE.format(
+                    "50", "diff_drive_controller/DiffDriveControler", "right_joint"
+                ).replace("[right_joint]", "right_joint"),
+            },
+            "config/controllers.yaml:5:13: Jazzy has no controller "
+            "'diff_drive_controller/DiffDriveControler': loading fails; use "
+            "'diff_drive_controller/DiffDriveController'",
+            "config/controllers.yaml:10:24: 'right_wheel_names' must be a list of names: the "
+            "controller fails; write [right_joint]",
+        ),
+        Example(
+            "a section of a controller under another name",
+            {
+                "config/controllers.yaml": _FILE.format("50", _DRIVE, "right_joint").replace(
+                    "\nbase_controller", "\ndrive_controller"
+                )
+            },
+            "7:1: the controller manager has no 'drive_controller', so this section is ignored, "
+            "and 'base_controller' has no parameters",
+>>>>>>> ed7bf3b9 (Check sections and types of controllers, and joints of ros2_control)
         ),
         Example(
             "an interface that another controller exports to a chained one",
@@ -240,18 +259,19 @@ class ControllerUnfit(Rule):
             if entry.name.endswith(_TYPE)
         }
         for section in managers:
-            yield from self._check_manager(section)
+            yield from self._check_manager(package, section)
             yield from self._check_nested(parsed, section, types)
+        yield from self._check_sections(parsed, types)
         yield from self._check_joints(package, parsed, types)
         yield from self._check_spawned(package, types)
 
-    def _check_manager(self, section: Section) -> Iterator[Diagnostic]:
+    def _check_manager(self, package: Package, section: Section) -> Iterator[Diagnostic]:
         for entry in section.entries:
             if entry.name == "update_rate" and value_type(entry.value) == "double":
                 message = "update_rate must be an integer: the controller manager exits at a double"
                 yield self.report(entry.value.location, message)
             if entry.name.endswith(_TYPE) and isinstance(entry.value, Scalar):
-                instead = _OF_ROS1.get(entry.value.text)
+                instead = replacement(package, entry.value.text)
                 if instead:
                     message = (
                         f"{target().title} has no controller {entry.value.text!r}: loading fails; "
@@ -273,6 +293,29 @@ class ControllerUnfit(Rule):
                     f"write {controller!r}: and ros__parameters: at the top level"
                 )
                 yield self.report(entry.location, message)
+
+    def _check_sections(
+        self, files: Sequence[ParameterFile], types: Mapping[str, Entry]
+    ) -> Iterator[Diagnostic]:
+        sections = [section for file in files for section in file.sections]
+        left = types.keys() - {section.name for section in sections}
+        needing = [name for name in left if _text_of(types[name]) in _NEEDING]
+        for section in sections:
+            joints = [entry for entry in section.entries if entry.name in _JOINTS]
+            if section.name in types:
+                for entry in joints:
+                    if entry.name in _LISTED and value_type(entry.value) == "string":
+                        message = (
+                            f"{entry.name!r} must be a list of names: the controller fails; "
+                            f"write [{_text_of(entry)}]"
+                        )
+                        yield self.report(entry.value.location, message)
+            elif joints and len(needing) == 1 and not section.is_pattern:
+                message = (
+                    f"the controller manager has no {section.name!r}, so this section is ignored, "
+                    f"and {needing[0]!r} has no parameters"
+                )
+                yield self.report(section.key, message)
 
     def _check_joints(
         self, package: Package, files: Sequence[ParameterFile], types: Mapping[str, Entry]
@@ -318,6 +361,7 @@ class ControllerUnfit(Rule):
                 yield self.report(word.location, message)
 
 
+<<<<<<< HEAD
 def _is_named_elsewhere(package: Package, controller: str, path: str) -> bool:
     """Tell whether another file of the workspace names a controller, perhaps to start it."""
     for other in package.workspace:
@@ -327,6 +371,10 @@ def _is_named_elsewhere(package: Package, controller: str, path: str) -> bool:
                     if controller.encode() in other.data(place):
                         return True
     return False
+=======
+def _text_of(entry: Entry) -> str:
+    return entry.value.text if isinstance(entry.value, Scalar) else ""
+>>>>>>> ed7bf3b9 (Check sections and types of controllers, and joints of ros2_control)
 
 
 def _spawned(package: Package) -> Iterator[tuple[str, Word]]:

@@ -96,6 +96,18 @@ class RosParametersMissing(Rule):
             ),
         ),
         Example(
+            "missing, with nested parameters",
+            {
+                "talker.py": _NODE.replace("'rate'", "'limits.rate'"),
+                "config/a.yaml": "talker:\n  limits:\n    rate: 2.0\n",
+            },
+            Report(
+                "config/a.yaml:3:5",
+                "'rate' is not under 'ros__parameters': rcl rejects the file",
+                severity=Severity.WARNING,
+            ),
+        ),
+        Example(
             "missing, and something reads YAML itself",
             {
                 "talker.py": _NODE,
@@ -164,8 +176,8 @@ def _files_named_after_nodes(package: Package) -> Iterator[str]:
 def _is_of_node(package: Package, file: ParameterFile) -> bool:
     """Tell whether a file only has parameters of one node, and no code reads YAML itself."""
     nodes, _ = own_nodes(package)
-    names = {entry.key.text for entry in file.misplaced}
-    above = {entry.above for entry in file.misplaced}
+    names = {".".join([*entry.above[1:], entry.key.text]) for entry in file.misplaced}
+    above = {entry.above[:1] for entry in file.misplaced}
     return not any(paths_importing(package, "yaml")) and any(
         above == {(node.node_name,)} and names.issubset(declared_by(node, package).types)
         for node in nodes

@@ -201,6 +201,18 @@ class TreeBroken(Rule):
             ),
         ),
         Example(
+            "known and unknown joints of ros2_control",
+            {
+                "robot.urdf": _ROBOT_LINKS.format("base_link", "wheel").replace(
+                    "</robot>",
+                    '  <ros2_control name="arm" type="system">\n    <joint name="axis"/>\n'
+                    '    <joint name="axel"/>\n    <sensor name="imu"/>\n  </ros2_control>\n'
+                    "</robot>",
+                )
+            },
+            "10:18: ros2_control joint 'axel' is not a joint of this robot",
+        ),
+        Example(
             "mimic of an unknown joint",
             {"robot.urdf": _MIMIC.format("axle")},
             "7:19: 'axis' mimics 'axle', which is not a joint of this robot",
@@ -294,6 +306,7 @@ class TreeBroken(Rule):
                 if _is_here(package, end):
                     yield self.report(end.at("link"), message)
             yield from self._check_mimic(package, joint, joints)
+        yield from self._check_controlled(package, robot, joints)
         extensions = [*robot.root.all("gazebo")]
         added = [
             part.get("name") or ""
@@ -313,6 +326,18 @@ class TreeBroken(Rule):
                     adds = any(child.tag in _SIMULATED for child in part.children)
                     severity = None if adds else Severity.WARNING
                     yield self.report(part.at("reference"), message, severity=severity)
+
+    def _check_controlled(
+        self, package: Package, robot: Expansion, joints: Sequence[str]
+    ) -> Iterator[Diagnostic]:
+        """Check the joints of the <ros2_control> elements."""
+        for system in robot.root.all("ros2_control"):
+            for part in system.all("joint"):
+                name = part.get("name")
+                if name and joints and not _is_among(name, joints) and _is_here(package, part):
+                    hint = _hint(package, name, joints)
+                    message = f"ros2_control joint {name!r} is not a joint of this robot{hint}"
+                    yield self.report(part.at("name"), message)
 
     def _check_mimic(
         self, package: Package, joint: Part, joints: Sequence[str]
