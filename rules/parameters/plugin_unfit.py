@@ -1,0 +1,169 @@
+"""PF011: the plugins of Nav2 exist, and those in a list are configured."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, closest_name
+from scaffold.api.distributions import target
+from scaffold.api.formats import Scalar
+from scaffold.api.formats import Sequence as YamlSequence
+from scaffold.api.parameters import Entry, Section, parameter_files
+
+_OF_NAV2 = re.compile(r"nav2_\w+/\w+")
+"""Matches the names of plugins up to Iron."""
+_SERVERS = frozenset(
+    {"behavior_server", "controller_server", "global_costmap", "local_costmap", "planner_server"}
+    | {"smoother_server", "waypoint_follower"}
+)
+"""The nodes of Nav2 that load plugins."""
+_COSTMAPS = frozenset({"global_costmap", "local_costmap"})
+_DEFAULTS = frozenset(
+    {"FollowPath", "GridBased", "SmoothPath", "assisted_teleop", "backup", "drive_on_heading"}
+    | {"goal_checker", "inflation_layer", "obstacle_layer", "progress_checker", "simple_smoother"}
+    | {"spin", "static_layer", "wait", "wait_at_waypoint"}
+)
+"""The plugins that servers load by default, which need no section."""
+_COSTMAP = (
+    "local_costmap:\n  local_costmap:\n    ros__parameters:\n"
+    '      plugins: ["obstacles", "inflation"]\n'
+    '      obstacles:\n        plugin: "nav2_costmap_2d::ObstacleLayer"\n'
+    "        observation_sources: {}\n        scan:\n          topic: /scan\n"
+    '      {}:\n        plugin: "{}"\n'
+)
+_INFLATION = "nav2_costmap_2d::InflationLayer"
+_PLANNER = (
+    "planner_server:\n  ros__parameters:\n    planner_plugins: [GridBased]\n"
+    "    GridBased:\n      plugin: {}\n"
+)
+_NAVFN = "nav2_navfn_planner{}NavfnPlanner"
+
+
+class PluginUnfit(Rule):
+    """A parameter file of Nav2 lists an unconfigured plugin or sensor, or names an old plugin.
+
+    **Why.** The server does not start: ``Can not get 'plugin' param value for inflation``, or
+    ``According to the loaded plugin descriptions the class nav2_navfn_planner/NavfnPlanner with
+    base class type nav2_core::GlobalPlanner does not exist``. A costmap ignores a sensor that is
+    not in ``observation_sources``.
+
+    **Fix.** Use the same name in the list and for the section. Since Jazzy, the names of plugins
+    have ``::`` instead of ``/``.
+
+    **Source.** Nav2 documentation, migration guide "Iron to Jazzy", and "Configuration guide";
+    https://github.com/ros-navigation/navigation2/issues/2653.
+    """
+
+    code = "PF011"
+    name = "plugin-unfit"
+    examples = (
+        Example(
+            "configured plugins",
+            {
+                "config/nav2.yaml": _COSTMAP.format("scan", "inflation", _INFLATION),
+                "config/planner.yaml": _PLANNER.format(_NAVFN.format("::")),
+            },
+        ),
+        Example(
+            "a layer and a sensor that are listed under other names",
+            {"config/nav2.yaml": _COSTMAP.format("laser", "inflation_layer", _INFLATION)},
+            "4:30: no inflation.plugin here: the server fails; closest: 'inflation_layer'",
+            "7:30: no section 'laser' here: the sensor is ignored",
+        ),
+        Example(
+            "a plugin with its name in Iron",
+            {"config/planner.yaml": _PLANNER.format(_NAVFN.format("/"))},
+            Report(
+                "5:15",
+                "Jazzy has no plugin 'nav2_navfn_planner/NavfnPlanner': the server "
+                "fails; write 'nav2_navfn_planner::NavfnPlanner'",
+                fix="Replace '/' with '::'",
+            ),
+            fixed={"config/planner.yaml": _PLANNER.format(_NAVFN.format("::"))},
+        ),
+        Example(
+            "a section with the name of a costmap once",
+            {"config/nav2.yaml": "local_costmap:\n  ros__parameters:\n    width: 3\n"},
+            "1:1: this section is ignored: the node is /local_costmap/local_costmap; write "
+            "'local_costmap': twice",
+        ),
+        Example(
+            "the same lists in other nodes",
+            {
+                "config/nav2.yaml": "arm:\n  ros__parameters:\n"
+                "    plugins: [a]\n    b: {plugin: c}\n"
+            },
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        sections = [section for file in parameter_files(package) for section in file.sections]
+        for section in sections:
+            if section.name in _COSTMAPS and not _is_costmap(section):
+                name = section.name
+                message = (
+                    f"this section is ignored: the node is /{name}/{name}; write {name!r}: twice"
+                )
+                yield self.report(section.key, message)
+            elif section.name in _SERVERS:
+                yield from self._check_names(section)
+                if [other.name for other in sections].count(section.name) == 1:
+                    yield from self._check_lists(package, section)
+
+    def _check_names(self, section: Section) -> Iterator[Diagnostic]:
+        for entry in section.entries:
+            value = entry.value
+            is_plugin = isinstance(value, Scalar) and entry.name.endswith(".plugin")
+            if not is_plugin or not target().fact("nav2.has_colons_in_plugins"):
+                continue
+            if isinstance(value, Scalar) and _OF_NAV2.fullmatch(value.text):
+                new = value.text.replace("/", "::")
+                at = value.end - int(not value.is_plain) - len(value.text.rpartition("/")[2]) - 1
+                fix = Fix("Replace '/' with '::'", (Edit(value.location.path, at, at + 1, "::"),))
+                message = f"{target().title} has no plugin {value.text!r}: the server fails"
+                yield self.report(value, f"{message}; write {new!r}", fix)
+
+    def _check_lists(self, package: Package, section: Section) -> Iterator[Diagnostic]:
+        names = {entry.name for entry in section.entries}
+        for entry in section.entries:
+            above, _, last = entry.name.rpartition(".")
+            prefix = f"{above}." if above else ""
+            is_sources = last == "observation_sources"
+            if not is_sources and (above or not last.endswith("plugins")):
+                continue
+            listed = [*_listed(entry)]
+            if not is_sources and _DEFAULTS.issuperset(name for name, _ in listed):
+                continue
+            for name, item in listed:
+                needed = f"{prefix}{name}."
+                is_there = any(
+                    other.startswith(needed) if is_sources else other == f"{needed}plugin"
+                    for other in names
+                )
+                others = {
+                    other.removeprefix(prefix).partition(".")[0]
+                    for other in names
+                    if other.startswith(prefix) and "." in other.removeprefix(prefix)
+                }
+                if not is_there and others:
+                    closest = closest_name(package, name, others, 0.5)
+                    hint = f"; closest: {closest!r}" if closest else ""
+                    what = "sensor is ignored" if is_sources else "server fails"
+                    missing = f"no section {name!r}" if is_sources else f"no {name}.plugin"
+                    yield self.report(item.location, f"{missing} here: the {what}{hint}")
+
+
+def _is_costmap(section: Section) -> bool:
+    """Tell whether a section is for the node of a costmap, whose namespace is its name."""
+    *_, above, _ = ["", *section.node.split("/")]
+    return above == section.name or "*" in section.node
+
+
+def _listed(entry: Entry) -> Iterator[tuple[str, Scalar]]:
+    """Yield the names in a list, or in a text with spaces between them."""
+    value = entry.value
+    items = value.items if isinstance(value, YamlSequence) else [value]
+    for item in items:
+        if isinstance(item, Scalar) and "$" not in item.text:
+            yield from ((name, item) for name in item.text.split())
