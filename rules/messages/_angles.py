@@ -40,8 +40,8 @@ def flaws(types: MessageTypes) -> Iterator[Flaw]:
         match call.args:
             case [angle, _, ast.Constant(value=0)] if _is_angle(angle) and not call.keywords:
                 text = types.module.text(angle)
-                name = types.module.text(call.func)
-                yield angle, f"the first argument of {name}() is roll; write (0, 0, {text})"
+                called = types.module.text(call.func)
+                yield angle, f"the first argument of {called}() is roll; write (0, 0, {text})"
     for assigned in types.module.walk(ast.Assign):
         match assigned:
             case ast.Assign(targets=[ast.Name() | ast.Attribute() as name], value=value) if (

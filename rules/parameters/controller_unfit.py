@@ -153,7 +153,6 @@ class ControllerUnfit(Rule):
             "controller fails; did you mean 'right_joint'?",
         ),
         Example(
-<<<<<<< HEAD
             "an unknown joint of a controller that nothing starts",
             _files(joint="right_wheel_joint", words="'--help'", loaded="other"),
             Report(
@@ -164,7 +163,8 @@ class ControllerUnfit(Rule):
             ),
             "launch/robot.launch.py:15:29: no file sets the type of 'other' for the controller "
             "manager: it is not loaded; known: base_controller",
-=======
+        ),
+        Example(
             "a misspelled type, and a name for a list of joints",
             {
                 **_files(type_="diff_drive_controller/DiffDriveControler"),
@@ -187,7 +187,6 @@ class ControllerUnfit(Rule):
             },
             "7:1: the controller manager has no 'drive_controller', so this section is ignored, "
             "and 'base_controller' has no parameters",
->>>>>>> ed7bf3b9 (Check sections and types of controllers, and joints of ros2_control)
         ),
         Example(
             "an interface that another controller exports to a chained one",
@@ -361,7 +360,6 @@ class ControllerUnfit(Rule):
                 yield self.report(word.location, message)
 
 
-<<<<<<< HEAD
 def _is_named_elsewhere(package: Package, controller: str, path: str) -> bool:
     """Tell whether another file of the workspace names a controller, perhaps to start it."""
     for other in package.workspace:
@@ -371,10 +369,10 @@ def _is_named_elsewhere(package: Package, controller: str, path: str) -> bool:
                     if controller.encode() in other.data(place):
                         return True
     return False
-=======
+
+
 def _text_of(entry: Entry) -> str:
     return entry.value.text if isinstance(entry.value, Scalar) else ""
->>>>>>> ed7bf3b9 (Check sections and types of controllers, and joints of ros2_control)
 
 
 def _spawned(package: Package) -> Iterator[tuple[str, Word]]:

@@ -68,7 +68,7 @@ class PluginUnfit(Rule):
         Example(
             "a layer and a sensor that are listed under other names",
             {"config/nav2.yaml": _COSTMAP.format("laser", "inflation_layer", _INFLATION)},
-            "4:30: no inflation.plugin here: the server fails; closest: 'inflation_layer'",
+            "4:30: no inflation.plugin here: the server fails; did you mean 'inflation_layer'?",
             "7:30: no section 'laser' here: the sensor is ignored",
         ),
         Example(
@@ -148,7 +148,7 @@ class PluginUnfit(Rule):
                 }
                 if not is_there and others:
                     closest = closest_name(package, name, others, 0.5)
-                    hint = f"; closest: {closest!r}" if closest else ""
+                    hint = f"; did you mean {closest!r}?" if closest else ""
                     what = "sensor is ignored" if is_sources else "server fails"
                     missing = f"no section {name!r}" if is_sources else f"no {name}.plugin"
                     yield self.report(item.location, f"{missing} here: the {what}{hint}")

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+import ast
 import re
 from collections.abc import Sequence
 
 from scaffold.api import Diagnostic, Example, TypeRule
-from scaffold.api.types import TypeFinding, class_in, full_name, in_words, is_certain
+from scaffold.api.types import MARK, TypeFinding, class_in, full_name, in_words, is_certain
 
 from ._operands import are_sure
 
+_ARRAY_OF_NUMPY = f"ndarray{MARK}numpy"
 _NODE = (
     "from rclpy.duration import Duration\nfrom rclpy.node import Node\n\n\n"
     "class Ticker(Node):\n"
@@ -64,7 +66,8 @@ class OperatorUnsupported(TypeRule):
     """An operator does not support a ROS object, or combines a str and a number.
 
     **Why.** ``TypeError: '>' not supported between instances of 'Duration' and 'float'``, or
-    ``can only concatenate str (not "float") to str``.
+    ``can only concatenate str (not "float") to str``, or ``ValueError: The truth value of an array
+    with more than one element is ambiguous``.
 
     **Fix.** Convert one side: ``elapsed > Duration(seconds=1.0)``. Format numbers with an
     f-string.
@@ -74,8 +77,29 @@ class OperatorUnsupported(TypeRule):
 
     code = "TY006"
     name = "operator-unsupported"
-    kinds = frozenset({"unsupported-operator"})
+    kinds = frozenset({"unsupported-operator", "unsupported-bool-conversion"})
     examples = (
+        Example(
+            "arrays as conditions, and their elements",
+            {
+                "scan.py": "import numpy as np\nfrom sensor_msgs.msg import LaserScan\n\n\n"
+                "def is_near(msg: LaserScan):\n"
+                "    scan = LaserScan(ranges=[1.0, 2.0])\n"
+                "    ranges = np.array(scan.ranges)\n"
+                "    if (ranges < 0.5).any() and ranges.size and ranges[0] < ranges[1]:\n"
+                "        return ranges[0.1 < ranges < 2.0]\n"
+                "    front = ranges[1:2] < 0.5\n"
+                "    if not front:\n"
+                "        return None\n"
+                "    return 'near' if ranges > 1.0 else 'far'\n"
+            },
+            "9:23: an array with several elements is neither true nor false: ValueError; write "
+            "two comparisons with & between them",
+            "11:8: an array with several elements is neither true nor false: ValueError; use "
+            ".any(), .all() or .size",
+            "13:22: an array with several elements is neither true nor false: ValueError; use "
+            ".any(), .all() or .size",
+        ),
         Example(
             "comparison of two durations", {"ticker.py": _NODE.format("Duration(seconds=1.0)")}
         ),
@@ -196,6 +220,15 @@ class OperatorUnsupported(TypeRule):
     )
 
     def judge(self, finding: TypeFinding) -> Diagnostic | None:
+        is_truth = finding.kind == "unsupported-bool-conversion"
+        return self._judge_truth(finding) if is_truth else self._judge_operator(finding)
+
+    def _judge_truth(self, finding: TypeFinding) -> Diagnostic | None:
+        array = rf"(?:None \| )?{_ARRAY_OF_NUMPY}(?: \| None)?"
+        is_array = finding.match(rf"Boolean .* type `{array}`") is not None
+        return self.report(finding, _truth_problem(finding)) if is_array else None
+
+    def _judge_operator(self, finding: TypeFinding) -> Diagnostic | None:
         matched = finding.match(
             r"Operator `(?P<operator>[^`]+)` is not supported between (?:two )?objects of type "
             r"`(?P<left>[^`]+)`(?: and `(?P<right>[^`]+)`)?"
@@ -224,6 +257,15 @@ class OperatorUnsupported(TypeRule):
         hint = next(filter(None, hints), "")
         message = f"{operator!r} does not work on {pair}: TypeError"
         return self.report(finding, f"{message}; {hint}" if hint else message)
+
+
+def _truth_problem(finding: TypeFinding) -> str:
+    """Return the problem with a condition that is an array."""
+    node = finding.innermost
+    message = "an array with several elements is neither true nor false: ValueError"
+    if isinstance(node, ast.Compare) and len(node.ops) > 1:
+        return f"{message}; write two comparisons with & between them"
+    return f"{message}; use .any(), .all() or .size"
 
 
 def _on_text(operator: str, words: Sequence[str]) -> str:

@@ -24,6 +24,7 @@ _FOUND = re.compile(r"found `((?:Literal\[)?([A-Z][^\W_]\w*)(?:\.[^`|]*)?)`$")
 """Matches an instance of an unmarked class, or a member of an enumeration."""
 _STANDING_IN = re.compile(r"Mock|Fake|Stub|Dummy", re.IGNORECASE)
 """Matches classes whose objects are passed instead of those of others."""
+_MODULE = re.compile(r"Module `([\w.]+)` has no member `\w+`")
 _CALLS = frozenset(
     {
         "missing-argument",
@@ -36,11 +37,16 @@ _CHANGING = re.compile(
     rb"\b(?:setattr|__dict__|__getattribute__|__new__|metaclass|exec|globals|vars)\b"
 )
 """Matches code that sets attributes dynamically or replaces objects."""
+_LENDING = re.compile(rb"import[ (]*\*|\b(?:__getattr__|__import__|import_module|globals|exec)\b")
+"""Matches code that defines names of a module dynamically or takes those of another one."""
 _NAME = re.compile(rb"\b[A-Za-z_]\w*")
 
 
 def is_about_own(item: TyDiagnostic, sources: Iterable[Source]) -> bool:
     """Tell whether a report is about a class or a function that one of the files defines."""
+    module = _MODULE.fullmatch(item.message)
+    if module is not None and item.kind == "missing-attribute":
+        return _is_lacking(module[1], sources)
     name = own_name(item)
     if not name:
         return False
@@ -49,6 +55,12 @@ def is_about_own(item: TyDiagnostic, sources: Iterable[Source]) -> bool:
     if not defining or any(_CHANGING.search(data) for data in _with_bases(name, files)):
         return False
     return item.kind in _CALLS or len(defining) == 1  # otherwise the object may be of another class
+
+
+def _is_lacking(module: str, sources: Iterable[Source]) -> bool:
+    """Tell whether a module of the workspace certainly has only the names in its file."""
+    files = [item for item in sources if item.path and item.dotted == module]
+    return len(files) == 1 and not _LENDING.search(files[0].data)
 
 
 def with_own_marked(item: TyDiagnostic, sources: Iterable[Source]) -> TyDiagnostic:

@@ -49,6 +49,7 @@ KINDS = (
     "invalid-context-manager",
     "invalid-raise",
     "redundant-condition",
+    "unsupported-bool-conversion",
 )
 """The rules of ty that our rules are based on; all others are off."""
 

@@ -22,7 +22,7 @@ _BUILTINS = frozenset(
 )
 _ANYTHING = re.compile(r"\b(?:Unknown|Any|object|Todo|Never|Divergent)\b|@|(?<!& )~")
 """Matches types of which too little is known, such as ``~None``, a narrowed ``object``."""
-_CONTAINER = re.compile(r"(?:list|dict|set|tuple)\[[^|]*\]")
+_CONTAINER = re.compile(r"list|dict|set|tuple")
 _CLASSES = re.compile(rf"(?:{MARKED}|bytes|None)(?: \| (?:{MARKED}|bytes|None))*")
 _ITERABLE = re.compile(r"\b(?:Iterable|Sequence)\[")
 _INNERMOST = re.compile(r"\([^()\[\]]*\)|\[[^()\[\]]*\]")
@@ -63,7 +63,7 @@ def is_certain_misfit(expected: str, given: str) -> bool:
         return True
     if not is_certain(_ITERABLE.sub("list[", expected).replace("|", ",")):
         return False
-    is_container = _CONTAINER.fullmatch(given) and _CLASSES.fullmatch(expected)
+    is_container = _CONTAINER.fullmatch(_without_arguments(given)) and _CLASSES.fullmatch(expected)
     if is_container or is_certain(given) or is_function(given):
         return True  # whatever the elements of a container
     parts = [part.strip() for part in _alternatives(_TEXT.sub("str", given))]
@@ -132,8 +132,9 @@ def in_words(type_: str) -> str:
     function = re.match(r"(?:bound method|def) (?:Self@)?([\w.·]+)", type_)
     if function is not None:
         return f"the function {function[1].rpartition('.')[2]!r}"
-    if type_.startswith("<class '"):
-        return f"the class {type_[8:-2]!r}"
+    classes = [part.strip() for part in type_.split(" | ")]
+    if all(part.startswith("<class '") for part in classes):
+        return " or ".join(f"the class {part[8:-2]!r}" for part in classes)
     return with_article(name_of(type_))
 
 
