@@ -5,9 +5,10 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator, Mapping
 
-from scaffold.api.interfaces import FLOATS, INTEGER_RANGES, TEXTS, FieldType
-from scaffold.api.messages import MessageTypes
+from scaffold.api.interfaces import FLOATS, INTEGER_RANGES, FieldType
+from scaffold.api.messages import MessageTypes, kind_of_field
 
+_NUMBERS = frozenset({"float", "int"})
 KINDS: dict[str, type] = {"bool": bool, "float": float, "int": int, "str": str}
 """The Python types of plain fields."""
 _OF_NUMPY = frozenset({"min", "max", "mean", "sum", "std", "shape", "size", "astype", "reshape"})
@@ -50,8 +51,8 @@ def _arrays_as_numbers(types: MessageTypes) -> Iterator[tuple[ast.expr, str]]:
                 if type_.is_array and (name == "range" or type_.array_size is None):
                     use = f"use len({text})" if name == "range" else "use one of its elements"
                     yield call, f"{text} is an array, not a number: TypeError; {use}"
-                elif name == "range" and kind(type_) in {"float", "str"}:
-                    yield call, f"{text} is a {kind(type_)}, not an integer: TypeError"
+                elif name == "range" and kind_of_field(type_) in {"float", "str"}:
+                    yield call, f"{text} is a {kind_of_field(type_)}, not an integer: TypeError"
     for node in module.walk(ast.Compare):
         type_ = types.field_type_of(node.left)
         is_order = isinstance(node.ops[0], ast.Lt | ast.LtE | ast.Gt | ast.GtE)
@@ -72,7 +73,7 @@ def _fields_in_arithmetic(types: MessageTypes) -> Iterator[tuple[ast.expr, str]]
                 continue
             value = evaluate(other)
             is_text = isinstance(value, str) or isinstance(other, ast.JoinedStr)
-            if isinstance(node.op, ast.Add) and is_text and kind(type_) in {"float", "int"}:
+            if isinstance(node.op, ast.Add) and is_text and kind_of_field(type_) in _NUMBERS:
                 text = module.text(field)
                 yield (
                     node,
@@ -163,7 +164,10 @@ def _elements_indexed(types: MessageTypes) -> Iterator[tuple[ast.expr, str]]:
         match index.value:
             case ast.Subscript(value=array, slice=row) if not isinstance(row, ast.Slice):
                 type_ = types.field_type_of(array)
-                if type_ is None or kind(types.field_type_of(index.value)) not in {"int", "float"}:
+                if type_ is None or kind_of_field(types.field_type_of(index.value)) not in {
+                    "int",
+                    "float",
+                }:
                     continue
                 text = types.module.text(array)
                 message = f"{text} is one array, row by row, whose elements are numbers: TypeError"
@@ -184,17 +188,6 @@ def _is_flat_cloud(types: MessageTypes, made: ast.Call) -> bool:
     is_cloud = types.module.qualified_name(made.func) == _CLOUD
     words = {word.arg for word in made.keywords}
     return is_cloud and words.isdisjoint({"reshape_organized_cloud", None}) and not made.args[4:]
-
-
-def kind(type_: FieldType | None) -> str:
-    """Return the Python type of a field of a plain type; empty for other fields."""
-    if type_ is None or type_.is_array or not type_.is_primitive or type_.name == "byte":
-        return ""
-    if type_.name in FLOATS:
-        return "float"
-    if type_.name in TEXTS:
-        return "str"
-    return "int" if type_.name in INTEGER_RANGES else "bool"
 
 
 def _shapes_unpacked(types: MessageTypes) -> Iterator[tuple[ast.expr, str]]:

@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterator, Mapping
 
 from scaffold.api import Diagnostic, Example, MessageRule
-from scaffold.api.messages import MessageClass, MessageTypes, is_error_expected
+from scaffold.api.messages import MessageClass, MessageTypes, is_error_expected, kind_of_field
 from scaffold.api.python import is_handled
 
 from . import _arrays
@@ -318,14 +318,14 @@ def _problems(types: MessageTypes) -> Iterator[tuple[ast.expr, str]]:
             yield node, f"{owner.name} is always true, whatever it holds; use its field {name!r}"
     for call in module.walk(ast.Call):
         if isinstance(call.func, ast.Attribute) and (
-            types.type_of(call.func) or _arrays.kind(types.field_type_of(call.func))
+            types.type_of(call.func) or kind_of_field(types.field_type_of(call.func))
         ):
             yield (
                 call,
                 f"{module.text(call.func)} is a field, not a method: TypeError; remove the ()",
             )
     for node in module.walk(ast.Attribute):
-        kind = _arrays.kind(types.field_type_of(node.value))
+        kind = kind_of_field(types.field_type_of(node.value))
         if kind and not hasattr(_arrays.KINDS[kind], node.attr):
             message = f"{module.text(node.value)} is a {kind}, which has no {node.attr!r}"
             yield node, f"{message}: AttributeError"
@@ -405,7 +405,7 @@ def _compared(types: MessageTypes, node: ast.Compare) -> Iterator[tuple[ast.expr
 def _is_plain(types: MessageTypes, node: ast.expr) -> bool:
     """Return whether an expression is a constant, or a field of a plain type."""
     value = types.file.evaluator.evaluate(node)
-    return type(value) in _arrays.KINDS.values() or bool(_arrays.kind(types.field_type_of(node)))
+    return type(value) in _arrays.KINDS.values() or bool(kind_of_field(types.field_type_of(node)))
 
 
 def _is_format(node: ast.BinOp) -> bool:

@@ -17,7 +17,7 @@ from scaffold.api import (
     ViewError,
     fact,
 )
-from scaffold.api.install import is_elsewhere, moved_to
+from scaffold.api.install import file_of, is_elsewhere, moved_to
 from scaffold.api.python import exports_of
 from scaffold.api.rclpy import rclpy_file
 from scaffold.api.setup_py import EntryPoint
@@ -328,7 +328,7 @@ class EntryPointUnusable(Rule):
         for entry in setup.console_scripts:
             if entry.malformed or not entry.function:
                 continue
-            path = _file_of(package, entry.module)
+            path = file_of(package, entry.module)
             if path:
                 yield from self._check_function(package, entry, path)
                 continue
@@ -375,11 +375,6 @@ def _function(package: Package, path: str, name: str) -> tuple[Location, str, bo
     return function.location, positional[0].arg if count else "", False
 
 
-def _file_of(package: Package, name: str) -> str:
-    base = name.replace(".", "/")
-    return next((item for item in (f"{base}.py", f"{base}/__init__.py") if package.has(item)), "")
-
-
 def _closest_module(package: Package, name: str) -> str:
     """Return the module of the package that a name without a package refers to."""
     first, _, rest = name.partition(".")
@@ -388,7 +383,7 @@ def _closest_module(package: Package, name: str) -> str:
     for root in package.glob("*/__init__.py"):
         own = root.partition("/")[0]
         for item in (f"{own}.{name}", f"{own}.{rest}" if rest else ""):
-            if item and _file_of(package, item):
+            if item and file_of(package, item):
                 return item
     return ""
 

@@ -8,7 +8,7 @@ from scaffold.model.messages.fields import TypeMismatches
 from scaffold.model.messages.files import message_paths
 from scaffold.model.messages.inference import MessageTypes
 from scaffold.model.messages.stamps import childless, lacking, unstamped
-from scaffold.model.messages.value_types import ValueTypes, rclpy_time
+from scaffold.model.messages.value_types import ValueTypes, kind_of_field, rclpy_time
 
 __all__ = [
     "PARTS",
@@ -18,6 +18,7 @@ __all__ = [
     "ValueTypes",
     "childless",
     "is_error_expected",
+    "kind_of_field",
     "lacking",
     "message_paths",
     "rclpy_time",

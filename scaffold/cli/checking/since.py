@@ -6,7 +6,7 @@ import os
 from typing import TYPE_CHECKING
 
 from scaffold.errors import InputError
-from scaffold.source import ViewError
+from scaffold.smoke.selection import needed_by
 
 if TYPE_CHECKING:
     import argparse
@@ -59,7 +59,7 @@ class Since:
             depending = [
                 candidate
                 for candidate in pending
-                if not names.isdisjoint(_needed(candidate.package))
+                if not names.isdisjoint(needed_by(candidate.package))
             ]
             if not depending:
                 break
@@ -162,13 +162,6 @@ class Since:
                 for result in session.run(targets)
                 for item in result.diagnostics
             )
-
-
-def _needed(package: Package) -> set[str]:
-    try:
-        return {*package.manifest.declared_names}
-    except ViewError:
-        return set()
 
 
 def _is_package(directory: str) -> bool:

@@ -174,13 +174,13 @@ class _Evaluation:
         levels: list[tuple[bool, bool]] = []
         any_term, term = False, True
         while True:
-            if self._is("paren", "("):
+            if self._is_parenthesis("("):
                 self.at += 1
                 levels.append((any_term, term))
                 any_term, term = False, True
                 continue
             term = self._comparison() and term
-            while self._is("paren", ")") and levels:
+            while self._is_parenthesis(")") and levels:
                 self.at += 1
                 value = any_term or term
                 any_term, term = levels.pop()
@@ -224,8 +224,8 @@ class _Evaluation:
             self._fail("a value")
         return token.text
 
-    def _is(self, kind: str, text: str) -> bool:
-        return self.at < len(self.tokens) and self.tokens[self.at][:2] == (kind, text)
+    def _is_parenthesis(self, text: str) -> bool:
+        return self.at < len(self.tokens) and self.tokens[self.at][:2] == ("paren", text)
 
     def _next(self, expected: str) -> _Token:
         if self.at == len(self.tokens):

@@ -164,7 +164,7 @@ class ValueTypes:
         """Return the type of a field, or of an attribute of ``self`` used as a counter."""
         type_ = self._types.field_type_of(node)
         if type_ is not None:
-            return _kind_of_field(type_)
+            return kind_of_field(type_) or None
         if node.attr == "nanoseconds":
             is_time = class_of(self._types.file, node.value) in RCLPY_TIMES
             return "int" if is_time else None
@@ -190,10 +190,10 @@ class ValueTypes:
         return kinds.pop() if len(kinds) == 1 else None
 
 
-def _kind_of_field(type_: FieldType) -> str | None:
-    """Return the type of the value of a field; ``None`` if there are several."""
-    if type_.is_array or not type_.is_primitive or type_.name == "byte":
-        return None
+def kind_of_field(type_: FieldType | None) -> str:
+    """Return the Python type of a field of a plain type; empty for other fields."""
+    if type_ is None or type_.is_array or not type_.is_primitive or type_.name == "byte":
+        return ""
     if type_.name in FLOATS:
         return "float"
     if type_.name in TEXTS:

@@ -139,7 +139,7 @@ class _Reader:
         name = self._name(key)
         allowed = ("type", "request", "answer") if kind == "service" else ("type", "goal", "result")
         keys = self._keys(node, f"{kind} {name!r}", allowed)
-        given = self._required(keys, "type", key, f"{kind} {name!r}")
+        given = self._required_type(keys, key, f"{kind} {name!r}")
         return Call(
             kind,
             name,
@@ -153,7 +153,7 @@ class _Reader:
         keys = self._keys(node, f"topic {name!r}", ("type", "message", "rate"))
         return Stimulus(
             name,
-            self._type(self._required(keys, "type", key, f"topic {name!r}"), "msg"),
+            self._type(self._required_type(keys, key, f"topic {name!r}"), "msg"),
             self._optional(keys, "message", self._fields) or {},
             self._optional(keys, "rate", self._positive) or 1.0,
         )
@@ -303,12 +303,10 @@ class _Reader:
     ) -> Value | None:
         return read(keys[name]) if name in keys else None
 
-    def _required(
-        self, keys: Mapping[str, YamlNode], name: str, holder: Scalar, kind: str
-    ) -> YamlNode:
-        if name not in keys:
-            self.refuse(holder.location.line, f"{kind} needs the key {name!r}")
-        return keys[name]
+    def _required_type(self, keys: Mapping[str, YamlNode], holder: Scalar, kind: str) -> YamlNode:
+        if "type" not in keys:
+            self.refuse(holder.location.line, f"{kind} needs the key 'type'")
+        return keys["type"]
 
     def _refuse_value(self, node: YamlNode, wanted: str) -> NoReturn:
         if isinstance(node, Scalar):
