@@ -18,8 +18,9 @@ from scaffold.types import environment, python_modules, ty
 from scaffold.types.findings_cache import Cache, Reported
 from scaffold.types.own_code import is_about_own, own_name, with_own_marked
 from scaffold.types.passed_types import Types, signature
-from scaffold.types.project import Checked, Project, annotated, unannotated
+from scaffold.types.project import Checked, Project
 from scaffold.types.rewriting.passed import callers
+from scaffold.types.rewritten import rewriting
 from scaffold.types.sources import Source, Sources
 from scaffold.types.stubs.libraries import INCOMPLETE, partial_libraries
 from scaffold.types.stubs.marks import MARK
@@ -119,7 +120,7 @@ class TypeCheck:
                         if is_wanted(package, path):
                             self._add(package, path)
             if self._asked or self._passing:
-                self._project = self._started("project", self._asked, annotated, self._passing)
+                self._project = self._started("project", self._asked, self._passing)
         except (UnavailableError, OSError) as error:
             self.failure = str(error)
             self.close()
@@ -212,12 +213,14 @@ class TypeCheck:
         self,
         name: str,
         asked: Sequence[_File],
-        content: Callable[[Source], bytes],
         passing: Mapping[str, Mapping[str, Source]] | None = None,
+        *,
+        is_annotated: bool = True,
     ) -> Project:
         """Start the type checker on files, with everything that they import next to them."""
         checked = [file.checked for file in asked]
-        return Project(self._directory(name), self._environment, checked, content, passing)
+        rewrite = rewriting(self._cache, is_annotated=is_annotated)
+        return Project(self._directory(name), self._environment, checked, rewrite, passing)
 
     def _directory(self, name: str) -> str:
         if not self._scratch:
@@ -261,7 +264,7 @@ class TypeCheck:
                 self._learn()
                 late = [file for file in self._waiting if self._signature(file) != file.silent_for]
                 if late:
-                    self._project = self._started("late", late, annotated)
+                    self._project = self._started("late", late)
                     self._read(late)
                 asked += (*self._asked, *self._waiting)
             asked += self._confirm()
@@ -320,7 +323,7 @@ class TypeCheck:
         ]
         if not files:
             return []
-        self._project = self._started("unannotated", files, unannotated)
+        self._project = self._started("unannotated", files, is_annotated=False)
         for file in files:
             again = {item[:3] for item in self._project.reports(file.checked)}
             file.diagnostics = [

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 from scaffold.types import passed_types, ty
 from scaffold.types.rewriting.added_lines import Extended
 from scaffold.types.rewriting.arguments import with_arguments
 from scaffold.types.rewriting.mixins import with_nodes_as_self
-from scaffold.types.rewriting.unannotated import without_annotations
+from scaffold.types.rewritten import Rewrite
 from scaffold.types.sources import Source
 from scaffold.types.ty import TyDiagnostic
 
@@ -53,7 +53,7 @@ class Project:
         directory: Where to write the files.
         environment: The Python environment with the stubs.
         checked: The files to check.
-        content: Returns the rewritten content of a file for the type checker.
+        rewrite: Rewrites a file for the type checker.
         passing: Modules whose passed types are wanted, each with the files that it reaches.
     """
 
@@ -62,12 +62,11 @@ class Project:
         directory: str,
         environment: str,
         checked: Sequence[Checked],
-        content: Callable[[Source], bytes],
+        rewrite: Rewrite,
         passing: Mapping[str, Mapping[str, Source]] | None = None,
     ) -> None:
         self._directory = directory
         self._environment = environment
-        self._content = content
         self._texts: dict[str, bytes] = {}
         """The files without the lines that are added, by place."""
         self._written: dict[str, Extended] = {}
@@ -75,7 +74,7 @@ class Project:
         for reached in (*(file.reached for file in checked), *(passing or {}).values()):
             for place, source in reached.items():
                 if place not in self._written:
-                    self._add(place, source)
+                    self._texts[place], self._written[place] = rewrite(source)
         self._places = {file.source.place: self._place(file) for file in checked}
         places = [
             place
@@ -87,15 +86,6 @@ class Project:
         _write(directory, ((place, written.data) for place, written in self._written.items()))
         places = places or [*self._places.values()][:1]
         self._run = ty.Run(directory, environment, places) if places else None
-
-    def _add(self, place: str, source: Source) -> None:
-        text = self._texts[place] = self._content(source)
-        is_stub = not source.path
-        self._written[place] = (
-            Extended(text, ())
-            if is_stub
-            else with_nodes_as_self(with_arguments(text, source.dotted))
-        )
 
     def _place(self, file: Checked) -> str:
         """Return the place where a file is checked; write the argument types into a copy.
@@ -193,15 +183,3 @@ def _write(project: str, files: Iterable[tuple[str, bytes]]) -> None:
             os.makedirs(os.path.join(project, folder), exist_ok=True)
         with open(os.path.join(project, place), "wb") as file:
             file.write(data)
-
-
-def annotated(source: Source) -> bytes:
-    """Return a file with annotated callbacks."""
-    return source.with_callback_types if source.path else source.data
-
-
-def unannotated(source: Source) -> bytes:
-    """Return a file with only the annotations of callbacks; empty if it does not parse."""
-    if not source.path:
-        return source.data
-    return without_annotations(source.with_callback_types) or b""
