@@ -240,7 +240,7 @@ class ModuleNotPacked(Rule):
         keyword = setup.keyword("packages")
         if keyword is None or not packages or isinstance(packages, FindPackages | Unknown):
             return
-        data = installed_data(package) or set()
+        data = installed_data(package) or frozenset()
         missing = sorted(
             name
             for path in package.files

@@ -111,7 +111,7 @@ class PackageDataMissing(Rule):
         patterns = package_data(package)
         if patterns is None:
             return
-        as_data = installed_data(package) or set()
+        as_data = installed_data(package) or frozenset()
         at = setup.keyword("package_data") or setup.keyword("packages") or setup
         for file in own_files(package):
             holder = self._owning_package(package, file.path)

@@ -20,11 +20,15 @@ def matches(pattern: Glob, files: Iterable[str]) -> list[str]:
     return [path for path in files if re.fullmatch(expression, path)]
 
 
-def installed_data(package: Package) -> set[str] | None:
+def installed_data(package: Package) -> frozenset[str] | None:
     """Return the files that data_files install; ``None`` if unknown.
 
     A ``glob`` with a condition may install less than this.
     """
+    return package.remember("installed data", lambda: _installed_data(package))
+
+
+def _installed_data(package: Package) -> frozenset[str] | None:
     setup = package.setup_py
     if setup.call is None or setup.has_unknown_keywords or not setup.data_files_complete:
         return None
@@ -35,7 +39,7 @@ def installed_data(package: Package) -> set[str] | None:
                 result.update(matches(source, package.files))
             elif isinstance(source, str):
                 result.add(posixpath.normpath(source))
-    return result
+    return frozenset(result)
 
 
 def package_data(package: Package) -> list[Glob] | None:
