@@ -25,7 +25,7 @@ from scaffold.types.rewriting.passed import (
     places,
     registered_callbacks,
 )
-from scaffold.types.rewriting.statements import class_starts, definitions
+from scaffold.types.rewriting.statements import class_starts, definitions, lines_like
 from scaffold.types.stubs import makers
 
 _EITHER = "_ros2_either"
@@ -42,6 +42,7 @@ _MADE = re.compile(
     r"^[ ]*(?P<name>self\.\w+|\w+)[ ]*(?::[^=\n]*)?=[ ]*(?P<class>[A-Z]\w*)\(", re.MULTILINE
 )
 """Matches a variable or an attribute that is set to a new object."""
+_SET_TO_OBJECT = re.compile(r"=[ ]*[A-Z]\w*\(")
 _NAME = re.compile(r"\w+")
 _DERIVED = re.compile(r"class \w+\(([^()\n]*)")
 """Matches a derived class."""
@@ -264,7 +265,7 @@ def _calls(text: str, function: _Function) -> Iterator[tuple[int, Mapping[str, s
 def _objects(text: str) -> Mapping[str, Sequence[str]]:
     """Return the variables and attributes that a text sets to new objects, by class."""
     result: dict[str, list[str]] = {}
-    for match in _MADE.finditer(text):
+    for match in lines_like(_MADE, _SET_TO_OBJECT, text):
         result.setdefault(match["class"], []).append(match["name"])
     return result
 

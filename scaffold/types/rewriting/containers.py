@@ -13,14 +13,15 @@ from collections.abc import Iterator, Mapping, Sequence
 from scaffold.record import NamedTuple
 from scaffold.types.rewriting.callbacks import arguments_of, function_body
 from scaffold.types.rewriting.results import expression_at
-from scaffold.types.rewriting.statements import class_starts, mentions, statement_around
+from scaffold.types.rewriting.statements import class_starts, lines_like, mentions, statement_around
 
 _MADE = re.compile(
-    r"\n(?P<indent>[ ]+)(?P<name>(?:self\.)?[^\W\d]\w*)[ ]*=[ ]*(?P<value>"
+    r"^(?P<indent>[ ]+)(?P<name>(?:self\.)?[^\W\d]\w*)[ ]*=[ ]*(?P<value>"
     r"\{\}|\[\]|dict\(\)|list\(\)|(?:collections\.)?deque\([^()\n]{0,80}\)"
     r"|\{(?![^\n]*[ ]for[ ])[^{}:\n#]{1,80}:[^{}\n#]{1,400}\})[ ]*(?:#[^\n]*)?$",
     re.MULTILINE,
 )
+_SET_TO_CONTAINER = re.compile(r"=[ ]*(?:[\[{]|dict|list|(?:collections\.)?deque)")
 _HELPERS = {"{": "_ros2_dict", "d": "_ros2_dict", "[": "_ros2_list", "l": "_ros2_list"}
 _DEFINITIONS = """
 from collections import deque as _Ros2Deque
@@ -67,7 +68,7 @@ class Kept(NamedTuple):
 
 def kept_values(text: str) -> Iterator[Kept]:
     """Yield the containers of a file that are created empty."""
-    matches = [*_MADE.finditer(text)]
+    matches = [*lines_like(_MADE, _SET_TO_CONTAINER, text)]
     if not matches:
         return
     made: dict[tuple[str, int, int], list[re.Match[str]]] = {}

@@ -81,6 +81,25 @@ def definitions(pattern: re.Pattern[str], text: str) -> Iterator[re.Match[str]]:
         at = text.find("def ", max(at + 1, end))
 
 
+def lines_like(
+    pattern: re.Pattern[str], part: re.Pattern[str], text: str
+) -> Iterator[re.Match[str]]:
+    """Yield the matches of an expression at the start of lines.
+
+    Args:
+        pattern: The expression.
+        part: What its matches contain in their first line, starting with a fixed character.
+        text: The text.
+    """
+    last = -1
+    for found in part.finditer(text):
+        line = text.rfind("\n", 0, found.start()) + 1
+        match = pattern.match(text, line) if line != last else None
+        last = line
+        if match is not None:
+            yield match
+
+
 def class_starts(text: str) -> Iterator[int]:
     """Yield the positions of the classes of a module."""
     if text.startswith("class "):
