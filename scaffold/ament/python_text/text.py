@@ -193,7 +193,10 @@ class PythonText:
         return self.outline.lines if self.outline else split(self.tokens, self.lines)
 
     def lines_with(self, pattern: str) -> list[LogicalLine]:
-        """Return the logical lines whose text may contain a pattern."""
+        """Return the logical lines whose text may contain a pattern.
+
+        It is searched fast if all of its alternatives start with a fixed character.
+        """
         code, starts, opaque = self._code
         result = {
             bisect_right(starts, item.end() - 1) - 1

@@ -18,7 +18,7 @@ from scaffold.ament.python_text.tokens import NAME, NL, OP, Position
 CODES = frozenset({"E251", "E252", "E275"})
 """Codes of ruff that select candidate lines."""
 
-CANDIDATES = r"\s=\s*[}!:]|=\s+[}!:]"
+CANDIDATES = r"=(?:(?<=\s=)\s*|\s+)[}!:]"
 """Candidates that ruff misses."""
 
 

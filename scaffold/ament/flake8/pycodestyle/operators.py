@@ -41,7 +41,7 @@ CODES = frozenset(_CODES.split())
 
 CANDIDATES = (
     r",\]|\{[^{}\n]*:[^{}\n]*\{"
-    r"|(?:  |\t)[ \t]*[-+*/|!<=>%&^:]"
+    r"|  [ \t]*[-+*/|!<=>%&^:]|\t[ \t]*[-+*/|!<=>%&^:]"
     r"|[-+*/|!<=>%&^](?:  | ?\t)"
 )
 """Candidates that ruff misses: a comma before a bracket, nested formats, spaces at ``->``."""

@@ -52,7 +52,7 @@ def check(text: PythonText) -> Iterator[Finding]:
         (r"[=!]=" if is_modern else r"[=!]=|\bis\b[^\n]*\btype", comparisons),
         (r"not\b", negations),
         (r";|=[ \t]*lambda\b", compounds),
-        (r"^except\s*:", bare_except),
+        (r"except(?<!.except)\s*:", bare_except),
     ):
         for logical in text.lines_with(pattern):
             yield from _located_findings(logical, judge(logical.text))
@@ -61,10 +61,10 @@ def check(text: PythonText) -> Iterator[Finding]:
             yield from _located_findings(logical, compounds(logical.text))
     for logical in _continued(text):
         yield from needless_backslashes(logical)
-    for logical in text.lines_with(r"\b[lOI]\b"):
+    for logical in text.lines_with(r"[lOI](?<!\w.)(?!\w)"):
         yield from ambiguous_names(logical)
     if linters.of_target().since("pycodestyle", 2, 12):
-        for logical in text.lines_with(r"^@\s"):
+        for logical in text.lines_with(r"@(?<!.@)\s"):
             yield from _located_findings(logical, spaced_decorator(logical.text))
     yield from late_imports(text)
 
