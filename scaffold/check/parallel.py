@@ -27,6 +27,9 @@ WORTH_WORKERS = 150_000
 """The size of Python code from which worker processes pay."""
 TASK = 250_000
 """The size of Python code per task, large enough to share the start of ruff."""
+STYLE = 500_000
+"""The size of Python code whose style is one task next to those of rules: ruff is started for each,
+and what it leaves in memory grows."""
 MOST_OF_RULES = 2_000_000
 """Bytes of Python whose rules are one task, unless they are one package: what is parsed for them
 stays in memory until its end."""
@@ -177,10 +180,23 @@ def _tasks(sizes: Sequence[Mapping[str, int]], processors: int) -> Iterator[_Tas
             yield _Task(start, stop, has_rules=True)
         else:
             yield _Task(start, stop, has_rules=True, paths=frozenset())
-            for at in range(start, stop):
-                for paths in _split(sizes[at]):
-                    yield _Task(at, at + 1, has_rules=False, paths=paths)
+            yield from _style_tasks(sizes, start, stop)
         start = stop
+
+
+def _style_tasks(sizes: Sequence[Mapping[str, int]], start: int, stop: int) -> Iterator[_Task]:
+    """Yield the tasks for the style of packages: parts of large ones, and small ones together."""
+    while start < stop:
+        end, total = start + 1, sum(sizes[start].values())
+        while end < stop and total + sum(sizes[end].values()) <= STYLE:
+            total += sum(sizes[end].values())
+            end += 1
+        if total <= STYLE:
+            yield _Task(start, end, has_rules=False)
+        else:
+            for paths in _split(sizes[start]):
+                yield _Task(start, end, has_rules=False, paths=paths)
+        start = end
 
 
 def _split(files: Mapping[str, int]) -> Iterator[frozenset[str]]:
@@ -189,7 +205,7 @@ def _split(files: Mapping[str, int]) -> Iterator[frozenset[str]]:
     for path, bytes_ in files.items():
         paths.append(path)
         total += bytes_
-        if total > TASK:
+        if total > STYLE:
             yield frozenset(paths)
             paths, total = [], 0
     if paths:
