@@ -17,6 +17,7 @@ from scaffold.model.launch.files import DATA_DIRECTORIES
 from scaffold.model.launch.markup_file import markup_files
 from scaffold.model.launch.python_file import LaunchFile, SharePath, launch_paths
 from scaffold.model.launch.unlaunched import is_never_used
+from scaffold.model.package import mentions
 from scaffold.record import NamedTuple
 from scaffold.source import ViewError
 
@@ -31,6 +32,8 @@ _OF_MADE_FILES = frozenset(
 )
 """Functions that create, remove or test for a file that need not exist."""
 
+_SHARE = "get_package_share_"
+"""The start of the functions that return the share directory of a package."""
 _DATABASES = (".db", ".sqlite", ".sqlite3")
 
 _READING = re.compile(
@@ -89,14 +92,20 @@ def _without_options(path: str) -> str:
 def _paths_of_nodes(package: Package) -> Iterator[NamedPath]:
     """Yield the paths that the modules of a package only read."""
     of_launch = {*launch_paths(package)}
-    for module in package.modules(mentioning=["get_package_share_"]):
-        if module.path in of_launch or _is_of_tests(module.path):
-            continue
-        file = LaunchFile.of(package, module.path)
-        for share_path in file.share_paths:
-            node = share_path.node
-            if not file.is_optional(node) and _is_only_read(file, node):
-                yield NamedPath(share_path.package, share_path.path.rstrip(), share_path.location)
+    for path in package.python_files:
+        with suppress(ViewError):
+            if not (path in of_launch or _is_of_tests(path)) and mentions(package, path, _SHARE):
+                yield from _paths_of_module(package, path)
+
+
+@fact
+def _paths_of_module(package: Package, path: str) -> tuple[NamedPath, ...]:
+    file = LaunchFile.of(package, path)
+    return tuple(
+        NamedPath(item.package, item.path.rstrip(), item.location)
+        for item in file.share_paths
+        if not file.is_optional(item.node) and _is_only_read(file, item.node)
+    )
 
 
 def _is_of_tests(path: str) -> bool:
