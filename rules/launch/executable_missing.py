@@ -34,6 +34,8 @@ _FILES_PACKAGES = {
     "setup.py": "from setuptools import setup\n\nsetup(\n    name='talker_demo',\n"
     "    entry_points={'console_scripts': ['talk = talker_demo.talk:main']},\n)\n",
 }
+_NO_ENTRY_POINT = "nodes without entry points: error"
+"""The cause of node-without-entry-point, which reports the same in setup.py."""
 
 
 class ExecutableMissing(Rule):
@@ -165,6 +167,8 @@ class ExecutableMissing(Rule):
             hint = f"did you mean {closest[0]!r}?" if closest else has
             message = f"{use.name} has no executable {name!r}; {hint}"
             cause = "" if programs.sources else f"executables of {use.name}"
+            if other is package and _is_module(package, name):
+                cause = _NO_ENTRY_POINT
             yield self.report(use.executable_location, message, cause=cause)
 
     def _is_script(self, package: Package, name: str) -> bool:
@@ -198,3 +202,8 @@ class ExecutableMissing(Rule):
             return None
         edit = Edit(at.path, offset, offset + len(use.name), name)
         return Fix(f"Replace with {name}", (edit,), Safety.UNSAFE)
+
+
+def _is_module(package: Package, name: str) -> bool:
+    """Tell whether a module of the package has a name, so that it may lack an entry point."""
+    return any(path.rpartition("/")[2] == f"{name}.py" for path in package.python_files)
