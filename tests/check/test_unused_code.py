@@ -573,6 +573,25 @@ def test_uncalled_function_of_a_library(
 
 
 @pytest.mark.parametrize(
+    ("severity", "name", "use"),
+    [
+        ("warning", "tell", "Words()"),
+        ("error", "tell", "Words().tell()"),
+        ("error", "write", "Words()"),
+    ],
+)
+def test_uncalled_method_of_a_helper(
+    package: Path, capsys: pytest.CaptureFixture[str], severity: str, name: str, use: str
+) -> None:
+    write(package / "setup.py", CONSOLE_SCRIPT)
+    words = f"class Words:\n    def {name}(self):\n        return undefined\n"
+    write(package / "talker" / "words.py", words)
+    node = f"from talker.words import Words\n\n\ndef main():\n    {use}\n"
+    write(package / "talker" / "node.py", node)
+    assert severities(capsys, "F821") == {"talker/words.py": severity}
+
+
+@pytest.mark.parametrize(
     ("severity", "expression"),
     [("warning", "getattr(message, field)"), ("error", "getattr(sys.modules[__name__], field)")],
 )

@@ -36,6 +36,8 @@ _OF_PYTEST = re.compile(
 )
 """Matches the names of functions that pytest, unittest or launch_testing call."""
 _ENTRIES = frozenset({"main", "generate_launch_description"})
+_OF_FILES = frozenset({"write", "flush", "read", "readline", "close"})
+"""Methods that Python calls for objects that replace files, such as ``sys.stdout``."""
 _CPP = (".cpp", ".hpp")
 _NAMING = (".py", ".cfg", ".toml", *_CPP)
 """The endings of files that may call a function of Python, or tell who does."""
@@ -296,19 +298,14 @@ def _is_decorated(module: PythonModule, function: FunctionNode) -> bool:
 
 
 def _is_called_by_name(module: PythonModule, function: FunctionNode) -> bool:
-    """Tell whether a function is not called implicitly by Python, rclpy, or an unknown base.
-
-    Methods of modules without a program may be called by any user of their class.
-    """
-    if function.name in _ENTRIES or function.name.startswith("__"):
+    """Tell whether a function is not called implicitly by Python, rclpy, or an unknown base."""
+    if function.name in _ENTRIES | _OF_FILES or function.name.startswith("__"):
         return False
     class_ = module.enclosing_class(function)
     if module.in_tests:
         return class_ is None and _OF_PYTEST.match(function.name) is None
     if class_ is None:
         return True
-    if not _is_startable(module):
-        return False
     if class_.decorator_list or class_.keywords or has(NODE, function.name):
         return False
     return _has_known_bases(module, class_) or bool(_CALLBACK.search(function.name))
