@@ -6,7 +6,7 @@ import ast
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from scaffold.model.python.module import PythonModule
+    from scaffold.model.python.syntax_tree import SyntaxTree
 
 IMPORT_ERRORS = frozenset({"ImportError", "ModuleNotFoundError", "Exception", "BaseException"})
 """The exceptions that catch a missing import."""
@@ -31,7 +31,7 @@ def expected_errors(item: ast.withitem) -> set[str]:
     return set()
 
 
-def is_tested_to_fail(module: PythonModule, node: ast.AST) -> bool:
+def is_tested_to_fail(module: SyntaxTree, node: ast.AST) -> bool:
     """Tell whether a test expects that a node fails.
 
     It may be in a ``with``, in a lambda or in a nested function: ``assertRaises(TypeError, call)``.
