@@ -38,8 +38,9 @@ _INSTALLS_PYTHON = re.compile(rb"ament_python_install|python_setup|setup\.py")
 """Matches commands that may install a whole Python package."""
 _RUNS_SETUP = re.compile(rb"python_setup|setup\.py|\bpip3?\b")
 _OF_TARGETS = re.compile(
-    rb"\b(?:add_executable|add_library|ament_export_\w+|ament_target_dependencies|target_\w+"
-    rb"|install\s*\(\s*TARGETS|ament_(?:auto_)?add_(?:executable|gmock|gtest|library))\b[^)]{0,9999}\)"
+    rb"\b(?:add_(?:executable|library)|ament_export_[a-z]{1,20}|ament_target_dependencies"
+    rb"|target_[a-z_]{1,20}|ament_(?:auto_)?add_(?:executable|gmock|gtest|library))"
+    rb"\s*\([^)]{0,500}\)|\binstall\s*\(\s*TARGETS\b[^)]{0,500}\)"
 )
 """Matches commands about C++."""
 _OF_PROJECT = re.compile(rb"(?<![/\w])\$\{PROJECT_NAME\}/?(?=[\s\")])")
