@@ -64,7 +64,7 @@ class Outcome(NamedTuple):
 
     @property
     def is_good(self) -> bool:
-        """Tell whether there is no problem."""
+        """Return whether there is no problem."""
         failed = self.code not in {exit_codes.CLEAN, exit_codes.FINDINGS}
         return not failed and self.is_stable and not self.notes and self.built != "broken"
 
@@ -142,7 +142,7 @@ def builds(root: Path, package: Package, ros: environment.Environment, program: 
 
 
 def is_installed(name: str, prefixes: list[str]) -> bool:
-    """Tell whether a package is in the environment."""
+    """Return whether a package is in the environment."""
     marker = os.path.join("share", "ament_index", "resource_index", "packages", name)
     return any(os.path.exists(os.path.join(prefix, marker)) for prefix in prefixes)
 

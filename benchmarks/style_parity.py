@@ -214,7 +214,7 @@ def write_mutants(directories: Iterable[Path], count: int, seed: int, top: Path)
 
 
 def ends_the_linters(text: str) -> bool:
-    """Tell whether a text parses and does not compile: ament_flake8 ends in a traceback."""
+    """Return whether a text parses and does not compile: ament_flake8 ends in a traceback."""
     try:
         tree = ast.parse(text)
     except (SyntaxError, ValueError):

@@ -240,7 +240,7 @@ def _members(distro: Distribution) -> Iterator[str]:
 
 
 def _is_name(distro: Distribution, class_: str) -> bool:
-    """Tell whether a module has a name that another distribution has as a class."""
+    """Return whether a module has a name that another distribution has as a class."""
     module, _, name = class_.rpartition(".")
     return name in names_of(distro).get(module, ())
 

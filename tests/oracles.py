@@ -100,7 +100,7 @@ def needs_system_linter(name: str) -> pytest.MarkDecorator:
 
 
 def is_installed(name: str) -> bool:
-    """Tell whether one of `SYSTEM_LINTERS` is installed."""
+    """Return whether one of `SYSTEM_LINTERS` is installed."""
     if name == "ament_lint_auto":  # CMake files and no program
         prefixes = system_environment().get("AMENT_PREFIX_PATH", "").split(os.pathsep)
         return any(Path(prefix, "share", name).is_dir() for prefix in [*prefixes, "/usr"] if prefix)

@@ -324,6 +324,6 @@ def _line_with(package: Package, pattern: re.Pattern[str]) -> str:
 
 
 def _has_plugin(package: Package) -> bool:
-    """Tell whether a package builds a Gazebo plugin, which may read anything from ROS."""
+    """Return whether a package builds a Gazebo plugin, which may read anything from ROS."""
     text = package.source("CMakeLists.txt").text if package.has("CMakeLists.txt") else ""
     return any(name in text for name in _OF_PLUGINS)

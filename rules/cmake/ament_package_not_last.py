@@ -125,7 +125,7 @@ class AmentPackageNotLast(Rule):
 
 
 def _finds_linters(package: Package, last: Command) -> bool:
-    """Tell whether linters are searched for after ``ament_package()``, where CMake fails."""
+    """Return whether linters are searched for after ``ament_package()``, where CMake fails."""
     return any(
         command.index > last.index and command.values[:1] == ["ament_lint_auto"]
         for command in package.cmake.find("find_package")

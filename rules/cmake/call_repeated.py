@@ -129,7 +129,7 @@ class CallRepeated(Rule):
                 yield self.report(command.arguments[0], message)
 
     def _may_skip(self, command: Command) -> bool:
-        """Tell whether a command is in one of several branches, or in a loop or function."""
+        """Return whether a command is in one of several branches, or in a loop or function."""
         return any(
             block.name != "if" or "BUILD_TESTING" not in block.values for block in command.blocks
         )

@@ -335,7 +335,7 @@ class CommandRemoved(Rule):
 
 
 def _is_asked_for(cmake: CMakeLists, command: Command) -> bool:
-    """Tell whether a condition around a call asks for the command, or for the version of one."""
+    """Return whether a condition around a call asks for the command, or for the version of one."""
     return any(
         "COMMAND" in words or any("VERSION" in word for word in words)
         for words in cmake.conditions(command)
@@ -354,7 +354,7 @@ def _target(name: str) -> str:
 
 
 def _exports(package: Package, name: str) -> bool:
-    """Tell whether a package is known to export targets: libraries of ROS, and interfaces."""
+    """Return whether a package is known to export targets: libraries of ROS, and interfaces."""
     if name in _EXPORTING or name in _LINKED:
         return True
     neighbor = package.workspace.get(name)

@@ -179,7 +179,7 @@ class DestinationDiffers(Rule):
             yield self.report(argument, message, fix)
 
     def _is_meant_for_run(self, package: Package, install: Install, given: str) -> bool:
-        """Tell whether a program is a node, not a helper such as an environment hook."""
+        """Return whether a program is a node, not a helper such as an environment hook."""
         if given.startswith(("include", "etc", "/")) or "python" in given:
             return False
         paths = [item.path for item in install.items if item.path and package.has(item.path)]
@@ -189,7 +189,7 @@ class DestinationDiffers(Rule):
         return any(self._is_node(package, path) for path in paths)
 
     def _is_program(self, package: Package, path: str) -> bool:
-        """Tell whether a file is a started node that is not installed elsewhere."""
+        """Return whether a file is a started node that is not installed elsewhere."""
         if not self._is_node(package, path):
             return False
         module = package.module(path)
@@ -259,7 +259,7 @@ class DestinationDiffers(Rule):
 
 
 def _holds_data(package: Package, install: Install, placed: Container[str | None]) -> bool:
-    """Tell whether an install has launch files, or only data that is looked for in share."""
+    """Return whether an install has launch files, or only data that is looked for in share."""
     paths = [item.path for item in install.items]
     if not all(path in DIRECTORIES and path not in placed for path in paths):
         return False
@@ -267,7 +267,7 @@ def _holds_data(package: Package, install: Install, placed: Container[str | None
 
 
 def _is_asked_for(command: Command) -> bool:
-    """Tell whether a condition opts in, such as one for Debian packages."""
+    """Return whether a condition opts in, such as one for Debian packages."""
     at = command.parent
     while at is not None and at.name != "if":
         at = at.parent

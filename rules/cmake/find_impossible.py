@@ -124,5 +124,5 @@ class FindImpossible(Rule):
 
 
 def _is_of_ros(name: str) -> bool:
-    """Tell whether a package is one of ROS; libraries may have capital letters in CMake."""
+    """Return whether a package is one of ROS; libraries may have capital letters in CMake."""
     return name.startswith(("ament_", "rcl", "rosidl_")) or name.endswith(("_msgs", "_srvs"))

@@ -351,7 +351,7 @@ def _built_with(package: Package) -> set[str]:
 
 
 def _is_always_found(package: Package, found: FoundPackage) -> bool:
-    """Tell whether no condition on a variable decides whether a package is searched for."""
+    """Return whether no condition on a variable decides whether a package is searched for."""
     options = [command.values for command in package.cmake.find("option")]
     holding = {*_HOLDING, *(values[0] for values in options if values[2:] == ["ON"])}
     asked = [*package.cmake.conditions(found.command)]

@@ -246,7 +246,7 @@ class NamedFileMissing(Rule):
         return None
 
     def _is_own(self, path: str) -> bool:
-        """Tell whether a path certainly lies in the package."""
+        """Return whether a path certainly lies in the package."""
         return not path.startswith(("/", "..")) and path != "." and not set("$<*") & set(path)
 
     def _check_sources(self, package: Package) -> Iterator[Diagnostic]:
@@ -359,7 +359,7 @@ def _closest(package: Package, path: str, files: Collection[str], cutoff: float)
 
 
 def _is_elsewhere(package: Package, path: str) -> bool:
-    """Tell whether a path is not tracked by git, or exists through a link to a directory."""
+    """Return whether a path is not tracked by git, or exists through a link to a directory."""
     return is_untracked(package, path) or _is_linked(package, path)
 
 

@@ -362,7 +362,7 @@ def _imported(package: Package) -> tuple[str, ...]:
 
 
 def _has_main(package: Package, path: str) -> bool:
-    """Tell whether a file may be a program: it has ``main()`` or a main guard, or is broken."""
+    """Return whether a file may be a program: it has ``main()`` or a main guard, or is broken."""
     try:
         module = package.module(path)
     except ViewError:
@@ -371,7 +371,7 @@ def _has_main(package: Package, path: str) -> bool:
 
 
 def _is_run_by_cmake(package: Package, path: str) -> bool:
-    """Tell whether a CMake file refers to an installed script in order to run it."""
+    """Return whether a CMake file refers to an installed script in order to run it."""
     place = f"/{package.cmake.project_name}/{path.rpartition('/')[2]}"
     return any(
         place in package.source(file).text
@@ -381,7 +381,7 @@ def _is_run_by_cmake(package: Package, path: str) -> bool:
 
 
 def _starts_python(line: str) -> bool:
-    """Tell whether a shebang starts Python 3 on all systems with ROS 2."""
+    """Return whether a shebang starts Python 3 on all systems with ROS 2."""
     words = line.removeprefix("#!").split()
     if words[:1] == ["/usr/bin/env"] and len(words) > 1:
         if words[1] == "-S":

@@ -213,7 +213,7 @@ class ProgramNotInstalled(Rule):
             yield self.report(place, message, severity=severity)
 
     def _is_misspelled(self, package: Package, path: str) -> bool:
-        """Tell whether a missing installed file must be this one."""
+        """Return whether a missing installed file must be this one."""
         missing = [program.path for program in programs(package) if not package.has(program.path)]
         return bool(closest_name(package, path, missing, 0.8))
 
@@ -246,7 +246,7 @@ class ProgramNotInstalled(Rule):
             )
 
     def _is_used(self, package: Package, name: str) -> bool:
-        """Tell whether the build itself runs or installs the executable."""
+        """Return whether the build itself runs or installs the executable."""
         ways = (
             "add_custom_command",
             "add_custom_target",
@@ -263,7 +263,7 @@ class ProgramNotInstalled(Rule):
 
 
 def _is_named(package: Package, path: str) -> bool:
-    """Tell whether anything that users start or read mentions a program."""
+    """Return whether anything that users start or read mentions a program."""
     name = path.rpartition("/")[2].encode()
     return any(name in package.data(item) for item in package.files if item.endswith(_FOR_USERS))
 

@@ -76,5 +76,5 @@ class PytestFileUnregistered(Rule):
 
 
 def _names(value: str, directory: str) -> bool:
-    """Tell whether an argument is a directory: ``test``, ``${CMAKE_CURRENT_SOURCE_DIR}/test``."""
+    """Return whether an argument is a directory: ``test``, ``${CMAKE_CURRENT_SOURCE_DIR}/test``."""
     return f"/{value.strip('/')}".endswith(f"/{directory}")

@@ -109,12 +109,12 @@ def _is_meant(name: str) -> bool:
 
 
 def _is_made(cmake: CMakeLists, name: str) -> bool:
-    """Tell whether a variable is a parameter of a function or a loop variable."""
+    """Return whether a variable is a parameter of a function or a loop variable."""
     return any(name in command.values for command in cmake.find("function", "macro", "foreach"))
 
 
 def _is_open(argument: Argument) -> bool:
-    """Tell whether a reference is not closed; escaped characters do not count."""
+    """Return whether a reference is not closed; escaped characters do not count."""
     text = argument.text
     if "${" not in text:
         return False

@@ -61,7 +61,7 @@ class CircularImport(Rule):
 
 
 def _takes_names(package: Package, node: Import, path: str) -> bool:
-    """Tell whether an import needs names that the module defines after its own imports."""
+    """Return whether an import needs names that the module defines after its own imports."""
     late = _late_names(package, path)
     return any(name.name in late for name in node.names)
 

@@ -161,7 +161,7 @@ class EventLoopMissing(PythonRule):
 
 
 def _sets_loop(module: PythonModule) -> bool:
-    """Tell whether a file sets a loop, or a policy other than those of asyncio."""
+    """Return whether a file sets a loop, or a policy other than those of asyncio."""
     policies = [
         policy
         for call in module.calls_of("asyncio.set_event_loop_policy")
@@ -173,7 +173,7 @@ def _sets_loop(module: PythonModule) -> bool:
 
 
 def _is_at_start(module: PythonModule, call: ast.Call) -> bool:
-    """Tell whether a program runs a call before it has a loop, also in a function of main."""
+    """Return whether a program runs a call before it has a loop, also in a function of main."""
     if _is_of_program(module, call):
         return True
     around = _functions_around(module, call)
@@ -203,7 +203,7 @@ def _name_called(module: PythonModule, function: ast.AST) -> str:
 
 
 def _is_of_timer(module: PythonModule, method: str) -> bool:
-    """Tell whether a method is a timer callback without a surrounding asyncio loop."""
+    """Return whether a method is a timer callback without a surrounding asyncio loop."""
     return not module.mentions(*_RUNNERS) and any(
         isinstance(call.func, ast.Attribute)
         and call.func.attr == "create_timer"
@@ -218,7 +218,7 @@ def _functions_around(module: PythonModule, node: ast.AST) -> list[ast.AST]:
 
 
 def _is_plain(node: ast.AST) -> bool:
-    """Tell whether a call of a function runs its body immediately."""
+    """Return whether a call of a function runs its body immediately."""
     return (
         isinstance(node, ast.FunctionDef)
         and not node.decorator_list
@@ -227,13 +227,13 @@ def _is_plain(node: ast.AST) -> bool:
 
 
 def _runs_into_it(module: PythonModule, site: ast.Call) -> bool:
-    """Tell whether a call of a function that gets the loop is run without handling the error."""
+    """Return whether a call of a function that gets the loop is run without handling the error."""
     is_prepared = is_handled(module, site, "RuntimeError") or is_asked_for(module, site, _NAME)
     return _is_of_program(module, site) and not is_prepared
 
 
 def _is_of_program(module: PythonModule, call: ast.Call) -> bool:
-    """Tell whether a call is run at module level, or by a ``main`` that is not awaited."""
+    """Return whether a call is run at module level, or by a ``main`` that is not awaited."""
     around = _functions_around(module, call)
     main = module.functions.get("main")
     if not around or main is None:

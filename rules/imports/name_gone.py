@@ -181,7 +181,7 @@ def _numpy() -> tuple[int, ...]:
 
 
 def _is_gone(name: str) -> bool:
-    """Tell whether the release of the target lacks a name."""
+    """Return whether the release of the target lacks a name."""
     if name in _BACK and _numpy() >= _SECOND:
         return False
     word, number = _GONE[name][0].removeprefix("since ").split()
@@ -189,14 +189,14 @@ def _is_gone(name: str) -> bool:
 
 
 def _is_for_older(module: PythonModule, parent: ast.AST) -> bool:
-    """Tell whether a block only runs where the new name does not exist either."""
+    """Return whether a block only runs where the new name does not exist either."""
     if not isinstance(parent, ast.ExceptHandler):
         return False
     return parent.type is None or bool(_CATCHES.search(module.text(parent.type)))
 
 
 def _is_replaced(module: PythonModule, node: ast.Attribute) -> bool:
-    """Tell whether the module checks for a name, defines it, or uses it as a fallback."""
+    """Return whether the module checks for a name, defines it, or uses it as a fallback."""
     if any(_is_for_older(module, parent) for parent in module.parents(node)):
         return True
     stores = [other for other in module.walk(ast.Attribute) if other.attr == node.attr]
@@ -211,5 +211,5 @@ def _is_replaced(module: PythonModule, node: ast.Attribute) -> bool:
 
 
 def _has_numpy_of_system(package: Package) -> bool:
-    """Tell whether a package declares the NumPy of the system."""
+    """Return whether a package declares the NumPy of the system."""
     return package.has("package.xml") and "python3-numpy" in package.manifest.declared_names

@@ -132,7 +132,7 @@ def _in_comparison(launch: LaunchFile, comparison: ast.Compare) -> Iterator[Text
 
 
 def _is_reported_as_condition(launch: LaunchFile, node: ast.expr) -> bool:
-    """Tell whether an expression is in an IfCondition, which has its own rule."""
+    """Return whether an expression is in an IfCondition, which has its own rule."""
     for parent in launch.module.parents(node):
         if isinstance(parent, ast.stmt):
             return False

@@ -168,7 +168,7 @@ def _parameters(launch: LaunchFile, call: LaunchCall, node: ast.expr) -> Iterato
 
 
 def _may_be_none(launch: LaunchFile, name: ast.Name) -> bool:
-    """Tell whether a name is the parameter of a function that some call passes None for."""
+    """Return whether a name is the parameter of a function that some call passes None for."""
     module = launch.module
     if len(module.index.bindings_of(name)) != 1:
         return False

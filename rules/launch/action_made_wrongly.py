@@ -246,7 +246,7 @@ def _problem(launch: LaunchFile, call: LaunchCall) -> str:
 
 
 def _is_script(launch: LaunchFile, call: LaunchCall) -> bool:
-    """Tell whether the program is certainly not on ``PATH``."""
+    """Return whether the program is certainly not on ``PATH``."""
     name = launch.text(call, "executable")
     return isinstance(name, str) and name.endswith(".py") and "/" not in name
 

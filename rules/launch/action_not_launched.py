@@ -231,7 +231,7 @@ def _nodes(launch: LaunchFile) -> Iterator[tuple[str, ast.Call, list[ast.Name]]]
 
 
 def _repeats(launch: LaunchFile, node: ast.expr) -> bool:
-    """Tell whether a statement is in a loop or a condition."""
+    """Return whether a statement is in a loop or a condition."""
     kinds = (ast.For, ast.While, ast.If, ast.IfExp, ast.Try, ast.Match)
     return any(isinstance(parent, kinds) for parent in launch.module.parents(node))
 

@@ -255,7 +255,7 @@ def _of_include(launch: LaunchFile, call: LaunchCall, argument: str) -> _Judgeme
 
 
 def _takes_keywords(launch: LaunchFile, parameter: ast.AST) -> bool:
-    """Tell whether a parameter is a dictionary of keyword arguments: ``**arguments``."""
+    """Return whether a parameter is a dictionary of keyword arguments: ``**arguments``."""
     arguments = launch.module.parent(parameter)
     return isinstance(arguments, ast.arguments) and arguments.kwarg is parameter
 

@@ -180,7 +180,7 @@ def _unknown(call: LaunchCall, keyword: str) -> str:
 
 
 def _is_meant(launch: LaunchFile, call: ast.Call, keyword: str) -> bool:
-    """Tell whether the code handles a failing call, or is for an old release."""
+    """Return whether the code handles a failing call, or is for an old release."""
     if is_tried(launch.module, call, keyword):
         return True
     return keyword in _RENAMED and _is_for_release(launch, call)
@@ -210,7 +210,7 @@ def _too_many(kind: str, positional: tuple[str, ...]) -> str:
 
 
 def _is_for_release(launch: LaunchFile, call: ast.Call) -> bool:
-    """Tell whether a call is only run on another release of ROS."""
+    """Return whether a call is only run on another release of ROS."""
     return any(
         isinstance(parent, ast.If | ast.IfExp)
         and any(

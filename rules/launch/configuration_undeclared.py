@@ -222,7 +222,7 @@ def _undeclared(package: Package, launch: LaunchFile) -> dict[str, LaunchCall]:
 
 
 def _is_unused(launch: LaunchFile, call: LaunchCall) -> bool:
-    """Tell whether a substitution is stored in a variable that nothing reads."""
+    """Return whether a substitution is stored in a variable that nothing reads."""
     holder = launch.module.parent(call.call)
     if not isinstance(holder, ast.Assign) or len(holder.targets) != 1:
         return False

@@ -172,7 +172,7 @@ class ExecutableMissing(Rule):
             yield self.report(use.executable_location, message, cause=cause)
 
     def _is_script(self, package: Package, name: str) -> bool:
-        """Tell whether the package has such a script: another rule reports that it is missing."""
+        """Return whether the package has such a script: another rule reports that it is missing."""
         return any(
             path.rpartition("/")[2] == name and package.module(path).is_script
             for path in package.python_files
@@ -205,5 +205,5 @@ class ExecutableMissing(Rule):
 
 
 def _is_module(package: Package, name: str) -> bool:
-    """Tell whether a module of the package has a name, so that it may lack an entry point."""
+    """Return whether a module of the package has a name, so that it may lack an entry point."""
     return any(path.rpartition("/")[2] == f"{name}.py" for path in package.python_files)

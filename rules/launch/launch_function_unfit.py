@@ -187,7 +187,7 @@ def _problem(call: LaunchCall, arguments: ast.arguments) -> str:
 
 
 def _is_unknown(args: ast.expr, items: list[ast.expr]) -> bool:
-    """Tell whether the number of arguments is unknown."""
+    """Return whether the number of arguments is unknown."""
     listed = isinstance(args, ast.List | ast.Tuple)
     return not listed or any(isinstance(item, ast.Starred) for item in items)
 
@@ -216,7 +216,7 @@ def _callback_problem(launch: LaunchFile, node: ast.expr, count: int) -> str:
 
 
 def _accepts(arguments: ast.arguments, count: int) -> bool:
-    """Tell whether a function can be called with this many positional arguments."""
+    """Return whether a function can be called with this many positional arguments."""
     most = len(arguments.posonlyargs) + len(arguments.args)
     least = most - len(arguments.defaults)
     needed = sum(default is None for default in arguments.kw_defaults)

@@ -95,7 +95,7 @@ def _run_on_in_lists(launch: LaunchFile) -> Iterator[ast.expr]:
 
 
 def _runs_on(launch: LaunchFile, left: ast.expr, right: ast.expr) -> bool:
-    """Tell whether a share directory is joined to the next text without a ``/``."""
+    """Return whether a share directory is joined to the next text without a ``/``."""
     text = _text(launch, left)
     is_share = text.startswith(SHARE) and "/" not in text.removeprefix(SHARE)
     return is_share and _text(launch, right)[:1] not in {"", "/"}

@@ -121,7 +121,7 @@ def _texts_in(package: Package, path: str) -> tuple[tuple[Location, str], ...]:
 
 
 def _is_description(launch: LaunchFile, node: ast.Constant) -> bool:
-    """Tell whether a text is a description, as printed by `--show-args`."""
+    """Return whether a text is a description, as printed by `--show-args`."""
     return any(
         isinstance(parent, ast.keyword) and parent.arg == "description"
         for parent in launch.module.parents(node)

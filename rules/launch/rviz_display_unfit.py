@@ -233,7 +233,7 @@ def _slip(name: str, others: Collection[str]) -> str:
 
 
 def _is_in_texts(package: Package, word: str) -> bool:
-    """Tell whether a file with code, parameters or a robot has a word."""
+    """Return whether a file with code, parameters or a robot has a word."""
     whole = re.compile(rf"(?<!\w){re.escape(word)}(?!\w)")
     for path in package.files:
         if path.endswith((".py", ".yaml", ".yml", ".xml", ".urdf", ".xacro", ".cpp", ".hpp")):

@@ -288,7 +288,7 @@ def _in_python(transform: CommandLine, flags: Sequence[str]) -> tuple[Edit, ...]
 
 
 def _is_for_this_alone(launch: LaunchFile, expression: ast.expr | None, value: ast.expr) -> bool:
-    """Tell whether nothing else uses the list of a value."""
+    """Return whether nothing else uses the list of a value."""
     names = [node for node in ast.walk(expression or value) if isinstance(node, ast.Name)]
     around = [value, *launch.module.parents(value)]
     if expression not in around:

@@ -138,7 +138,7 @@ class SubstitutionUsedAsText(LaunchRule):
 
 
 def _is_printed(launch: LaunchFile, node: ast.expr) -> bool:
-    """Tell whether the text is only printed."""
+    """Return whether the text is only printed."""
     return any(
         isinstance(parent, ast.Call) and launch.module.qualified_name(parent.func) == "print"
         for parent in launch.module.parents(node)

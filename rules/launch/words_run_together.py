@@ -141,7 +141,7 @@ def _problems(launch: LaunchFile, call: LaunchCall) -> Iterator[tuple[ast.expr, 
 
 
 def _takes_words(option: ast.expr | None) -> bool:
-    """Tell whether the program splits the next word, as for ``--controller-ros-args``."""
+    """Return whether the program splits the next word, as for ``--controller-ros-args``."""
     text = option.value if isinstance(option, ast.Constant) else None
     return isinstance(text, str) and text.endswith("-ros-args") and text != "--ros-args"
 
@@ -203,7 +203,7 @@ def _joined_command(launch: LaunchFile, node: ast.expr) -> str:
 
 
 def _begins_with_space(launch: LaunchFile, node: ast.expr) -> bool:
-    """Tell whether a part of a command starts, or may start, with a space."""
+    """Return whether a part of a command starts, or may start, with a space."""
     value = launch.evaluator.joined_text(node)
     if isinstance(value, str):
         return value[:1].isspace()

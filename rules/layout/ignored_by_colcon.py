@@ -91,7 +91,7 @@ class IgnoredByColcon(Rule):
 
 
 def _is_built(package: Package, directory: str) -> bool:
-    """Tell whether the outer package builds or installs a directory, or it is a copy."""
+    """Return whether the outer package builds or installs a directory, or it is a copy."""
     if not _COPIES.isdisjoint(directory.split("/")):
         return True
     try:

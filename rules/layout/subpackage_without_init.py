@@ -139,7 +139,7 @@ class SubpackageWithoutInit(Rule):
 
 
 def _is_data(package: Package, directory: str) -> bool:
-    """Tell whether modules of a directory are installed as data of the package around it."""
+    """Return whether modules of a directory are installed as data of the package around it."""
     modules = package.glob(f"{directory}/*.py")
     return any(matches(pattern, modules) for pattern in package_data(package) or ())
 

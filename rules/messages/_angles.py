@@ -53,7 +53,7 @@ def flaws(types: MessageTypes) -> Iterator[Flaw]:
 
 
 def _is_in_degrees(types: MessageTypes, holder: ast.expr, given: ast.expr) -> bool:
-    """Tell whether a whole angle in degrees is written into an angular velocity."""
+    """Return whether a whole angle in degrees is written into an angular velocity."""
     value = types.file.evaluator.evaluate(given)
     is_velocity = isinstance(holder, ast.Attribute) and holder.attr == "angular"
     return is_velocity and isinstance(value, int | float) and abs(value) in _DEGREES
@@ -75,7 +75,7 @@ def _written_problem(types: MessageTypes, holder: ast.expr, z: ast.expr) -> str:
 
 
 def _is_angle(node: ast.expr) -> bool:
-    """Tell whether an expression is a yaw by its name."""
+    """Return whether an expression is a yaw by its name."""
     match node:
         case ast.Name(id=name) | ast.Attribute(attr=name):
             return not _WORDS.isdisjoint(re.split(r"[_\d]+", name.lower()))
@@ -134,7 +134,7 @@ def _read_problem(types: MessageTypes, value: ast.expr) -> str:
 
 
 def _holds_angles(types: MessageTypes, holder: ast.expr) -> bool:
-    """Tell whether w is also read as an angle: the quaternion just stores four of them."""
+    """Return whether w is also read as an angle: the quaternion just stores four of them."""
     module = types.module
     reads = [
         module.parent(read)
@@ -150,7 +150,7 @@ def _holds_angles(types: MessageTypes, holder: ast.expr) -> bool:
 
 
 def _is_quaternion(types: MessageTypes, node: ast.expr) -> bool:
-    """Tell whether an expression is a quaternion, by its type or field name."""
+    """Return whether an expression is a quaternion, by its type or field name."""
     owner = types.type_of(node)
     if owner is not None:
         return owner.name == "geometry_msgs/msg/Quaternion"

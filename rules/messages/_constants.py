@@ -41,5 +41,5 @@ def _field_of(class_: MessageClass, constant: str) -> str:
 
 
 def _has_own(class_: MessageClass, name: str) -> bool:
-    """Tell whether constants are named after a field."""
+    """Return whether constants are named after a field."""
     return any(_field_of(class_, constant.name) == name for constant in class_.section.constants)

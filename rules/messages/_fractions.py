@@ -39,7 +39,7 @@ def _unwrapped(types: MessageTypes, node: ast.expr) -> ast.expr:
 
 
 def _is_fraction(types: MessageTypes, node: ast.expr) -> bool:
-    """Tell whether an expression is ``x % 1``, or ``x - int(x)``."""
+    """Return whether an expression is ``x % 1``, or ``x - int(x)``."""
     evaluator = types.file.evaluator
     match evaluator.single_value(node):
         case ast.BinOp(op=ast.Mod(), right=right):

@@ -64,7 +64,7 @@ def _stamped_apart(types: MessageTypes) -> Iterator[Flaw]:
 
 
 def _is_now(node: ast.expr) -> bool:
-    """Tell whether an expression is ``clock.now().to_msg()``, which creates a new stamp."""
+    """Return whether an expression is ``clock.now().to_msg()``, which creates a new stamp."""
     match node:
         case ast.Call(
             func=ast.Attribute(attr="to_msg", value=ast.Call(func=ast.Attribute(attr="now")))

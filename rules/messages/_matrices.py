@@ -57,7 +57,7 @@ def flaws(types: MessageTypes) -> Iterator[Flaw]:
 
 
 def _is_height(types: MessageTypes, holder: ast.expr, width: ast.expr) -> bool:
-    """Tell whether ``width`` is ``shape[0]`` and ``height`` is ``shape[1]`` of an array."""
+    """Return whether ``width`` is ``shape[0]`` and ``height`` is ``shape[1]`` of an array."""
     module = types.module
     function = module.enclosing_function(holder)
     match width:
@@ -130,7 +130,7 @@ def _turned_shape(types: MessageTypes, call: ast.Call) -> str:
 
 
 def _has_rows(types: MessageTypes, message: ast.expr) -> bool:
-    """Tell whether the data of a message is in rows by its definition."""
+    """Return whether the data of a message is in rows by its definition."""
     type_ = types.type_of(message)
     if type_ is None and isinstance(message, ast.Name):
         for binding in types.module.index.bindings_of(message):
@@ -152,7 +152,7 @@ def _turned_image(assigned: ast.Assign) -> ast.expr | None:
 
 
 def _is_transposed(types: MessageTypes, image: ast.expr) -> bool:
-    """Tell whether an array, or its origin, is transposed."""
+    """Return whether an array, or its origin, is transposed."""
     pending = [image]
     for array in pending:
         if any(word in types.module.text(array) for word in _TURNED):

@@ -182,7 +182,7 @@ def _sent_problem(types: MessageTypes, call: ast.Call, image: ast.Name) -> str:
 
 
 def _is_gray(types: MessageTypes, image: ast.Name) -> bool:
-    """Tell whether an image was converted to grayscale or a mask, and only filtered since."""
+    """Return whether an image was converted to grayscale or a mask, and only filtered since."""
     for _ in range(_MAX_DEPTH):
         made = _thresholded(types, image) or _made(types, image)
         if not isinstance(made, ast.Call) or not made.args:
@@ -301,7 +301,7 @@ _SEVERAL = 2
 
 
 def _is_frame(types: MessageTypes, image: ast.Name) -> bool:
-    """Tell whether an image is from an OpenCV camera: ``ok, frame = capture.read()``."""
+    """Return whether an image is from an OpenCV camera: ``ok, frame = capture.read()``."""
     bound = types.module.index.only_node(image)
     if bound is None:
         return False

@@ -166,7 +166,7 @@ def _problem(types: MessageTypes, field: ast.expr, other: ast.expr) -> str:
 
 
 def _is_goal_status(types: MessageTypes, node: ast.expr) -> bool:
-    """Tell whether an expression is the status in the response with the result of a goal."""
+    """Return whether an expression is the status in the response with the result of a goal."""
     match node:
         case ast.Attribute(attr="status", value=response) if types.module.mentions(
             "get_result_async"
@@ -178,7 +178,7 @@ def _is_goal_status(types: MessageTypes, node: ast.expr) -> bool:
 
 
 def _is_constant(types: MessageTypes, node: ast.expr) -> bool:
-    """Tell whether an expression is a constant of a message: ``GoalStatus.STATUS_SUCCEEDED``."""
+    """Return whether an expression is a constant of a message: ``GoalStatus.STATUS_SUCCEEDED``."""
     is_named = isinstance(node, ast.Attribute) and node.attr.isupper()
     return is_named and isinstance(node, ast.Attribute) and types.class_of(node.value) is not None
 

@@ -407,7 +407,7 @@ def _times(types: MessageTypes) -> Iterator[tuple[ast.expr, str]]:
 
 
 def _is_for_buffer(module: PythonModule, value: ast.expr) -> bool:
-    """Tell whether the message is only passed to a tf2 buffer, whose C code accepts both."""
+    """Return whether the message is only passed to a tf2 buffer, whose C code accepts both."""
     match module.parent(value):
         case ast.Assign(targets=[ast.Attribute(value=ast.Attribute(value=ast.Name(id=name)))]):
             scope = module.index.scope_of(value)

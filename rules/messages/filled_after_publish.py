@@ -105,7 +105,7 @@ def _whole(types: MessageTypes, use: ast.Name) -> _Place:
 
 
 def _follows(types: MessageTypes, statement: ast.stmt, later: ast.expr) -> bool:
-    """Tell whether an expression is in a statement after another one of the same block."""
+    """Return whether an expression is in a statement after another one of the same block."""
     index, above = types.module.index, types.module.parent(statement)
     block, number = index.place(statement)
     for other in types.module.parents(later):

@@ -218,6 +218,6 @@ def _origin(file: RclpyFile, node: ast.Name | ast.Attribute) -> str:
 
 
 def _is_odometry(file: RclpyFile, message: ast.expr) -> bool:
-    """Tell whether a message is created as Odometry of nav_msgs."""
+    """Return whether a message is created as Odometry of nav_msgs."""
     made = file.evaluator.single_value(message)
     return isinstance(made, ast.Call) and ast.unparse(made.func).endswith("Odometry")

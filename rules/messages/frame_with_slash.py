@@ -227,7 +227,7 @@ class FrameWithSlash(MessageRule):
 
 
 def _may_only_be_shown(types: MessageTypes, message: str) -> bool:
-    """Tell whether the readers of a message may all remove the slash, or never use the frame."""
+    """Return whether the readers of a message may all remove the slash, or never use the frame."""
     if message.partition("/")[0] not in ROS_PACKAGES:
         return True
     is_pose = message.startswith(_POSES) and not types.module.mentions(*_MOVING)

@@ -287,7 +287,7 @@ def _points_without_time(types: MessageTypes) -> Iterator[ast.Call]:
 
 
 def _is_ours(package: Package, types: MessageTypes, sent: ast.expr) -> bool:
-    """Tell whether no other module uses the attribute with a message."""
+    """Return whether no other module uses the attribute with a message."""
     return not isinstance(sent, ast.Attribute) or not is_used_elsewhere(
         package, types.file, sent.attr
     )

@@ -262,7 +262,7 @@ def _uses(types: MessageTypes, name: ast.Name) -> Sequence[ast.Attribute] | None
 
 
 def _is_sending(types: MessageTypes, node: ast.AST | None, use: ast.expr) -> bool:
-    """Tell whether a marker is appended, published, or returned to such code."""
+    """Return whether a marker is appended, published, or returned to such code."""
     match node:
         case ast.Call(func=ast.Attribute(attr="append", value=kept), args=[only]):
             return only is use and not _may_be_completed(types, kept)
@@ -274,7 +274,7 @@ def _is_sending(types: MessageTypes, node: ast.AST | None, use: ast.expr) -> boo
 
 
 def _may_be_completed(types: MessageTypes, kept: ast.expr) -> bool:
-    """Tell whether code of the file changes markers in a list later."""
+    """Return whether code of the file changes markers in a list later."""
     module = types.module
     name = module.text(kept)
     for use in module.walk(type(kept)):
@@ -302,7 +302,7 @@ def _loops_over(module: PythonModule, items: ast.expr) -> Iterator[ast.For]:
 
 
 def _changes(loop: ast.For) -> bool:
-    """Tell whether a loop sets fields of the elements that it iterates over."""
+    """Return whether a loop sets fields of the elements that it iterates over."""
     names = {node.id for node in ast.walk(loop.target) if isinstance(node, ast.Name)}
     for node in ast.walk(loop):
         if isinstance(node, ast.Attribute) and isinstance(node.ctx, ast.Store):
@@ -335,7 +335,7 @@ def _calls_appended(types: MessageTypes, node: ast.AST) -> Sequence[ast.Call]:
 
 
 def _is_filling(types: MessageTypes, listed: ast.ListComp) -> bool:
-    """Tell whether a list of markers is put into a message unchanged."""
+    """Return whether a list of markers is put into a message unchanged."""
     match types.module.parent(listed):
         case ast.Assign(targets=[ast.Attribute(attr="markers")]) | ast.keyword(arg="markers"):
             return True

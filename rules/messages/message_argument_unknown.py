@@ -133,5 +133,5 @@ def _names_given(types: MessageTypes, word: ast.keyword) -> Sequence[str]:
 
 
 def _may_be_empty(given: ast.expr) -> bool:
-    """Tell whether an argument is ``*args``, which a function of the user passes on."""
+    """Return whether an argument is ``*args``, which a function of the user passes on."""
     return isinstance(given, ast.Starred) and isinstance(given.value, ast.Name)

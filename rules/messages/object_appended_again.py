@@ -156,7 +156,7 @@ def _multiplied(types: MessageTypes, assigned: ast.Assign) -> str:
 
 
 def _fills_elements(types: MessageTypes, function: ast.AST, name: str) -> bool:
-    """Tell whether fields of the elements of a list are assigned."""
+    """Return whether fields of the elements of a list are assigned."""
     elements = {
         target.id
         for loop in types.module.below(function, ast.For)
@@ -214,7 +214,7 @@ def _only_value(types: MessageTypes, item: ast.Name | ast.Attribute) -> ast.expr
 
 
 def _ends_after_append(loop: ast.For | ast.While, call: ast.Call) -> bool:
-    """Tell whether a loop ends after an element is appended."""
+    """Return whether a loop ends after an element is appended."""
     return any(
         isinstance(node, ast.Break | ast.Return) and node.lineno > call.lineno
         for node in ast.walk(loop)
@@ -222,7 +222,7 @@ def _ends_after_append(loop: ast.For | ast.While, call: ast.Call) -> bool:
 
 
 def _is_changed(types: MessageTypes, block: ast.AST, item: ast.expr) -> bool:
-    """Tell whether a field of an object is assigned in a block."""
+    """Return whether a field of an object is assigned in a block."""
     start = f"{types.module.text(item)}."
     return any(
         isinstance(node, ast.Attribute)
@@ -233,7 +233,7 @@ def _is_changed(types: MessageTypes, block: ast.AST, item: ast.expr) -> bool:
 
 
 def _is_emptied(types: MessageTypes, block: ast.AST, holder: ast.expr) -> bool:
-    """Tell whether a block creates a list, or its owner, each time it runs."""
+    """Return whether a block creates a list, or its owner, each time it runs."""
     text = types.module.text(holder)
     for node in ast.walk(block):
         if isinstance(node, ast.Attribute | ast.Name):

@@ -114,7 +114,7 @@ def _summed(types: MessageTypes, call: ast.Call) -> ast.expr | None:
 
 
 def _is_of_scan(types: MessageTypes, node: ast.expr) -> bool:
-    """Tell whether an expression is the ranges of a scan, or a slice of them."""
+    """Return whether an expression is the ranges of a scan, or a slice of them."""
     match node:
         case ast.Subscript(value=whole, slice=ast.Slice()):
             return _is_of_scan(types, whole)
@@ -131,7 +131,7 @@ def _is_of_scan(types: MessageTypes, node: ast.expr) -> bool:
 
 
 def _is_filtered(types: MessageTypes, call: ast.Call, summed: ast.expr) -> bool:
-    """Tell whether the function replaces or checks invalid ranges first."""
+    """Return whether the function replaces or checks invalid ranges first."""
     function = types.module.enclosing_function(call) or types.module.tree
     if isinstance(summed, ast.Name):
         return any(

@@ -278,7 +278,7 @@ def _namespaces(package: Package, endpoint: NamedEndpoint) -> dict[object, str]:
 
 
 def _is_in_markup(package: Package, endpoint: NamedEndpoint) -> bool:
-    """Tell whether launch files in XML or YAML may start a node."""
+    """Return whether launch files in XML or YAML may start a node."""
     for node in (node for file in markup_files(package) for node in file.nodes):
         if node.package is None or node.executable is None:
             return True

@@ -406,7 +406,7 @@ def _unit_of_name(
 
 
 def _is_zero(value: ast.expr) -> bool:
-    """Tell whether a value is the same in all units, as the initial value of an attribute."""
+    """Return whether a value is the same in all units, as the initial value of an attribute."""
     return isinstance(value, ast.Constant) and not value.value
 
 

@@ -388,7 +388,7 @@ def _problem(types: MessageTypes, owner: str, name: str, node: ast.expr) -> str:
 
 
 def _is_times_hundred(types: MessageTypes, node: ast.expr) -> bool:
-    """Tell whether an expression is a product with 100, or the result of a method that is."""
+    """Return whether an expression is a product with 100, or the result of a method that is."""
     node = types.file.evaluator.single_value(node)
     callback = types.file.callback(node.func) if isinstance(node, ast.Call) else None
     if callback is not None and isinstance(callback.function, ast.FunctionDef):

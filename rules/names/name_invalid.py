@@ -225,5 +225,5 @@ def _written_parts(node: ast.expr) -> Iterator[str]:
 
 
 def _has_gap(name: str) -> bool:
-    """Tell whether a part of a name is empty."""
+    """Return whether a part of a name is empty."""
     return not name or "//" in name or name.endswith("/")

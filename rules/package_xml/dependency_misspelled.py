@@ -170,7 +170,7 @@ class DependencyMisspelled(Rule):
 
 
 def _has_others(package: Package, name: str, closest: str) -> bool:
-    """Tell whether the code imports interfaces that the closest package does not have."""
+    """Return whether the code imports interfaces that the closest package does not have."""
     definitions = package.workspace.interfaces
     for module in package.modules(mentioning=(name,)):
         for item in module.imports_by_root.get(name, ()):
@@ -193,6 +193,6 @@ def _similar_neighbor(package: Package, name: str) -> str | None:
 
 
 def _is_known(package: Package, name: str) -> bool:
-    """Tell whether rosdep's cache, if it exists, has a rule for a name."""
+    """Return whether rosdep's cache, if it exists, has a rule for a name."""
     rosdep = package.workspace.rosdep
     return rosdep is not None and rosdep.resolves(name) is not False

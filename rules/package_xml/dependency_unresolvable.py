@@ -101,7 +101,7 @@ class DependencyUnresolvable(Rule):
 
 
 def _is_known(package: Package, name: str) -> bool:
-    """Tell whether a name is a known package, or another rule reports it."""
+    """Return whether a name is a known package, or another rule reports it."""
     if is_released(name) or name in {*ROS_PACKAGES, *ROS1_PACKAGES, *OTHER_NAMES, package.name}:
         return True
     if (

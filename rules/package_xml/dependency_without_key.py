@@ -199,7 +199,7 @@ def _problem(name: str) -> str:
 
 
 def _is_found_by_cmake(package: Package, name: str) -> bool:
-    """Tell whether a name is also a C++ library, such as serial."""
+    """Return whether a name is also a C++ library, such as serial."""
     try:
         return bool(package.cmake.finds(name))
     except ViewError:

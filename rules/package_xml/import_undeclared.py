@@ -599,7 +599,7 @@ def _why_missing(package: Package, need: requirements.Requirement) -> str:
 
 
 def _is_unknown(package: Package, module: str) -> bool:
-    """Tell whether interfaces are those of a package that is neither released nor nearby."""
+    """Return whether interfaces are those of a package that is neither released nor nearby."""
     is_known = is_released(module) or module in ROS_PACKAGES or bool(keys_of_module(module))
     is_near = package.workspace.get(module) is not None or is_fetched(package, module)
     return not (is_known or is_near)

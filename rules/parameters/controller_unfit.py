@@ -361,7 +361,7 @@ class ControllerUnfit(Rule):
 
 
 def _is_named_elsewhere(package: Package, controller: str, path: str) -> bool:
-    """Tell whether another file of the workspace names a controller, perhaps to start it."""
+    """Return whether another file of the workspace names a controller, perhaps to start it."""
     for other in package.workspace:
         for place in other.files:
             if place.endswith(_STARTING) and (other is not package or place != path):
@@ -388,7 +388,7 @@ def _spawned(package: Package) -> Iterator[tuple[str, Word]]:
 
 
 def _is_manager_here(package: Package, launch: str) -> bool:
-    """Tell whether a launch file starts the controller manager only with files of the package."""
+    """Return whether a launch file starts the controller manager only with files of the package."""
     managers = [
         node
         for node in started_nodes(package)
@@ -400,7 +400,7 @@ def _is_manager_here(package: Package, launch: str) -> bool:
 
 
 def _takes_more(package: Package, node: StartedNode) -> bool:
-    """Tell whether a node may get parameters from other sources or several files."""
+    """Return whether a node may get parameters from other sources or several files."""
     launch = LaunchFile.of(package, node.launch)
     for call in launch.find("Node"):
         if call.location == node.location:

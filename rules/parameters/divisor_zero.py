@@ -81,7 +81,7 @@ class DivisorZero(Rule):
 
 
 def _is_set(package: Package, node: KnownNode, name: str) -> bool:
-    """Tell whether a launch file or a parameter file replaces a default."""
+    """Return whether a launch file or a parameter file replaces a default."""
     declared = declared_by(node, package)
     if any(entry.name == name and declared in of for _, entry, of in values_in_files(package)):
         return True

@@ -285,7 +285,7 @@ def _renamed(package: Package, file: ParameterFile, name: str) -> list[str]:
 
 
 def _is_left_over(package: Package, section: Section, nodes: list[KnownNode]) -> bool:
-    """Tell whether a section sets no parameters of nodes with similar names."""
+    """Return whether a section sets no parameters of nodes with similar names."""
     declarations = [declared_by(node, package) for node in nodes]
     return all(declared.complete for declared in declarations) and not any(
         entry.name in declared.types for entry in section.entries for declared in declarations

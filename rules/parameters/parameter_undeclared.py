@@ -297,7 +297,7 @@ class _Ignored(NamedTuple):
         return hint, Severity.WARNING if is_harmless else Severity.ERROR
 
     def _has_value(self, owner: KnownNode, declared: Declared, closest: str) -> bool:
-        """Tell whether a node has the value anyway, as a default or under the right name."""
+        """Return whether a node has the value anyway, as a default or under the right name."""
         if not self.value:
             return False
         meant = declared.places.get(closest)
@@ -313,7 +313,7 @@ class _Ignored(NamedTuple):
             return False
 
     def _is_set_under_right_name(self, declared: Declared) -> bool:
-        """Tell whether a declared parameter with a similar name is set to the same value, too."""
+        """Return whether a declared parameter with a similar name is set to the same value, too."""
         names = [
             name
             for name, value in self.others.items()

@@ -216,7 +216,7 @@ class ParameterUnfit(Rule):
 
 
 def _is_placeholder(value: YamlNode, kind: str) -> bool:
-    """Tell whether a value is a placeholder that a launch file replaces."""
+    """Return whether a value is a placeholder that a launch file replaces."""
     is_word = isinstance(value, Scalar) and re.fullmatch(_PLACEHOLDER, value.text) is not None
     return is_word and kind in {"bool", "double", "integer"}
 

@@ -155,7 +155,7 @@ class PluginUnfit(Rule):
 
 
 def _is_costmap(section: Section) -> bool:
-    """Tell whether a section is for the node of a costmap, whose namespace is its name."""
+    """Return whether a section is for the node of a costmap, whose namespace is its name."""
     *_, above, _ = ["", *section.node.split("/")]
     return above == section.name or "*" in section.node
 

@@ -130,7 +130,7 @@ class RequiredNeverSet(RclpyRule):
 
 
 def _is_set(package: Package, node: NodeDefinition, name: str) -> bool:
-    """Tell whether a parameter file or a launch file of a package may set a parameter."""
+    """Return whether a parameter file or a launch file of a package may set a parameter."""
     for file in parameter_files(package):
         for section in file.sections:
             is_of_node = section.is_pattern or section.name == node.node_name
@@ -150,7 +150,7 @@ def _is_set(package: Package, node: NodeDefinition, name: str) -> bool:
 
 
 def _may_have_name(package: Package, node: NodeDefinition, name: str) -> bool:
-    """Tell whether a launch file may start a node under a name."""
+    """Return whether a launch file may start a node under a name."""
     if markup_paths(package):
         return _mentions(package, name, _LAUNCH)
     for started in started_nodes(package):
@@ -164,7 +164,7 @@ def _may_have_name(package: Package, node: NodeDefinition, name: str) -> bool:
 
 
 def _mentions(package: Package, name: str, endings: tuple[str, ...]) -> bool:
-    """Tell whether a launch file, or a YAML file next to it, contains a name."""
+    """Return whether a launch file, or a YAML file next to it, contains a name."""
     wanted = re.compile(rf"\b{re.escape(name)}\b")
     for path in package.files:
         if path.endswith(endings) and (not path.endswith(".py") or "launch" in path.lower()):

@@ -174,7 +174,7 @@ def _files_named_after_nodes(package: Package) -> Iterator[str]:
 
 
 def _is_of_node(package: Package, file: ParameterFile) -> bool:
-    """Tell whether a file only has parameters of one node, and no code reads YAML itself."""
+    """Return whether a file only has parameters of one node, and no code reads YAML itself."""
     nodes, _ = own_nodes(package)
     names = {".".join([*entry.above[1:], entry.key.text]) for entry in file.misplaced}
     above = {entry.above[:1] for entry in file.misplaced}

@@ -195,7 +195,7 @@ def _read(owner: NodeDefinition, name: str) -> ParameterRead | None:
 
 
 def _is_asked_before(owner: NodeDefinition, read: ParameterRead) -> bool:
-    """Tell whether a condition on a parameter that may be unset decides about a read.
+    """Return whether a condition on a parameter that may be unset decides about a read.
 
     That of another parameter counts as well: their lists are often empty together.
     """

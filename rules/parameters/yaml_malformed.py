@@ -102,5 +102,5 @@ def _written_by_hand(package: Package, paths: Container[str]) -> Iterator[str]:
 
 
 def _is_read(package: Package, path: str) -> bool:
-    """Tell whether a launch file passes a file to a node, or code in the workspace loads it."""
+    """Return whether a launch file passes a file to a node, or code in the workspace loads it."""
     return bool(use_of(package, path).nodes) or is_loaded(package, path)

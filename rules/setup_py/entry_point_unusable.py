@@ -389,7 +389,7 @@ def _closest_module(package: Package, name: str) -> str:
 
 
 def _runs_when_imported(package: Package, name: str) -> bool:
-    """Tell whether a module spins, or calls one of its functions, at its top level."""
+    """Return whether a module spins, or calls one of its functions, at its top level."""
     path = f"{name.replace('.', '/')}.py"
     if not name or not package.has(path):
         return False

@@ -236,7 +236,7 @@ def _or_all(values: list[str]) -> list[str]:
 
 
 def _means_one_of(license_: str, wanted: list[str]) -> bool:
-    """Tell whether two spellings mean the same license."""
+    """Return whether two spellings mean the same license."""
     identifiers = set(spdx_of(license_))
     return any(not identifiers.isdisjoint(spdx_of(item)) for item in wanted)
 
@@ -260,7 +260,7 @@ def _part(text: str, start: int) -> str:
 
 
 def _is_named_elsewhere(package: Package) -> bool:
-    """Tell whether the name may come from another file or from unknown arguments."""
+    """Return whether the name may come from another file or from unknown arguments."""
     if package.setup_py.has_unknown_keywords or package.has("pyproject.toml"):
         return True
     return package.has("setup.cfg") and "[metadata]" in package.source("setup.cfg").text

@@ -279,7 +279,7 @@ class ModuleNotPacked(Rule):
 
 
 def _is_configured(package: Package, setup: SetupPy) -> bool:
-    """Tell whether packages are configured in another way."""
+    """Return whether packages are configured in another way."""
     if setup.keyword("package_dir") is not None:
         return True
     text = package.source("setup.cfg").text if package.has("setup.cfg") else ""

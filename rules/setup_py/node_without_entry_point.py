@@ -122,7 +122,7 @@ def _node_classes(package: Package, path: str) -> tuple[tuple[str, ...], bool]:
 
 
 def _is_named(package: Package, program: str) -> bool:
-    """Tell whether a launch file or a text of the package starts a program."""
+    """Return whether a launch file or a text of the package starts a program."""
     texts = [path for path in package.files if path.endswith(_TEXTS)]
     for path in {*texts, *launch_files(package)}:
         try:
@@ -135,7 +135,7 @@ def _is_named(package: Package, program: str) -> bool:
 
 
 def _is_module(name: str) -> bool:
-    """Tell whether Python can import a file: not ``node.sync-conflict-1.py``."""
+    """Return whether Python can import a file: not ``node.sync-conflict-1.py``."""
     return all(part.isidentifier() for part in name.split("."))
 
 
@@ -150,7 +150,7 @@ def _started_classes(package: Package, started: set[str]) -> set[str]:
 
 
 def _is_complete(package: Package, setup: SetupPy) -> bool:
-    """Tell whether all entry points are known, and there are no other programs."""
+    """Return whether all entry points are known, and there are no other programs."""
     if not setup.entry_points_complete or setup.has_unknown_keywords or setup.keyword("scripts"):
         return False
     if package.build_type != "ament_python" or any(

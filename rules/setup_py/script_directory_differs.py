@@ -257,7 +257,7 @@ class ScriptDirectoryDiffers(Rule):
 
 
 def _is_run_in_shell(package: Package, name: str) -> bool:
-    """Tell whether a text of the package starts a program as a shell command."""
+    """Return whether a text of the package starts a program as a shell command."""
     word = re.escape(name)
     command = re.compile(rf"(?m)^[ \t]*(?:\$[ \t]+{word}(?!\S)|{word}[ \t]+--?\w)")
     texts: list[str] = []

@@ -194,5 +194,5 @@ class ShareFileNotInstalled(Rule):
 
 
 def _is_copy(path: str, stems: tuple[str, ...]) -> bool:
-    """Tell whether a file is a copy of an installed one: ``talk.launch_old.py``."""
+    """Return whether a file is a copy of an installed one: ``talk.launch_old.py``."""
     return not path.endswith((".launch.py", "_launch.py")) and path.startswith(stems)

@@ -288,7 +288,7 @@ class TestsNotRun(Rule):
 
 
 def _needs_pytest(package: Package, path: str) -> bool:
-    """Tell whether unittest skips a test file or parts of it."""
+    """Return whether unittest skips a test file or parts of it."""
     if not package.has(f"{path.rpartition('/')[0]}/__init__.py"):
         return True
     try:
@@ -301,7 +301,7 @@ def _needs_pytest(package: Package, path: str) -> bool:
 
 
 def _is_of_linter(package: Package, path: str) -> bool:
-    """Tell whether a test only runs a linter of ament, as those of ``ros2 pkg create`` do."""
+    """Return whether a test only runs a linter of ament, as those of ``ros2 pkg create`` do."""
     roots = package.imports(path) - {"pytest"}
     return bool(roots) and all(
         root.startswith("ament_") and root != "ament_index_python" for root in roots

@@ -167,7 +167,7 @@ class AssertMethodMisused(TestRule):
 
 
 def _makes_function(module: PythonModule, func: ast.expr) -> bool:
-    """Tell whether a call may return a function: ``partial(drive, -1.0)``."""
+    """Return whether a call may return a function: ``partial(drive, -1.0)``."""
     name = module.text(func).rpartition(".")[2]
     return name in {"partial", "methodcaller", "itemgetter", "attrgetter"} or any(
         isinstance(node, ast.Lambda | ast.FunctionDef) and node is not function
@@ -178,7 +178,7 @@ def _makes_function(module: PythonModule, func: ast.expr) -> bool:
 
 
 def _compares(given: list[ast.expr]) -> bool:
-    """Tell whether a second argument is certainly a value to compare with, not a message."""
+    """Return whether a second argument is certainly a value to compare with, not a message."""
     if len(given) != 2:  # noqa: PLR2004  a value and a message
         return False
     first, second = given

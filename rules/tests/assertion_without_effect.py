@@ -193,7 +193,7 @@ def _methods_of(package: Package, path: str, class_name: str) -> set[str]:
 
 
 def _is_value(node: ast.expr) -> bool:
-    """Tell whether a message is a literal but not a string, like a value to compare with."""
+    """Return whether a message is a literal but not a string, like a value to compare with."""
     match node:
         case ast.List(elts=items) | ast.Tuple(elts=items):
             return all(isinstance(item, ast.Constant) or _is_value(item) for item in items)
@@ -218,12 +218,12 @@ def _statement_problem(module: PythonModule, value: ast.expr) -> str:
 
 
 def _in_with(module: PythonModule, node: ast.expr) -> bool:
-    """Tell whether an exception may be expected here."""
+    """Return whether an exception may be expected here."""
     return any(isinstance(parent, ast.With | ast.Try) for parent in module.parents(node))
 
 
 def _drops(module: PythonModule, handler: ast.ExceptHandler) -> bool:
-    """Tell whether a handler catches an AssertionError and does nothing."""
+    """Return whether a handler catches an AssertionError and does nothing."""
     kinds = handler.type.elts if isinstance(handler.type, ast.Tuple) else [handler.type]
     names = {module.qualified_name(kind) if kind is not None else "Exception" for kind in kinds}
     nothing = all(_is_only_shown(module, item) for item in handler.body)
@@ -231,7 +231,7 @@ def _drops(module: PythonModule, handler: ast.ExceptHandler) -> bool:
 
 
 def _is_only_shown(module: PythonModule, statement: ast.stmt) -> bool:
-    """Tell whether a statement does nothing but print or log."""
+    """Return whether a statement does nothing but print or log."""
     match statement:
         case ast.Pass() | ast.Continue():
             return True

@@ -69,7 +69,7 @@ class CallbackAssertionLost(TestRule):
 
 
 def _spins_in_thread(module: PythonModule) -> bool:
-    """Tell whether a thread spins, and the tests themselves do not."""
+    """Return whether a thread spins, and the tests themselves do not."""
     in_threads: set[ast.AST] = set()
     for call in module.walk(ast.Call):
         if module.qualified_name(call.func) == "threading.Thread":
@@ -98,7 +98,7 @@ def _assertions(module: PythonModule, argument: ast.expr) -> Iterator[ast.AST]:
 
 
 def _narrows(test: ast.expr) -> bool:
-    """Tell whether an assertion is for type checkers: later code would fail without it as well."""
+    """Return whether an assertion is for type checkers: later code fails without it as well."""
     match test:
         case ast.Compare(
             left=ast.Name(), ops=[ast.IsNot()], comparators=[ast.Constant(value=None)]

@@ -80,7 +80,7 @@ class FloatComparedExactly(TestRule):
 
 
 def _is_computed(package: Package, module: PythonModule, node: ast.expr, depth: int) -> bool:
-    """Tell whether a value is the result of a function that rounds."""
+    """Return whether a value is the result of a function that rounds."""
     parts: tuple[ast.expr | None, ...] = ()
     match node:
         case ast.Attribute(value=value) | ast.Subscript(value=value):
@@ -111,7 +111,7 @@ def _unpacked(module: PythonModule, node: ast.AST) -> ast.expr | None:
 
 
 def _is_inexact(node: ast.BinOp) -> bool:
-    """Tell whether a sum of numbers is not exact."""
+    """Return whether a sum of numbers is not exact."""
     match node:
         case ast.BinOp(
             left=ast.Constant(value=float() as left),
@@ -127,7 +127,7 @@ def _rounds(name: str | None) -> bool:
 
 
 def _has_rounding(package: Package, module: PythonModule, function: ast.expr) -> bool:
-    """Tell whether a function of the package computes with sines, roots and the like."""
+    """Return whether a function of the package computes with sines, roots and the like."""
     name = module.qualified_name(function) or ""
     owner, _, attribute = name.rpartition(".")
     path = f"{owner.replace('.', '/')}.py"

@@ -198,7 +198,7 @@ def _problems(package: Package, module: PythonModule) -> Iterator[str]:
 
 
 def _calls_others(module: PythonModule, node: ast.AST) -> bool:
-    """Tell whether a function of this or an unknown package may add actions."""
+    """Return whether a function of this or an unknown package may add actions."""
     for call in ast.walk(node):
         if isinstance(call, ast.Call):
             name = module.qualified_name(call.func) or ""

@@ -197,7 +197,7 @@ def _problem(
 
 
 def _is_own_node(package: Package, module: PythonModule, call: ast.Call) -> bool:
-    """Tell whether a call makes a node of the package, which does not call init() itself."""
+    """Return whether a call makes a node of the package, which does not call init() itself."""
     name = module.qualified_name(call.func) or ""
     for node in own_nodes(package)[0]:
         dotted = node.path.removesuffix(".py").replace("/", ".")
@@ -212,7 +212,7 @@ def _is_init(module: PythonModule, call: ast.Call) -> bool:
 
 
 def _is_awaited(test: TestFunction, call: ast.Call) -> bool:
-    """Tell whether the callback collects messages that the test asserts."""
+    """Return whether the callback collects messages that the test asserts."""
     match call.args:
         case [_, _, ast.Attribute(value=ast.Name(id=name), attr="append"), *_]:
             wanted = (item.test for item in ast.walk(test.node) if isinstance(item, ast.Assert))
@@ -221,7 +221,7 @@ def _is_awaited(test: TestFunction, call: ast.Call) -> bool:
 
 
 def _is_made_here(module: PythonModule, node: ast.expr) -> bool:
-    """Tell whether a name refers to a plain node that is created in the file."""
+    """Return whether a name refers to a plain node that is created in the file."""
     return constructed_class(module, node) in {"rclpy.node.Node", "rclpy.create_node"}
 
 

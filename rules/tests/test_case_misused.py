@@ -99,7 +99,7 @@ class TestCaseMisused(TestRule):
 
 
 def _is_made(module: PythonModule, name: str) -> bool:
-    """Tell whether the file creates an instance of a class or of a derived one."""
+    """Return whether the file creates an instance of a class or of a derived one."""
     heirs = {name}
     for class_ in module.classes.values():
         if any(isinstance(base, ast.Name) and base.id in heirs for base in class_.node.bases):

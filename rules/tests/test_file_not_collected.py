@@ -73,7 +73,7 @@ class TestFileNotCollected(Rule):
                 yield self.report(package.start_of(path), message)
 
     def _is_used(self, package: Package, path: str) -> bool:
-        """Tell whether another test runs the file: imports it, or refers to its directory."""
+        """Return whether another test runs the file: imports it, or refers to its directory."""
         stem = path.rpartition("/")[2][:-3]
         return any(
             any(
@@ -86,7 +86,7 @@ class TestFileNotCollected(Rule):
 
 
 def _names_directory(module: PythonModule, path: str) -> bool:
-    """Tell whether a test names a directory next to it that a file is in."""
+    """Return whether a test names a directory next to it that a file is in."""
     above = f"{module.path.rpartition('/')[0]}/"
     if not module.path.startswith(DIRECTORIES) or not path.startswith(above):
         return False

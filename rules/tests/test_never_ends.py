@@ -113,7 +113,7 @@ class TestNeverEnds(Rule):
 
 
 def _spins(module: PythonModule, call: ast.Call) -> bool:
-    """Tell whether a call is ``rclpy.spin``, or ``spin`` of an executor made in the file."""
+    """Return whether a call is ``rclpy.spin``, or ``spin`` of an executor made in the file."""
     match call.func:
         case ast.Attribute(value=holder, attr="spin"):
             if constructed_class(module, holder).endswith("ThreadedExecutor"):
@@ -122,7 +122,7 @@ def _spins(module: PythonModule, call: ast.Call) -> bool:
 
 
 def _waits(module: PythonModule, call: ast.Call) -> bool:
-    """Tell whether a call is ``call`` of a client created in the file."""
+    """Return whether a call is ``call`` of a client created in the file."""
     match call.func:
         case ast.Attribute(value=ast.Name(id=name), attr="call"):
             lookup = module.index.lookup(name, call)
@@ -135,7 +135,7 @@ def _waits(module: PythonModule, call: ast.Call) -> bool:
 
 
 def _is_shut_down(module: PythonModule) -> bool:
-    """Tell whether code that may run during a test shuts down.
+    """Return whether code that may run during a test shuts down.
 
     Other tests, fixtures and teardown methods run before or after it.
     """

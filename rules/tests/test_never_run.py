@@ -163,7 +163,7 @@ class TestNeverRun(Rule):
 
 
 def _states(method: FunctionNode) -> bool:
-    """Tell whether a method could be a test: it asserts and only has the parameter ``self``."""
+    """Return whether a method could be a test: it asserts and only has the parameter ``self``."""
     if method.name.startswith(("test", "_", "set", "tear", "run")) or len(method.args.args) != 1:
         return False
     for node in method.body:
@@ -177,7 +177,7 @@ def _states(method: FunctionNode) -> bool:
 
 
 def _could_be_test(function: FunctionNode, fixture_names: set[str]) -> bool:
-    """Tell whether a function could be a test: it asserts, and its parameters are fixtures."""
+    """Return whether a function could be a test: it asserts, and its parameters are fixtures."""
     name, arguments = function.name, {arg.arg for arg in function.args.args}
     if (
         name.startswith(("test", "_", "pytest_", "setup", "teardown"))
@@ -188,14 +188,14 @@ def _could_be_test(function: FunctionNode, fixture_names: set[str]) -> bool:
 
 
 def _is_lost(module: PythonModule, node: ast.FunctionDef) -> bool:
-    """Tell whether a function is named like a test and unused."""
+    """Return whether a function is named like a test and unused."""
     holder = module.parent(node)
     used = isinstance(holder, ast.ClassDef) and _is_used(module, holder)
     return node.name.startswith("test_") and not (used or _is_used(module, node))
 
 
 def _is_used(module: PythonModule, node: ast.FunctionDef | ast.ClassDef) -> bool:
-    """Tell whether a function or class is used anywhere."""
+    """Return whether a function or class is used anywhere."""
     return bool(node.decorator_list or module.index.names(node.name))
 
 

@@ -35,13 +35,13 @@ def when_sent(expected: str) -> str:
 
 
 def has_too_many(finding: TypeFinding, callee: str) -> bool:
-    """Tell whether the call has too many positional arguments."""
+    """Return whether the call has too many positional arguments."""
     call = finding.enclosing_call
     return call is not None and overload_problem(finding.package, callee, call).startswith("takes")
 
 
 def is_one_of_publishers(finding: TypeFinding) -> bool:
-    """Tell whether the called publisher may be for another type, depending on a condition."""
+    """Return whether the called publisher may be for another type, depending on a condition."""
     call = finding.enclosing_call
     if call is None or not isinstance(call.func, ast.Attribute):
         return False
@@ -55,7 +55,7 @@ def is_one_of_publishers(finding: TypeFinding) -> bool:
 
 
 def is_int_as_well(finding: TypeFinding) -> bool:
-    """Tell whether a number may also be an int: from a table, or a parameter for both."""
+    """Return whether a number may also be an int: from a table, or a parameter for both."""
     place = finding.innermost
     node = place.value if isinstance(place, ast.keyword) else place
     if isinstance(node, ast.Subscript):
@@ -84,7 +84,7 @@ def of_plain_class(finding: TypeFinding, given: str) -> str:
 
 
 def is_uncallable(finding: TypeFinding, expected: str, given: str) -> bool:
-    """Tell whether a ROS object that is not callable is passed instead of a function."""
+    """Return whether a ROS object that is not callable is passed instead of a function."""
     class_ = class_in(given)
     return expected.startswith("(") and bool(class_) and not has_call(finding.package, class_)
 
@@ -126,7 +126,7 @@ def _count(listed: str) -> int:
 
 
 def _is_each(finding: TypeFinding) -> bool:
-    """Tell whether the place is a loop variable that is used for all values."""
+    """Return whether the place is a loop variable that is used for all values."""
     name = finding.expression()
     if not isinstance(name, ast.Name):
         return False
@@ -171,7 +171,7 @@ def instead(package: Package, expected: str, given: str) -> str:
 
 
 def is_unpacked(finding: TypeFinding) -> bool:
-    """Tell whether the argument is ``**values``: each value may fit its parameter."""
+    """Return whether the argument is ``**values``: each value may fit its parameter."""
     return any(
         keyword.arg is None
         and finding.location in {finding.module.location(item) for item in (keyword, keyword.value)}

@@ -76,7 +76,7 @@ def known_owner(
 
 
 def _is_set_elsewhere(package: Package, node: ast.expr) -> bool:
-    """Tell whether an attribute may be set in a way that the type checker does not recognize."""
+    """Return whether an attribute may be set in a way that the type checker does not recognize."""
     return isinstance(node, ast.Attribute) and any(
         _sets(package, path, node.attr, r"(?<!\bself)") for path in package.python_files
     )
@@ -131,17 +131,17 @@ def _class_of_object(owner: str) -> str | None:
 
 
 def is_closed(shown: str) -> bool:
-    """Tell whether objects of a class only allow the attributes that the class defines."""
+    """Return whether objects of a class only allow the attributes that the class defines."""
     return shown == _ARRAY or MESSAGE.fullmatch(shown) is not None
 
 
 def _is_of_message_around(shown: str, name: str) -> bool:
-    """Tell whether the annotation of a callback names the feedback for the message around it."""
+    """Return whether the annotation of a callback names the feedback for the message around it."""
     return shown.endswith(".Feedback") and name in _AROUND_FEEDBACK
 
 
 def _is_default_of_field(shown: str, name: str) -> bool:
-    """Tell whether an attribute of a message class is the default value of a field."""
+    """Return whether an attribute of a message class is the default value of a field."""
     return name.endswith("__DEFAULT") and MESSAGE.fullmatch(shown) is not None
 
 
@@ -159,7 +159,7 @@ def without_none(owner: str) -> str:
 
 
 def _is_set(package: Package, name: str) -> bool:
-    """Tell whether any code of the workspace may set an attribute of this name."""
+    """Return whether any code of the workspace may set an attribute of this name."""
     return _is_set_in(package, name) or any(_is_set_in(other, name) for other in package.workspace)
 
 

@@ -149,7 +149,7 @@ def _calls(finding: TypeFinding) -> Iterator[ast.Call]:
 
 
 def _is_of_class(finding: TypeFinding) -> bool:
-    """Tell whether a method is called on a class by its name.
+    """Return whether a method is called on a class by its name.
 
     A variable may also be an instance, for example if only its default is a class.
     """

@@ -16,7 +16,7 @@ _MAX_DEPTH = 4
 
 
 def are_sure(finding: TypeFinding) -> bool:
-    """Tell whether the types of both operands do not depend on tables or user functions.
+    """Return whether the types of both operands do not depend on tables or user functions.
 
     Elements of a dictionary or list are often added elsewhere, with other types.
     """
@@ -53,7 +53,7 @@ def _is_sure(file: RclpyFile, node: ast.expr, depth: int) -> bool:
 
 
 def _is_given_to_object(finding: TypeFinding, node: ast.Attribute) -> bool:
-    """Tell whether the type is that of a value stored on an object of a class that is unknown.
+    """Return whether the type is that of a value stored on an object of a class that is unknown.
 
     The class may have a property of that name, which returns something else.
     """

@@ -354,7 +354,7 @@ class ArgumentsUnfit(TypeRule):
 
 
 def _is_old(finding: TypeFinding) -> bool:
-    """Tell whether a finding is about a call with removed keywords, or its arguments."""
+    """Return whether a finding is about a call with removed keywords, or its arguments."""
     line = finding.location.line
     return any(
         word.arg in _OLD_KEYWORDS

@@ -253,7 +253,7 @@ class AssignedTypeUnfit(TypeRule):
 
 
 def _are_alike(finding: TypeFinding, *dotted: str) -> bool:
-    """Tell whether two messages have the same fields, so that one can be sent as the other."""
+    """Return whether two messages have the same fields, so that one can be sent as the other."""
     definitions = finding.package.workspace.interfaces
     messages = [definitions.find(name.replace(".", "/")) for name in dotted]
     fields = [

@@ -794,7 +794,7 @@ class AttributeMissing(TypeRule):
 
 
 def _is_named(finding: TypeFinding, name: str, owner: str) -> bool:
-    """Tell whether a string in the file is the name of the attribute, as for ``setattr``."""
+    """Return whether a string in the file is the name of the attribute, as for ``setattr``."""
     text = finding.module.source.text
     if re.search(rf"""['"]{name}['"]""", text) is None:
         return False
@@ -817,12 +817,12 @@ def _replacement(shown: str, name: str, method: str) -> str:
 
 
 def _may_be_of_mock(finding: TypeFinding, name: str) -> bool:
-    """Tell whether a test may replace the annotated object with a mock."""
+    """Return whether a test may replace the annotated object with a mock."""
     return _OF_MOCKS.fullmatch(name) is not None and "mock" in finding.module.source.text
 
 
 def _is_chosen(finding: TypeFinding, node: ast.Attribute) -> bool:
-    """Tell whether a condition on a table determines the type of the object from it."""
+    """Return whether a condition on a table determines the type of the object from it."""
     if not isinstance(node.value, ast.Subscript):
         return False
     module = finding.module

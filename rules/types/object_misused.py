@@ -306,7 +306,7 @@ def _is_self(node: ast.expr) -> bool:
 
 
 def _is_asked_for(finding: TypeFinding) -> bool:
-    """Tell whether an enclosing condition checks the unpacked value, which may vary in type."""
+    """Return whether an enclosing condition checks the unpacked value, which may vary in type."""
     inner: ast.AST | None = finding.innermost
     name = ""
     for node in finding.parents():
@@ -325,7 +325,7 @@ def _is_asked_for(finding: TypeFinding) -> bool:
 
 
 def _is_of_table(finding: TypeFinding) -> bool:
-    """Tell whether the unpacked value is from a dictionary.
+    """Return whether the unpacked value is from a dictionary.
 
     The type checker does not distinguish its keys, whose values may have other lengths.
     """
@@ -347,7 +347,7 @@ def _mentions(node: ast.expr, name: str) -> bool:
 
 
 def _is_replaced(finding: TypeFinding) -> bool:
-    """Tell whether the callee is assigned to the name of a method of Node."""
+    """Return whether the callee is assigned to the name of a method of Node."""
     func = finding.expression()
     func = func.func if isinstance(func, ast.Call) else func
     return isinstance(func, ast.Attribute) and is_method("rclpy.node.Node", func.attr)

@@ -304,7 +304,7 @@ def _or_list(names: Sequence[str]) -> str:
 
 
 def _is_urdf(part: Part) -> bool:
-    """Tell whether a part is not in a macro that may be called for Gazebo."""
+    """Return whether a part is not in a macro that may be called for Gazebo."""
     holder = part.holder
     if holder is None or holder.tag not in _OF_LINK:
         return True
@@ -319,7 +319,7 @@ def _missing(element: Element) -> list[str]:
 
 
 def _has_numbers(value: str, count: int) -> bool:
-    """Tell whether a text consists of this many numbers."""
+    """Return whether a text consists of this many numbers."""
     words = value.split()
     try:
         return len([float(word) for word in words]) == count

@@ -295,7 +295,7 @@ def _severity(package: Package, named: NamedFile) -> Severity:
 
 
 def _may_be_kept_elsewhere(package: Package, named: NamedFile) -> bool:
-    """Tell whether a file is one of several large ones, which not every clone has."""
+    """Return whether a file is one of several large ones, which not every clone has."""
     owner = package if named.package == package.name else package.workspace.get(named.package)
     directory, _, name = named.path.rpartition("/")
     top = directory.partition("/")[0]
@@ -308,7 +308,7 @@ def _may_be_kept_elsewhere(package: Package, named: NamedFile) -> bool:
 
 
 def _is_there(package: Package, named: NamedFile) -> bool:
-    """Tell whether a file is next to its user, or generated from one that is."""
+    """Return whether a file is next to its user, or generated from one that is."""
     if package.has(named.path) or named.path.startswith(".."):
         return True
     if is_untracked(package, named.path):
@@ -321,7 +321,7 @@ def _is_there(package: Package, named: NamedFile) -> bool:
 
 
 def _is_built_by_bazel(package: Package, path: str) -> bool:
-    """Tell whether a path is in a Bazel package, where xacro files are expanded."""
+    """Return whether a path is in a Bazel package, where xacro files are expanded."""
     directories = path.split("/")[:-1]
     return any(
         package.has("/".join((*directories[:depth], "BUILD.bazel")))

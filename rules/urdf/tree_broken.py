@@ -378,7 +378,7 @@ def _shown(name: str) -> str:
 
 
 def _has_root(robot: Expansion) -> bool:
-    """Tell whether a link is not a child of a joint; included parts are attached by others."""
+    """Return whether a link is not a child of a joint; included parts are attached by others."""
     links = {part.get("name") for part in robot.root.all("link")}
     children = [joint.one("child") for joint in robot.root.all("joint")]
     return not links or bool(links - {child.get("link") for child in children if child})
@@ -394,7 +394,7 @@ def _hint(package: Package, name: str, names: Sequence[str]) -> str:
 
 
 def _is_among(name: str, names: Sequence[str]) -> bool:
-    """Tell whether a name may be one of some others, which may be partly unknown."""
+    """Return whether a name may be one of some others, which may be partly unknown."""
     if name in names:
         return True
     if not is_known(name):

@@ -164,7 +164,7 @@ def _has_no_moment(inertia: Part) -> bool:
 
 
 def _is_moved(mass: Part) -> bool:
-    """Tell whether the link of a mass is moved by a joint."""
+    """Return whether the link of a mass is moved by a joint."""
     link = mass.holder.holder if mass.holder is not None else None
     robot = link.holder if link is not None else None
     if link is None or robot is None:

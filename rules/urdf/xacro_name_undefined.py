@@ -267,7 +267,7 @@ class XacroNameUndefined(Rule):
 
 
 def _uses_xacro(package: Package) -> bool:
-    """Tell whether any other file of a package mentions xacro."""
+    """Return whether any other file of a package mentions xacro."""
     for path in package.files:
         if path.endswith((".py", ".xml", ".yaml", ".yml", ".txt", ".sh", ".xacro")):
             with suppress(ViewError, OSError):

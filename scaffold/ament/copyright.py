@@ -201,7 +201,7 @@ def _notices(block: str) -> tuple[list[str], str]:
 
 
 def _begins_line(block: str, at: int, floor: int) -> bool:
-    r"""Tell whether only spaces, one other character or ``\copyright`` precede ``at``."""
+    r"""Return whether only spaces, one other character or ``\copyright`` precede ``at``."""
     before = _skip_space_back(block, at, floor)
     if _is_near_start(block, before, at, floor):
         return True
@@ -213,7 +213,7 @@ def _begins_line(block: str, at: int, floor: int) -> bool:
 
 
 def _is_near_start(block: str, before: int, at: int, floor: int) -> bool:
-    """Tell whether the spaces from ``before`` to ``at`` are at the first or second column."""
+    """Return whether the spaces from ``before`` to ``at`` are at the first or second column."""
     if before == floor or "\n" in block[before:at]:
         return True
     return before - 1 == floor or block[before - 2] == "\n"

@@ -40,7 +40,7 @@ def diagnostics(package: Package, code: str) -> Iterator[Diagnostic]:
 
 
 def _has_own_texts(package: Package) -> bool:
-    """Tell whether a dependency extends the linter with licenses."""
+    """Return whether a dependency extends the linter with licenses."""
     try:
         names = package.manifest.declared_names
     except ViewError:

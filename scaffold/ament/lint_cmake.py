@@ -264,7 +264,7 @@ def _is_on(name: str, switches: list[str]) -> bool:
 
 
 def _is_string(raw: str) -> bool:
-    """Tell whether a line starts with a string, which cannot be broken."""
+    """Return whether a line starts with a string, which cannot be broken."""
     rest = raw.lstrip()
     if rest.startswith("#"):
         rest = rest[1:].lstrip()
@@ -272,7 +272,7 @@ def _is_string(raw: str) -> bool:
 
 
 def _has_arguments(code: str, start: int, last: int) -> bool:
-    """Tell whether it contains at least two characters, the second one no parenthesis."""
+    """Return whether it contains at least two characters, the second one no parenthesis."""
     at = len(code) - len(code[start:].lstrip())
     while at < len(code) and not code[at].isspace():
         at += 1
@@ -292,7 +292,7 @@ class Outline(NamedTuple):
     """The offsets of the names of commands."""
 
     def touches_literal(self, start: int, end: int) -> bool:
-        """Tell whether any of the characters is inside of an argument in quotes or brackets."""
+        """Return whether any of the characters is inside of an argument in quotes or brackets."""
         before = bisect_left(self.literals, (end,))
         return before > 0 and start < self.literals[before - 1][1]
 

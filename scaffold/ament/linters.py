@@ -22,11 +22,11 @@ class Linters(NamedTuple):
     """The Python version that they run on, which affects strings and builtins."""
 
     def has(self, name: str) -> bool:
-        """Tell whether a linter or plugin is installed."""
+        """Return whether a linter or plugin is installed."""
         return name in self.versions
 
     def since(self, name: str, *version: int) -> bool:
-        """Tell whether a linter is installed in at least a version."""
+        """Return whether a linter is installed in at least a version."""
         return self.versions.get(name, ()) >= version
 
     @property

@@ -114,7 +114,7 @@ class PackageSettings:
         return [path[len(inside) :] for path in paths if path.startswith(inside)]
 
     def is_tested(self, path: str, code: str) -> bool:
-        """Tell whether a test of the package would report a code in a file."""
+        """Return whether a test of the package would report a code in a file."""
         full = os.path.join(self._directory, path)
         for run in (*self._runs[FLAKE8], *self._runs[PEP257]):
             if not run.covers(full):
@@ -237,7 +237,7 @@ class PackageSettings:
     def _is_walked(
         self, path: str, given: str, excluded: Sequence[str], names: Sequence[str]
     ) -> bool:
-        """Tell whether flake8 reaches a file from one of its paths."""
+        """Return whether flake8 reaches a file from one of its paths."""
         top = self._full(given)
         is_plain = os.path.basename(given) in {".", ".."}
         if matches(top, [pattern for pattern in excluded if not is_plain or "/" in pattern]):

@@ -40,7 +40,7 @@ class Use(NamedTuple):
     """The files and directories passed to it; empty for the whole package."""
 
     def covers(self, path: str) -> bool:
-        """Tell whether the linter checks a file."""
+        """Return whether the linter checks a file."""
         is_given = not self.paths or any(
             path == given or path.startswith(f"{given}/") for given in self.paths
         )
@@ -135,7 +135,7 @@ def _found_packages(package: Package) -> set[str]:
 
 
 def is_switched_off(cmake: CMakeLists, linter: str) -> bool:
-    """Tell whether a CMakeLists.txt keeps ament_lint_auto from running a linter."""
+    """Return whether a CMakeLists.txt keeps ament_lint_auto from running a linter."""
     return bool(_switched_off(cmake, linter))
 
 
@@ -152,7 +152,7 @@ def _switched_off(cmake: CMakeLists, linter: str) -> str:
 
 
 def _provides_linter(package: Package, name: str, wrapper: str) -> bool:
-    """Tell whether a dependency is the linter or a collection that includes it."""
+    """Return whether a dependency is the linter or a collection that includes it."""
     collections = (_COLLECTION, wrapper)
     if name in collections:
         return True
@@ -226,7 +226,7 @@ def linter_tests(package: Package, linter: str) -> Iterator[tuple[PythonModule, 
 
 
 def _can_fail(module: PythonModule) -> bool:
-    """Tell whether a test can fail: by an ``assert``, or a call such as ``assertEqual``."""
+    """Return whether a test can fail: by an ``assert``, or a call such as ``assertEqual``."""
     return bool(module.walk(ast.Assert)) or any(
         re.search(r"assert|fail|exit", ast.unparse(call.func), re.IGNORECASE)
         for call in module.walk(ast.Call)

@@ -255,7 +255,7 @@ def _with_fixes(
 
 
 def _loads_conversions(item: RuffDiagnostic) -> bool:
-    """Tell whether an unused import has side effects, like those of tf2 conversions."""
+    """Return whether an unused import has side effects, like those of tf2 conversions."""
     name = item.message.partition("`")[2].partition(".")[0].partition("`")[0].partition(" ")[0]
     return item.code == "F401" and name in CONVERSIONS
 
@@ -357,5 +357,5 @@ def _added(edits: list[Replacement], more: Sequence[Replacement]) -> bool:
 
 
 def _overlap(edits: Sequence[Replacement]) -> bool:
-    """Tell whether any of some sorted edits overlap."""
+    """Return whether any of some sorted edits overlap."""
     return any(item[2:4] > other[:2] for item, other in pairwise(edits))

@@ -75,18 +75,18 @@ def _structure(package: Package) -> Structure:
 
 
 def _is_unused_file(package: Package, unreadable: Diagnostic) -> bool:
-    """Tell whether a file is empty and never mentioned."""
+    """Return whether a file is empty and never mentioned."""
     return unreadable.message == "the file is empty" and not linter_use(package, "xmllint").runs
 
 
 def _is_for_linter_alone(package: Package) -> bool:
-    """Tell whether colcon accepts the manifest, and no linter checks its schema."""
+    """Return whether colcon accepts the manifest, and no linter checks its schema."""
     is_known = package.manifest.declared_format in {None, *map(str, FORMATS)}
     return is_known and not linter_use(package, "xmllint").runs
 
 
 def _is_read_anyway(package: Package, path: str, message: str) -> bool:
-    """Tell whether the readers of a file accept its error.
+    """Return whether the readers of a file accept its error.
 
     The reader of plugin descriptions (tinyxml2) accepts several elements at the top, and ``<`` in a
     value; the same reader accepts ``--`` in a comment of a behavior tree. Parts of larger documents

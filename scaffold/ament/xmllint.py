@@ -248,7 +248,7 @@ def _judge(package: Package, use: _Use) -> Verdict | bytes | None:
 
 
 def _reads_others(root: etree._Element) -> bool:
-    """Tell whether a schema includes other files."""
+    """Return whether a schema includes other files."""
     document = root.getroottree().docinfo
     has_type = document.internalDTD is not None
     return has_type or any(element.tag in _READS_OTHERS for element in root.iter())

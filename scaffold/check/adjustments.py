@@ -94,7 +94,7 @@ class Adjustments(NamedTuple):
             yield diagnostic if severity is None else diagnostic._replace(severity=severity)
 
     def excludes(self, package: Package, path: str) -> bool:
-        """Tell whether a file of a package is skipped."""
+        """Return whether a file of a package is skipped."""
         return path in self.foreign_files(package) or self._is_excluded(package, path)
 
     def foreign_files(self, package: Package) -> Mapping[str, str]:
@@ -135,7 +135,7 @@ class Adjustments(NamedTuple):
 
 
 def _is_of_unused_code(package: Package, diagnostic: Diagnostic) -> bool:
-    """Tell whether an error is in unused code that no test of the package checks."""
+    """Return whether an error is in unused code that no test of the package checks."""
     path, code = diagnostic.location.path, diagnostic.code
     if code == _UNDECLARED:
         return _is_needed_by_unused_code(package, diagnostic)
@@ -152,7 +152,7 @@ def _is_of_unused_code(package: Package, diagnostic: Diagnostic) -> bool:
 
 
 def _is_unreached(package: Package, diagnostic: Diagnostic) -> bool:
-    """Tell whether an error is in Python code that is never run."""
+    """Return whether an error is in Python code that is never run."""
     path, code = diagnostic.location.path, diagnostic.code
     is_of_example = code not in _OF_TESTS and path.startswith(("doc/", "docs/"))
     if is_of_example or code == _RAISED_ANYWAY or _is_of_ros1(package, diagnostic):
@@ -167,7 +167,7 @@ def _is_unreached(package: Package, diagnostic: Diagnostic) -> bool:
 
 
 def _is_of_ros1(package: Package, diagnostic: Diagnostic) -> bool:
-    """Tell whether an error is in a file for ROS 1, which ROS 2 stops at ``import rospy``."""
+    """Return whether an error is in a file for ROS 1, which ROS 2 stops at ``import rospy``."""
     path, code = diagnostic.location.path, diagnostic.code
     if code == _OF_ROS1 or not code.startswith((*_OF_LINTERS, *_OF_PROGRAMS)):
         return False
@@ -180,7 +180,7 @@ def _is_of_ros1(package: Package, diagnostic: Diagnostic) -> bool:
 
 
 def _is_tested(package: Package, diagnostic: Diagnostic) -> bool:
-    """Tell whether a test of the package fails, even if the code is never run.
+    """Return whether a test of the package fails, even if the code is never run.
 
     An undefined name in unused code is a style finding, like an unused one.
     """
@@ -190,7 +190,7 @@ def _is_tested(package: Package, diagnostic: Diagnostic) -> bool:
 
 
 def _is_needed_by_unused_code(package: Package, undeclared: Diagnostic) -> bool:
-    """Tell whether only unused code imports an undeclared package.
+    """Return whether only unused code imports an undeclared package.
 
     It is reported at the first of the files that import it.
     """
@@ -206,7 +206,7 @@ def _is_needed_by_unused_code(package: Package, undeclared: Diagnostic) -> bool:
 
 
 def _is_unused_import(package: Package, at: Location) -> bool:
-    """Tell whether an import is in a file that is never run, or in an uncalled function."""
+    """Return whether an import is in a file that is never run, or in an uncalled function."""
     return is_never_run(package, at.path) or _is_uncalled(package, at)
 
 
@@ -218,7 +218,7 @@ def _is_unused_module(package: Package, path: str) -> bool:
 
 
 def _is_uncalled(package: Package, at: Location) -> bool:
-    """Tell whether code is in an unused module, an uncalled function, or a disabled branch."""
+    """Return whether code is in an unused module, an uncalled function, or a disabled branch."""
     if _is_unused_module(package, at.path):
         return True
     try:
@@ -230,7 +230,7 @@ def _is_uncalled(package: Package, at: Location) -> bool:
 
 
 def _is_unlaunched(package: Package, at: Location) -> bool:
-    """Tell whether code is in an action that is never put into the LaunchDescription."""
+    """Return whether code is in an action that is never put into the LaunchDescription."""
     try:
         return is_in_unlaunched_action(package, at.path, at.line, at.column)
     except ViewError:
@@ -238,7 +238,7 @@ def _is_unlaunched(package: Package, at: Location) -> bool:
 
 
 def _is_hardly_reached(package: Package, undefined: Diagnostic) -> bool:
-    """Tell whether an undefined name is only evaluated after spin, elsewhere, or never.
+    """Return whether an undefined name is only evaluated after spin, elsewhere, or never.
 
     An undefined exception ends what the intended one would have ended, as does an error in the
     message of one that is handled and raised.
@@ -256,7 +256,7 @@ def _is_hardly_reached(package: Package, undefined: Diagnostic) -> bool:
 
 
 def _is_before_raise(package: Package, at: Location) -> bool:
-    """Tell whether a line is in the handler of an exception that ends with another one."""
+    """Return whether a line is in the handler of an exception that ends with another one."""
     try:
         module = package.module(at.path)
     except ViewError:
@@ -269,7 +269,7 @@ def _is_before_raise(package: Package, at: Location) -> bool:
 
 
 def _is_raised(module: PythonModule, name: ast.expr) -> bool:
-    """Tell whether a name is that of an exception, so that a NameError is raised instead.
+    """Return whether a name is that of an exception, so that a NameError is raised instead.
 
     ``assert false`` fails anyway.
     """
@@ -282,7 +282,7 @@ def _is_raised(module: PythonModule, name: ast.expr) -> bool:
 
 
 def _is_of_platform(module: PythonModule, name: ast.expr) -> bool:
-    """Tell whether code is for one platform: ``if os.name == 'nt'``."""
+    """Return whether code is for one platform: ``if os.name == 'nt'``."""
     return module.mentions(*_PLATFORMS) and any(
         word in module.text(condition.test)
         for condition in all_conditions(module, name)
@@ -291,7 +291,7 @@ def _is_of_platform(module: PythonModule, name: ast.expr) -> bool:
 
 
 def _is_harmless(package: Package, undefined: Diagnostic) -> bool:
-    """Tell whether an undefined name is not evaluated, or exists at run time.
+    """Return whether an undefined name is not evaluated, or exists at run time.
 
     Such as annotations, and modules that ``from .talk import *`` adds to their package.
     """
@@ -321,5 +321,5 @@ def _names_at(package: Package, diagnostic: Diagnostic) -> Iterator[tuple[Python
 
 
 def runs_linter(package: Package, style: Diagnostic) -> bool:
-    """Tell whether a test of the package itself would report a style finding."""
+    """Return whether a test of the package itself would report a style finding."""
     return settings_of(package).is_tested(style.location.path, style.code)

@@ -117,7 +117,7 @@ class Consequences(NamedTuple):
 
 
 def _ran_on(origin: Distribution, package: Package, item: Diagnostic) -> bool:
-    """Tell whether the place of a finding may run on the source distribution."""
+    """Return whether the place of a finding may run on the source distribution."""
     if item.location.path in package.python_files:
         with suppress(ViewError), distributions.targeting(origin):
             return is_run(package.module(item.location.path), item.location)
@@ -125,7 +125,7 @@ def _ran_on(origin: Distribution, package: Package, item: Diagnostic) -> bool:
 
 
 def _is_ignored(package: Package, path: str) -> bool:
-    """Tell whether a file is in a directory with COLCON_IGNORE or AMENT_IGNORE."""
+    """Return whether a file is in a directory with COLCON_IGNORE or AMENT_IGNORE."""
     parents = path.split("/")[:-1]
     directories = ("/".join(parents[:end]) for end in range(1, len(parents) + 1))
     return any(

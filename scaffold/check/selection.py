@@ -35,13 +35,13 @@ class Selection(NamedTuple):
     """The configuration file with these patterns."""
 
     def wants(self, code: str) -> bool:
-        """Tell whether a code is reported; the longer of two matching prefixes decides."""
+        """Return whether a code is reported; the longer of two matching prefixes decides."""
         chosen = _longest(self.select, code) if self.select and code not in UNCHECKED else 0
         ignored = _longest(self.ignore, code)
         return chosen is not None and chosen > (-1 if ignored is None else ignored)
 
     def wants_at(self, code: str, paths: Collection[str]) -> bool:
-        """Tell whether a code is reported in a file.
+        """Return whether a code is reported in a file.
 
         Args:
             code: The code.

@@ -112,7 +112,7 @@ class _Copy(StringIO):
         self._is_terminal = is_terminal
 
     def isatty(self) -> bool:
-        """Tell whether it is a terminal."""
+        """Return whether it is a terminal."""
         return self._is_terminal
 
 

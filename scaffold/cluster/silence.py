@@ -29,7 +29,7 @@ class Silence:
         self._told: set[str] = set()
 
     def has_come(self) -> bool:
-        """Tell whether the scheduler has been silent for long, polling it periodically."""
+        """Return whether the scheduler has been silent for long, polling it periodically."""
         if time.monotonic() < self._next:
             return False
         try:

@@ -243,7 +243,7 @@ def _path_in(disk: Disk, directory: str) -> str | None:
 
 
 def _names_tool(disk: Disk, path: str) -> bool:
-    """Tell whether a ``pyproject.toml`` may have our table; others need not be valid."""
+    """Return whether a ``pyproject.toml`` may have our table; others need not be valid."""
     import re
 
     if not disk.is_file(path):

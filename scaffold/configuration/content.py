@@ -25,7 +25,7 @@ def built_in() -> str:
 
 
 def is_url(text: str) -> bool:
-    """Tell whether content is in a remote git repository: ``URL@REV``."""
+    """Return whether content is in a remote git repository: ``URL@REV``."""
     host, colon, _ = text.partition(":")
     return "://" in text or bool(colon and "@" in host and "/" not in host)
 

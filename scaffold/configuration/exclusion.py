@@ -21,7 +21,7 @@ class Exclusion(NamedTuple):
     """The file with the patterns."""
 
     def covers(self, disk: Disk, path: str) -> bool:
-        """Tell whether a path, or a directory above it, is excluded.
+        """Return whether a path, or a directory above it, is excluded.
 
         Args:
             disk: Records accesses.

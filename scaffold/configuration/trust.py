@@ -25,7 +25,7 @@ _ABOUT = "# Trusted by `ros2-scaffold trust`: owner and path of directories; git
 
 
 def is_trusted(disk: Disk, directory: str) -> bool:
-    """Tell whether the user trusts a directory.
+    """Return whether the user trusts a directory.
 
     Args:
         disk: Records what the answer depends on.
@@ -41,7 +41,7 @@ def trusted(disk: Disk) -> dict[str, str]:
 
 
 def is_trusted_url(url: str) -> bool:
-    """Tell whether the user trusts a repository by its address."""
+    """Return whether the user trusts a repository by its address."""
     return _entries(Disk()).get(url) == _OF_URLS
 
 

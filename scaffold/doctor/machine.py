@@ -104,7 +104,7 @@ def python_in(path: str) -> str | None:
 
 
 def has_package(prefix: str, name: str) -> bool:
-    """Tell whether a prefix has a package of ament."""
+    """Return whether a prefix has a package of ament."""
     return os.path.exists(os.path.join(prefix, "share/ament_index/resource_index/packages", name))
 
 

@@ -47,7 +47,7 @@ def as_data(environments: Sequence[Environment], findings: Findings) -> dict[str
 
 
 def is_ok(environments: Sequence[Environment], findings: Findings) -> bool:
-    """Tell whether there is a usable environment, and no finding worse than info."""
+    """Return whether there is a usable environment, and no finding worse than info."""
     worst = {finding.severity for _, finding in findings}
     return any(item.taken for item in environments) and worst <= {Severity.INFO}
 

@@ -111,7 +111,7 @@ class Workspace:
         return [path for path in _CHAINED.findall(text) if path != self.install]
 
     def _is_linked(self, name: str) -> bool:
-        """Tell whether a package was installed with symlinks to its sources."""
+        """Return whether a package was installed with symlinks to its sources."""
         prefix = self.installed.get(name, self.install)
         roots = (os.path.join(prefix, "share", name), os.path.join(prefix, "lib", name))
         return any(

@@ -61,7 +61,7 @@ def read_sealed(path: str, head: bytes) -> bytes | None:
 
 
 def _is_in_repository(path: str) -> bool:
-    """Tell whether a path is in the repository around the current directory."""
+    """Return whether a path is in the repository around the current directory."""
     try:
         directory = os.getcwd()
     except OSError:  # it was removed

@@ -123,19 +123,19 @@ class Disk:
         return directories
 
     def exists(self, path: str) -> bool:
-        """Tell whether a path exists."""
+        """Return whether a path exists."""
         return bool(self._ask("exists", path))
 
     def is_file(self, path: str) -> bool:
-        """Tell whether a path is a regular file or a symlink to one."""
+        """Return whether a path is a regular file or a symlink to one."""
         return bool(self._ask("is_file", path))
 
     def is_directory(self, path: str) -> bool:
-        """Tell whether a path is a directory or a symlink to one."""
+        """Return whether a path is a directory or a symlink to one."""
         return bool(self._ask("is_directory", path))
 
     def is_executable(self, path: str) -> bool:
-        """Tell whether a file has an executable bit."""
+        """Return whether a file has an executable bit."""
         return bool(self._ask("is_executable", path))
 
     def real(self, path: str) -> str:
@@ -143,14 +143,14 @@ class Disk:
         return str(self._ask("real", path))
 
     def is_own(self, path: str) -> bool:
-        """Tell whether a file, and a symlink to it, belong to the current user.
+        """Return whether a file, and a symlink to it, belong to the current user.
 
         Under sudo, the calling user is accepted as well.
         """
         return bool(self._ask("is_own", path))
 
     def is_shared(self, path: str) -> bool:
-        """Tell whether a directory is world-writable, like ``/tmp``."""
+        """Return whether a directory is world-writable, like ``/tmp``."""
         return bool(self._ask("is_shared", path))
 
     def owner(self, path: str) -> str:
@@ -168,7 +168,7 @@ class Disk:
 
 
 def holds(seen: Mapping[Question, Answer]) -> bool:
-    """Tell whether all recorded accesses still have the same result."""
+    """Return whether all recorded accesses still have the same result."""
     return all(_answer(kind, path) == answer for (kind, path), answer in seen.items())
 
 

@@ -15,7 +15,7 @@ def name() -> str:
 
 
 def is_temporary(name: str) -> bool:
-    """Tell whether ``name`` could have created this name."""
+    """Return whether ``name`` could have created this name."""
     middle = name.removeprefix(_PREFIX).removesuffix(_SUFFIX)
     is_whole = name == f"{_PREFIX}{middle}{_SUFFIX}"
     return is_whole and len(middle) == _HEX_DIGITS and set(middle) <= {*"0123456789abcdef"}

@@ -50,7 +50,7 @@ class Tree(Protocol):
         """Return the content of a file with a size limit; raises OSError."""
 
     def is_executable(self, path: str) -> bool:
-        """Tell whether the file has an executable bit."""
+        """Return whether the file has an executable bit."""
 
 
 class DiskTree:
@@ -135,7 +135,7 @@ class DiskTree:
         return "" if is_listed and path not in self._listing[0] else None
 
     def _is_covered(self, path: str) -> bool:
-        """Tell whether a file would be in the listing if it existed."""
+        """Return whether a file would be in the listing if it existed."""
         *above, _ = path.split("/")
         for depth, name in enumerate(above, 1):
             parent = "/".join(above[:depth])
@@ -147,7 +147,7 @@ class DiskTree:
         return True
 
     def is_executable(self, path: str) -> bool:
-        """Tell whether the file has an executable bit."""
+        """Return whether the file has an executable bit."""
         return self.disk.is_executable(os.path.join(self.root, path))
 
     def _is_skipped(self, path: str, name: str) -> bool:
@@ -203,5 +203,5 @@ class MemoryTree:
             raise FileNotFoundError(path) from None
 
     def is_executable(self, path: str) -> bool:
-        """Tell whether the file has an executable bit."""
+        """Return whether the file has an executable bit."""
         return path in self._executable

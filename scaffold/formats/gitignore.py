@@ -27,7 +27,7 @@ class IgnoreFile:
         self._text = text
 
     def decides(self, path: str, *, is_directory: bool) -> bool | None:
-        """Tell whether a path is ignored, ``None`` if no pattern matches.
+        """Return whether a path is ignored, ``None`` if no pattern matches.
 
         Parent directories are not considered, although their content is ignored as well.
 

@@ -40,7 +40,7 @@ def explain(source: Source, code: int, at: int, inside: Element | None) -> Parse
 
 
 def _text_before_declaration(text: str) -> Explanation | None:
-    """Tell whether anything precedes ``<?xml``."""
+    """Return whether anything precedes ``<?xml``."""
     begin = 1 if text.startswith(BOM) else 0
     at = text.find("<?xml", begin, begin + 4096)
     if at <= begin or text[at + 5 : at + 6] not in {*BLANK, "?"}:

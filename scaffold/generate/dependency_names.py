@@ -65,7 +65,7 @@ def notes(names: Iterable[str], origin: str, directory: str) -> Iterator[str]:
 
 
 def is_about(diagnostic: Diagnostic, names: Sequence[str]) -> bool:
-    """Tell whether the checker only doubts a name that `notes` has accepted."""
+    """Return whether the checker only doubts a name that `notes` has accepted."""
     return diagnostic.name in _RULES and any(repr(name) in diagnostic.message for name in names)
 
 
@@ -80,7 +80,7 @@ def _names() -> set[str]:
 
 
 def _is_slip(name: str, other: str) -> bool:
-    """Tell whether a name differs from another one by a typo only."""
+    """Return whether a name differs from another one by a typo only."""
     if name.startswith(_PYTHON) and other.startswith(_PYTHON):
         # Short names of Python modules are similar by chance: pip, pil.
         return catalog.is_near(name.removeprefix(_PYTHON), other.removeprefix(_PYTHON))
@@ -96,7 +96,7 @@ class _Here:
         self._directory = directory
 
     def has(self, name: str) -> bool:
-        """Tell whether a package is installed, or in the workspace."""
+        """Return whether a package is installed, or in the workspace."""
         prefixes = os.environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep)
         paths = (
             os.path.join(prefix, "share", name, "package.xml") for prefix in prefixes if prefix

@@ -84,7 +84,7 @@ def above(files: Mapping[str, _T]) -> dict[str, _T]:
 
 
 def is_below(path: str) -> bool:
-    """Tell whether a path, which may be from a record, stays below its start."""
+    """Return whether a path, which may be from a record, stays below its start."""
     parts = path.removeprefix(MARK).split("/")
     return not any(part in {"", ".", ".."} or "\0" in part for part in parts)
 
@@ -168,7 +168,7 @@ def left_to_owners(
 
 
 def is_shared(path: str) -> bool:
-    """Tell whether a file may have entries of others, so that it is never overwritten.
+    """Return whether a file may have entries of others, so that it is never overwritten.
 
     A pre-commit configuration has other hooks, and edits of YAML are not safe.
     """

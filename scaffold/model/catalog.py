@@ -348,7 +348,7 @@ _INDEX_NAMES = {
 
 
 def is_near(name: str, other: str) -> bool:
-    """Tell whether a name is a misspelling of another one; see ``similar_package``."""
+    """Return whether a name is a misspelling of another one; see ``similar_package``."""
     if name == other or len(name) < 5:  # noqa: PLR2004  short names resemble by chance
         return False
     plain = name.replace("-", "").replace("_", "").lower()
@@ -387,7 +387,7 @@ def _similarity_index() -> Mapping[tuple[int, str], list[str]]:
 
 
 def is_one_slip(text: str, other: str, *, digits: bool = True) -> bool:
-    """Tell whether two names differ by one letter or by two adjacent letters swapped.
+    """Return whether two names differ by one letter or by two adjacent letters swapped.
 
     Args:
         text: A name.

@@ -179,7 +179,7 @@ class Package(PackageFiles):
         return imports(self, path)
 
     def is_mentioned_once(self, word: str, path: str) -> bool:
-        """Tell whether a word of a Python file occurs nowhere else in the package, a fact."""
+        """Return whether a word of a Python file occurs nowhere else in the package, a fact."""
         return is_mentioned_once(self, word, path)
 
     def modules(
@@ -316,14 +316,14 @@ def imports(package: Package, path: str) -> frozenset[str]:
 
 @fact
 def mentions(package: Package, path: str, *words: str) -> bool:
-    """Tell whether a file contains all of some words; raises ViewError."""
+    """Return whether a file contains all of some words; raises ViewError."""
     data = package.data(path)
     return all(word.encode() in data for word in words)
 
 
 @fact
 def is_mentioned_once(package: Package, word: str, path: str) -> bool:
-    """Tell whether a word of a Python file occurs nowhere else: in no call, import or text."""
+    """Return whether a word of a Python file occurs nowhere else: in no call, import or text."""
     searched = word.encode()
     if package.data(path).count(searched) != 1:
         return False  # without reading other files, so that edits of those do not matter

@@ -54,11 +54,11 @@ class PackageFiles(FactStore):
         return tuple(self.tree.files)
 
     def has(self, path: str) -> bool:
-        """Tell whether a file exists."""
+        """Return whether a file exists."""
         return path in self._file_set
 
     def has_directory(self, path: str) -> bool:
-        """Tell whether a directory exists (or is the root: ``""`` or ``"."``)."""
+        """Return whether a directory exists (or is the root: ``""`` or ``"."``)."""
         return path in {"", "."} or path in self.tree.directories
 
     def glob(self, pattern: str) -> list[str]:
@@ -75,7 +75,7 @@ class PackageFiles(FactStore):
         ]
 
     def is_executable(self, path: str) -> bool:
-        """Tell whether a file has an executable bit."""
+        """Return whether a file has an executable bit."""
         return self.tree.is_executable(path)
 
     def source(self, path: str) -> Source:

@@ -178,5 +178,5 @@ def note_view(reads: Reads) -> None:
 
 
 def is_followed(path: str) -> bool:
-    """Tell whether changes of the content of a file are tracked."""
+    """Return whether changes of the content of a file are tracked."""
     return path.endswith(_FOLLOWED)

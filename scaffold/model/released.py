@@ -27,7 +27,7 @@ def _by_distribution() -> Mapping[tuple[str, str], str]:
 
 
 def is_released(name: str) -> bool:
-    """Tell whether some distribution has a package of this name."""
+    """Return whether some distribution has a package of this name."""
     return name in _lines()
 
 

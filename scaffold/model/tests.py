@@ -58,7 +58,7 @@ def test_paths(package: Package) -> list[str]:
 
 
 def is_test_case(module: PythonModule, class_: ast.ClassDef) -> bool:
-    """Tell whether a class is a TestCase of unittest."""
+    """Return whether a class is a TestCase of unittest."""
     names = [name for base in class_.bases for name in module.qualified_names(base)]
     return any(name.startswith("unittest.") and name.endswith("TestCase") for name in names)
 
@@ -77,7 +77,7 @@ def test_functions(module: PythonModule) -> Iterator[TestFunction]:
 
 
 def runs_around_tests(module: PythonModule, node: ast.AST) -> bool:
-    """Tell whether a node is in a test, a fixture, or a setup or teardown function.
+    """Return whether a node is in a test, a fixture, or a setup or teardown function.
 
     Nested functions and lambdas may run at any time.
     """
@@ -134,7 +134,7 @@ def fixtures(package: Package, module: PythonModule) -> Mapping[str, Fixture]:
 
 
 def may_be_imported(package: Package, module: PythonModule, name: str) -> bool:
-    """Tell whether a test file or one of its conftest.py files may import a fixture."""
+    """Return whether a test file or one of its conftest.py files may import a fixture."""
     return any(
         taken.name == "*" or (taken.asname or taken.name) == name
         for other in _with_conftests(package, module)
@@ -151,7 +151,7 @@ def _with_conftests(package: Package, module: PythonModule) -> Iterator[PythonMo
 
 
 def _is_near(path: str, directory: str) -> bool:
-    """Tell whether a file is a conftest.py for the tests in a directory."""
+    """Return whether a file is a conftest.py for the tests in a directory."""
     place, _, name = path.rpartition("/")
     return name == "conftest.py" and f"{directory}/".startswith(f"{place}/" if place else "")
 
@@ -186,12 +186,12 @@ def marks(
 
 
 def uses_pytest_plugins(package: Package) -> bool:
-    """Tell whether plugins or settings of pytest may run other tests."""
+    """Return whether plugins or settings of pytest may run other tests."""
     return settings_or_tests_mention(package, _PLUGINS)
 
 
 def settings_or_tests_mention(package: Package, words: Sequence[str]) -> bool:
-    """Tell whether the settings of pytest, or a test, contain one of some words."""
+    """Return whether the settings of pytest, or a test, contain one of some words."""
     names = ("pytest.ini", "setup.cfg", "pyproject.toml", "tox.ini")
     texts = [package.source(name).text for name in names if package.has(name)]
     if any(word in text for text in texts for word in words):
@@ -202,7 +202,7 @@ def settings_or_tests_mention(package: Package, words: Sequence[str]) -> bool:
 
 
 def may_start(package: Package, name: str) -> bool:
-    """Tell whether another file of the package may start a test with ``launch_test``.
+    """Return whether another file of the package may start a test with ``launch_test``.
 
     Args:
         package: The package.
@@ -217,7 +217,7 @@ def may_start(package: Package, name: str) -> bool:
 
 
 def is_named_elsewhere(package: Package, module: PythonModule, name: str) -> bool:
-    """Tell whether a name of a module occurs again: in a call, an import, an argument, a string."""
+    """Return whether a name of a module occurs again: in a call, import, argument or string."""
     return not package.is_mentioned_once(name, module.path)
 
 

@@ -141,7 +141,7 @@ def dependency_of(diagnostic: Diagnostic) -> str:
 
 
 def names_dependencies(entry: Entry) -> bool:
-    """Tell whether an entry is about several dependencies, possibly of several packages."""
+    """Return whether an entry is about several dependencies, possibly of several packages."""
     names = {(id(item.package), dependency_of(item.finding)) for item in entry.places}
     return len(names) > 1 and all(name for _, name in names)
 
@@ -159,7 +159,7 @@ def in_order(entries: Sequence[Entry]) -> list[Entry]:
 
 
 def is_style(diagnostic: Diagnostic) -> bool:
-    """Tell whether a finding is a harmless one of ament_flake8 or ament_pep257."""
+    """Return whether a finding is a harmless one of ament_flake8 or ament_pep257."""
     return diagnostic.code in STYLE and diagnostic.severity is not Severity.ERROR
 
 
@@ -168,7 +168,7 @@ def _is_dependency(diagnostic: Diagnostic) -> bool:
 
 
 def is_set_aside(entry: Entry) -> bool:
-    """Tell whether all places of an entry are in directories with code that is kept, not used."""
+    """Return whether all places of an entry are in directories with code that is kept, not used."""
     return all(
         any(_SET_ASIDE.fullmatch(name) for name in shown(package, path).split(os.sep)[:-1])
         for package, path in {(item.package, item.finding.location.path) for item in entry.places}

@@ -266,12 +266,12 @@ class _Log:
         return cls(directory, jobs, without_repeats(text), succeeded, tuple(left_running))
 
     def has_ended(self, name: str) -> bool:
-        """Tell whether the build of a package ended."""
+        """Return whether the build of a package ended."""
         job = (self.jobs or {}).get(name)
         return job is not None and job.ended is not None
 
     def had_no_turn(self, name: str) -> bool:
-        """Tell whether the build ended before this package for an unrelated reason."""
+        """Return whether the build ended before this package for an unrelated reason."""
         job = (self.jobs or {}).get(name)
         return job is not None and job.skipped and not self._failed_dependencies(job)
 

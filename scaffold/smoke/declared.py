@@ -51,13 +51,13 @@ def _expectation(package: Package, start: EntryPoint) -> Expectation | None:
 
 
 def _has_own_arguments(file: RclpyFile) -> bool:
-    """Tell whether a program passes ROS arguments to itself, which may change names and rates."""
+    """Return whether a program passes ROS arguments to itself, which may change names and rates."""
     texts = (node.value for node in file.module.walk(ast.Constant) if isinstance(node.value, str))
     return any(text.split()[:1] == ["--ros-args"] for text in texts)
 
 
 def _is_node(package: Package, file: RclpyFile) -> bool | None:
-    """Tell whether a file uses rclpy; ``None`` if it may do so through another module."""
+    """Return whether a file uses rclpy; ``None`` if it may do so through another module."""
     if file.uses_rclpy:
         return True
     roots = set(file.module.imports_by_root)

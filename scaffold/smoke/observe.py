@@ -134,7 +134,7 @@ class Observer:
         self._refused: list[tuple[str, str]] = []
 
     def has_seen_anything(self) -> bool:
-        """Tell whether a node or a publisher has appeared."""
+        """Return whether a node or a publisher has appeared."""
         return bool(self._nodes) or any(topic["publishers"] for topic in self._topics.values())
 
     def count(self, topic: str) -> int:
@@ -142,7 +142,7 @@ class Observer:
         return self._counts.get(topic, 0)
 
     def offers(self, offer: Offer) -> bool:
-        """Tell whether a service or an action has appeared."""
+        """Return whether a service or an action has appeared."""
         ending = _ACTION_SERVICE if offer.kind == "action" else ""
         return offer.name + ending in self._services
 

@@ -50,5 +50,5 @@ class Options:
     """The environment to use; ``None``: the first usable one."""
 
     def runs(self, package: str) -> bool:
-        """Tell whether the executables of a package are run."""
+        """Return whether the executables of a package are run."""
         return self.run_only is None or package in self.run_only

@@ -145,7 +145,7 @@ class Transition:
 
     @property
     def ok(self) -> bool:
-        """Tell whether it succeeded."""
+        """Return whether it succeeded."""
         return not self.error
 
 
@@ -189,7 +189,7 @@ class Observation:
 
     @property
     def alive(self) -> bool:
-        """Tell whether the executable showed a sign of life."""
+        """Return whether the executable showed a sign of life."""
         return bool(self.nodes or any(topic.publishers for topic in self.topics))
 
     def topic(self, name: str) -> Topic | None:
@@ -228,7 +228,7 @@ class Executable:
 
     @property
     def ok(self) -> bool:
-        """Tell whether nothing is wrong."""
+        """Return whether nothing is wrong."""
         return not self.problems and not self.interrupted
 
 
@@ -275,7 +275,7 @@ class Tests:
 
     @property
     def ok(self) -> bool:
-        """Tell whether all passed or were skipped."""
+        """Return whether all passed or were skipped."""
         return not self.failed and not self.error
 
 
@@ -309,7 +309,7 @@ class PackageResult:
 
     @property
     def ok(self) -> bool:
-        """Tell whether it was built and all its runs are ok."""
+        """Return whether it was built and all its runs are ok."""
         if self.tests is not None and not self.tests.ok:
             return False
         return self.build.ok and all(executable.ok for executable in self.runs)
@@ -331,5 +331,5 @@ class Smoke:
 
     @property
     def ok(self) -> bool:
-        """Tell whether all packages are ok."""
+        """Return whether all packages are ok."""
         return not self.ended_early and all(package.ok for package in self.packages)

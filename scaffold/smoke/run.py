@@ -67,7 +67,7 @@ class NodeRun:
 
     @property
     def stopped_cleanly(self) -> bool:
-        """Tell whether it was running and stopped without a problem."""
+        """Return whether it was running and stopped without a problem."""
         return self.joined and not self.problems
 
 
@@ -350,7 +350,7 @@ def _relative_to_start(
 
 
 def is_late_call(exception: str) -> bool:
-    """Tell whether an error is due to a call after rclpy ended its context."""
+    """Return whether an error is due to a call after rclpy ended its context."""
     return bool(_LATE_CALL.search(exception.partition("RCLError: ")[2]))
 
 

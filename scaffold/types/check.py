@@ -181,7 +181,7 @@ class TypeCheck:
             self._asked.append(file)
 
     def _is_silent(self, file: _File, of_callers: Mapping[str, Mapping[str, Source]]) -> bool:
-        """Tell whether nothing is reported about a file; its argument types may follow later."""
+        """Return whether nothing is reported about a file; its argument types may follow later."""
         callers = file.checked.callers
         for caller in callers:
             if caller.place not in self._types and caller.place not in self._passing:
@@ -236,7 +236,7 @@ class TypeCheck:
         return self._reached.get(id(package), {})
 
     def may_suppress(self, package: Package) -> bool:
-        """Tell whether a comment in a package names a type rule."""
+        """Return whether a comment in a package names a type rule."""
         return id(package) in self._suppressing
 
     def by_file(self, package: Package) -> Mapping[str, Sequence[TyDiagnostic]]:
@@ -352,7 +352,7 @@ class TypeCheck:
 
 
 def _is_relevant(source: Source, roots: frozenset[str], stubbed: frozenset[str]) -> bool:
-    """Tell whether a file imports anything whose use can be checked."""
+    """Return whether a file imports anything whose use can be checked."""
     if not source.imports.isdisjoint(python_modules.later_modules()):
         return True
     known = stubbed | python_modules.removed() | _CHANGED
@@ -362,7 +362,7 @@ def _is_relevant(source: Source, roots: frozenset[str], stubbed: frozenset[str])
 
 
 def _is_shadowed(source: Source, stubbed: frozenset[str]) -> bool:
-    """Tell whether a program imports a file next to it instead of a library."""
+    """Return whether a program imports a file next to it instead of a library."""
     if source.place.startswith(ty.LIBRARY):
         return False
     above = source.path.rpartition("/")[0]
@@ -384,7 +384,7 @@ def _roots(reached: Mapping[str, Source], *, are_stubs: bool) -> frozenset[str]:
 
 
 def _is_library_report(item: TyDiagnostic, stubbed: frozenset[str]) -> bool:
-    """Tell whether a report is about a library and relevant."""
+    """Return whether a report is about a library and relevant."""
     if item.kind in _OF_MODULES or item.message.startswith("Module `"):
         module, name = [*re.findall(r"`([\w.]+)`", item.message), "", ""][:2]
         root = module.partition(".")[0]
@@ -397,5 +397,5 @@ def _is_library_report(item: TyDiagnostic, stubbed: frozenset[str]) -> bool:
 
 
 def _may_be_annotated(item: TyDiagnostic) -> bool:
-    """Tell whether a report may be the consequence of an annotation."""
+    """Return whether a report may be the consequence of an annotation."""
     return item.kind not in _OF_MODULES

@@ -84,7 +84,7 @@ def directory(distribution: Distribution, scratch: Callable[[str], str]) -> str:
 
 
 def _is_whole(place: str) -> bool:
-    """Tell whether an environment has all of its files, unchanged and owned by this user."""
+    """Return whether an environment has all of its files, unchanged and owned by this user."""
     index = cache.read_sealed(os.path.join(place, _INDEX), _MAGIC)
     if index is None:
         return False

@@ -165,12 +165,12 @@ class TypeFinding:
             pending.extend(ast.iter_child_nodes(node))
 
     def may_be_text(self) -> bool:
-        """Tell whether the called method of bytes may be one of a str."""
+        """Return whether the called method of bytes may be one of a str."""
         call = self.enclosing_call
         return call is not None and origins.may_be_text(self.module, call.func)
 
     def is_certain(self) -> bool:
-        """Tell whether no code around the place anticipates the reported error.
+        """Return whether no code around the place anticipates the reported error.
 
         Checks of a version, a module or an attribute, and ``try`` blocks, anticipate it.
         """
@@ -198,13 +198,13 @@ class TypeFinding:
         return child not in self.module.passed_over and not is_for_ros1(self.module, node)
 
     def _is_changed_later(self, node: ast.AST) -> bool:
-        """Tell whether what is used is patched, imported or defined again."""
+        """Return whether what is used is patched, imported or defined again."""
         return (
             self._is_patched(node) or self._is_imported_anew(node) or self._is_defined_again(node)
         )
 
     def _is_patched(self, node: ast.AST) -> bool:
-        """Tell whether a test patches what is used."""
+        """Return whether a test patches what is used."""
         module = self.module
         if not module.mentions("patch"):
             return False
@@ -223,7 +223,7 @@ class TypeFinding:
         )
 
     def _is_imported_anew(self, node: ast.AST) -> bool:
-        """Tell whether a name in a function is bound by a later import than the reported one.
+        """Return whether a name in a function is bound by a later import than the reported one.
 
         The type checker uses the union of all imports of the name.
         """
@@ -240,7 +240,7 @@ class TypeFinding:
         return False
 
     def _is_defined_again(self, node: ast.AST) -> bool:
-        """Tell whether a function or class that is called in a function is defined more than once.
+        """Return whether a function or class called in a function is defined more than once.
 
         The type checker checks such a call against all definitions; the last one is called. The
         same applies to an attribute that replaces the method of its name.
@@ -256,7 +256,7 @@ class TypeFinding:
         return is_inside and len(kinds) > 1 and not {"function", "class"}.isdisjoint(kinds)
 
     def _is_replaced(self, method: ast.Attribute) -> bool:
-        """Tell whether a class has a method and also assigns the attribute of that name."""
+        """Return whether a class has a method and also assigns the attribute of that name."""
         module, name = self.module, method.attr
         class_ = module.enclosing_class(method)
         if class_ is None or module.text(method.value) != "self":
@@ -282,7 +282,7 @@ class TypeFinding:
         return [binding.target.partition(".")[0] for binding in bindings]
 
     def _is_of_several(self, node: ast.AST) -> bool:
-        """Tell whether the called or used object may be another one than the reported one."""
+        """Return whether the called or used object may be another one than the reported one."""
         parts = [node.left, node.right] if isinstance(node, ast.BinOp) else [node]
         if any(origins.has_default(self.module, part) for part in parts):
             return True
@@ -304,7 +304,7 @@ class TypeFinding:
         return any(origins.is_of_several(self.module, item, names) for item in called or [node])
 
     def _is_of_another(self, node: ast.AST) -> bool:
-        """Tell whether code for another distribution sets a name and thereby its type."""
+        """Return whether code for another distribution sets a name and thereby its type."""
         not_run = [*stretches_not_run(self.module)]
         if not not_run:
             return False
@@ -327,7 +327,7 @@ class TypeFinding:
                 yield from (store for store in stores if isinstance(store.ctx, ast.Store))
 
     def _asks_what_there_is(self, condition: Condition) -> bool:
-        """Tell whether a condition checks a version, the type of an object, or an import."""
+        """Return whether a condition checks a version, the type of an object, or an import."""
         parts = [*open_parts(self.module, condition.test)]
         values = [value for part in parts for value in values_asked(self.module, part)]
         texts = [ast.unparse(value) for value in values]
@@ -340,7 +340,7 @@ class TypeFinding:
         return not names.isdisjoint(self._imported)
 
     def _asks_arguments(self, conditions: Sequence[Condition]) -> bool:
-        """Tell whether the place only runs for some values of another argument of its function."""
+        """Return whether the place runs only for some values of another argument."""
         root = self._root
         others = origins.other_parameters(self.module, root) if root else frozenset()
         if not others or self.passed_in() is None:
@@ -354,7 +354,7 @@ class TypeFinding:
         return not names.isdisjoint(others)
 
     def _asks_element(self, conditions: Sequence[Condition]) -> bool:
-        """Tell whether another element of the same sequence determines the type of an element.
+        """Return whether another element of the same sequence determines the type of an element.
 
         In ``if step[0] == 'turn':`` before ``step[1]``, the first element is the kind of step.
         """
@@ -394,7 +394,7 @@ class TypeFinding:
         return False
 
     def _is_asked(self, node: ast.Try, handler: ast.ExceptHandler, child: ast.AST) -> bool:
-        """Tell whether a ``try`` only probes whether something works.
+        """Return whether a ``try`` only probes whether something works.
 
         One whose handlers only log the error does not.
         """
@@ -405,7 +405,7 @@ class TypeFinding:
 
 
 def _is_measured(module: PythonModule, node: ast.AST) -> bool:
-    """Tell whether a number is compared with a limit, which tells nothing about types."""
+    """Return whether a number is compared with a limit, which tells nothing about types."""
     compared = module.enclosing(node, ast.Compare)
     return compared is not None and all(
         isinstance(operator, ast.Lt | ast.LtE | ast.Gt | ast.GtE) for operator in compared.ops

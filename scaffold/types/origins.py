@@ -23,7 +23,7 @@ _OF_TEXT_OR_BYTES = frozenset({"fnmatch", "glob", "os", "re", "shutil", "tempfil
 def is_of_several(
     module: PythonModule, node: ast.AST, reported: AbstractSet[str] = frozenset()
 ) -> bool:
-    """Tell whether a value may be one of several that the type checker reports one by one.
+    """Return whether a value may be one of several that the type checker reports one by one.
 
     This applies to entries of a dictionary, ``self.clients['reset']``, and to values from an
     attribute with values of several origins.
@@ -50,7 +50,7 @@ def is_of_several(
 
 
 def has_default(module: PythonModule, node: ast.AST) -> bool:
-    """Tell whether a value is of an attribute that a class has, and its objects replace.
+    """Return whether a value is of an attribute that a class has, and its objects replace.
 
     The type checker only knows the value of the class if it does not know a base class.
     """
@@ -70,7 +70,7 @@ def has_default(module: PythonModule, node: ast.AST) -> bool:
 
 
 def may_be_text(module: PythonModule, node: ast.AST) -> bool:
-    """Tell whether a value that is reported as bytes is a str if the argument is not ``None``.
+    """Return whether a value that is reported as bytes is a str if the argument is not ``None``.
 
     The type checker takes all overloads that fit some types of an argument.
     """
@@ -86,7 +86,7 @@ def may_be_text(module: PythonModule, node: ast.AST) -> bool:
 
 
 def is_attribute(module: PythonModule, node: ast.AST) -> bool:
-    """Tell whether a value is read from an object: libraries declare all of its types."""
+    """Return whether a value is read from an object: libraries declare all of its types."""
     values = [node, *(arguments_for(module, node) if isinstance(node, ast.Name) else ())]
     return any(
         isinstance(value, ast.Attribute) and module.text(value.value) != "self" for value in values
@@ -94,14 +94,14 @@ def is_attribute(module: PythonModule, node: ast.AST) -> bool:
 
 
 def is_unpacked_of_several(module: PythonModule, value: ast.expr) -> bool:
-    """Tell whether an unpacked value may be another one than the reported one."""
+    """Return whether an unpacked value may be another one than the reported one."""
     if isinstance(value, ast.Subscript) and is_of_several(module, value):
         return True
     return is_attribute(module, value)
 
 
 def is_assigned_of_several(module: PythonModule, statement: ast.Assign, value: ast.AST) -> bool:
-    """Tell whether the value or a target of an assignment may be one of several objects.
+    """Return whether the value or a target of an assignment may be one of several objects.
 
     The type checker reports all types of attributes of ``self`` and of results of its methods.
     """
@@ -213,7 +213,7 @@ def _source(module: PythonModule, value: ast.expr) -> str:
 
 
 def _is_nothing(value: ast.expr) -> bool:
-    """Tell whether the type of a value is irrelevant: ``None``, or an empty container."""
+    """Return whether the type of a value is irrelevant: ``None``, or an empty container."""
     match value:
         case ast.Constant(value=None) | ast.List(elts=[]) | ast.Dict(keys=[]):
             return True

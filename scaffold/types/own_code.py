@@ -43,7 +43,7 @@ _NAME = re.compile(rb"\b[A-Za-z_]\w*")
 
 
 def is_about_own(item: TyDiagnostic, sources: Iterable[Source]) -> bool:
-    """Tell whether a report is about a class or a function that one of the files defines."""
+    """Return whether a report is about a class or a function that one of the files defines."""
     module = _MODULE.fullmatch(item.message)
     if module is not None and item.kind == "missing-attribute":
         return _is_lacking(module[1], sources)
@@ -58,7 +58,7 @@ def is_about_own(item: TyDiagnostic, sources: Iterable[Source]) -> bool:
 
 
 def _is_lacking(module: str, sources: Iterable[Source]) -> bool:
-    """Tell whether a module of the workspace certainly has only the names in its file."""
+    """Return whether a module of the workspace certainly has only the names in its file."""
     files = [item for item in sources if item.path and item.dotted == module]
     return len(files) == 1 and not _LENDING.search(files[0].data)
 

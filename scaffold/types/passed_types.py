@@ -90,7 +90,7 @@ def _argument_types(given: Mapping[str, str], by_name: Mapping[str, str]) -> str
 
 
 def _tells_all(type_: str, reached: Mapping[str, Source]) -> bool:
-    """Tell whether the name of a type identifies it, whatever is edited."""
+    """Return whether the name of a type identifies it, whatever is edited."""
     own = {place.split("/")[1] for place, item in reached.items() if not item.path}
     names = {*_NAME.findall(_TEXT.sub("", type_))}
     plain = {name for name in names if MARK not in name}

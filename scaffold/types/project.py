@@ -147,7 +147,7 @@ class Project:
         return self._reported or {}
 
     def _is_broken(self, place: str) -> bool:
-        """Tell whether a file does not parse, possibly because of added lines."""
+        """Return whether a file does not parse, possibly because of added lines."""
         is_extended = self._written[place].data != self._texts[place]
         reported = (self._reported or {}).get(place, ())
         return is_extended and any(

@@ -57,7 +57,7 @@ def later_modules() -> Mapping[str, str]:
 
 
 def is_of_another(name: str) -> bool:
-    """Tell whether a module that the target lacks exists in another Python.
+    """Return whether a module that the target lacks exists in another Python.
 
     Args:
         name: Its full name; a package counts if all of its modules are new.
@@ -68,7 +68,7 @@ def is_of_another(name: str) -> bool:
 
 
 def still_has(module: str, name: str) -> bool:
-    """Tell whether the target has a name of a module that the type checker takes for removed.
+    """Return whether the target has a name of a module that the type checker takes for removed.
 
     Args:
         module: Its full name.

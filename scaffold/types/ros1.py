@@ -12,7 +12,7 @@ _ROS1 = "rospy"
 
 
 def is_for_ros1(module: PythonModule, node: ast.AST) -> bool:
-    """Tell whether a node only runs where rospy is imported."""
+    """Return whether a node only runs where rospy is imported."""
     if _ROS1 not in module.imports_by_root:
         return False
     around = {*_conditions(module, node)}

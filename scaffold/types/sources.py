@@ -161,7 +161,7 @@ class Sources:
         return result
 
     def are_others(self, user: Package, roots: Iterable[str]) -> bool:
-        """Tell whether code of a package refers to a package that is not importable here.
+        """Return whether code of a package refers to a package that is not importable here.
 
         Such a package has the name of another one in another workspace of the repository.
 
@@ -205,7 +205,7 @@ class Sources:
 
 
 def _has_module(package: Package, root: str) -> bool:
-    """Tell whether a package has an importable package of a name, with code in it."""
+    """Return whether a package has an importable package of a name, with code in it."""
     return any(package.has(f"{above}{root}/__init__.py") for above in ("", "src/"))
 
 
@@ -237,7 +237,7 @@ class _PackageSources:
         return None
 
     def provides(self, root: str) -> bool:
-        """Tell whether the package has an importable package of this name."""
+        """Return whether the package has an importable package of this name."""
         return self._above is not None and self._root == root
 
     def source(self, path: str) -> Source | None:

@@ -40,7 +40,7 @@ _KINDS = {'"': "str", "b": "bytes", "T": "bool", "F": "bool"}
 
 
 def is_certain(type_: str) -> bool:
-    """Tell whether a type is a single known one: of Python or of the stubs, not a union."""
+    """Return whether a type is a single known one: of Python or of the stubs, not a union."""
     bare = _TEXT.sub("str", type_)
     if "|" in _without_arguments(bare) or _ANYTHING.search(bare):
         return False
@@ -48,7 +48,7 @@ def is_certain(type_: str) -> bool:
 
 
 def is_certain_misfit(expected: str, given: str) -> bool:
-    """Tell whether a value of one type is certainly not accepted where another is expected.
+    """Return whether a value of one type is certainly not accepted where another is expected.
 
     Args:
         expected: The expected type, or several separated by ``|``.
@@ -72,7 +72,7 @@ def is_certain_misfit(expected: str, given: str) -> bool:
 
 
 def _lacks_elements(expected: str, given: str) -> bool:
-    """Tell whether a list is expected, of whatever elements, and something else is given."""
+    """Return whether a list is expected, of whatever elements, and something else is given."""
     if _ITERABLE.match(expected) and _SCALAR.fullmatch(given):
         return True
     is_sequence = _SEQUENCE.fullmatch(expected) and "|" not in _without_arguments(expected)
@@ -104,7 +104,7 @@ def _without_arguments(type_: str) -> str:
 
 
 def is_function(type_: str) -> bool:
-    """Tell whether a type is a function or a method."""
+    """Return whether a type is a function or a method."""
     return re.match(r"(?:bound method|def) ", type_) is not None or type_.startswith("(")
 
 

@@ -75,7 +75,7 @@ def join(root: str, path: str) -> str:
 
 
 def leads_out(path: str) -> bool:
-    """Tell whether a relative path leads out of its root."""
+    """Return whether a relative path leads out of its root."""
     return os.path.isabs(path) or ".." in path.split("/")
 
 

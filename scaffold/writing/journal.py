@@ -113,7 +113,7 @@ class Transaction:
         return spare if os.path.lexists(spare) and not os.path.lexists(slot) else slot
 
     def _is_done(self, change: Change) -> bool:
-        """Tell whether the stage contains the old content."""
+        """Return whether the stage contains the old content."""
         slot = self._slot(change)
         if change.before is None and os.path.lexists(slot):
             target = self.target(change)
@@ -121,7 +121,7 @@ class Transaction:
         return state(slot) == change.before
 
     def _is_edited(self, change: Change) -> bool:
-        """Tell whether another process has changed the file."""
+        """Return whether another process has changed the file."""
         return self._current_state(change) not in {change.before, change.after}
 
     # -- doing and undoing

@@ -137,7 +137,7 @@ def _is_ours(descriptor: int) -> bool:
 
 
 def _is_current(descriptor: int, path: str) -> bool:
-    """Tell whether a path still refers to the opened file."""
+    """Return whether a path still refers to the opened file."""
     try:
         return os.path.samestat(os.fstat(descriptor), os.stat(path))
     except FileNotFoundError:

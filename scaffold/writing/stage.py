@@ -98,12 +98,12 @@ def temporary_names(directory: str) -> list[str]:
 
 
 def has_journal(directory: str, name: str) -> bool:
-    """Tell whether the stage of this name has a journal: its run was interrupted."""
+    """Return whether the stage of this name has a journal: its run was interrupted."""
     return os.path.lexists(os.path.join(directory, name, JOURNAL))
 
 
 def _is_of_stage(name: str) -> bool:
-    """Tell whether a name is one that this module uses in a stage."""
+    """Return whether a name is one that this module uses in a stage."""
     number = name
     while number.endswith(SPARE):
         number = number.removesuffix(SPARE)

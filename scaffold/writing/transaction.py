@@ -62,7 +62,7 @@ def exclusive(directory: str, notify: Callable[[str], None] = _ignore) -> Iterat
 
 
 def is_unfinished(directory: str) -> bool:
-    """Tell whether a run was interrupted while it changed a package, and not recovered since."""
+    """Return whether a run was interrupted while it changed a package, and not recovered since."""
     if not any(has_journal(directory, name) for name in temporary_names(directory)):
         return False
     try:

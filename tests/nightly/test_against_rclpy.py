@@ -231,7 +231,7 @@ def _of_topic(
 
 
 def _have_no_rate(ours: Mapping[str, Any], theirs: Mapping[str, Any]) -> bool:
-    """Tell whether both saw bursts of messages: their mean rate depends on the start."""
+    """Return whether both saw bursts of messages: their mean rate depends on the start."""
     spreads = (
         ours["interval"]["deviation"] * ours["rate_hz"],
         theirs["interval"] * theirs["rate_hz"],

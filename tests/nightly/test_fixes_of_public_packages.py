@@ -70,7 +70,7 @@ def files(root: Path) -> list[str]:
 
 
 def is_readable(root: Path, path: str) -> bool:
-    """Tell whether a file can be parsed."""
+    """Return whether a file can be parsed."""
     read = reader_of(path)
     assert read
     try:

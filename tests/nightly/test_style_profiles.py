@@ -49,7 +49,7 @@ def interpreter(wanted: tuple[int, int]) -> str:
 
 
 def _runs(path: str) -> bool:
-    """Tell whether a Python starts, unlike a shim of pyenv for a missing version."""
+    """Return whether a Python starts, unlike a shim of pyenv for a missing version."""
     done = subprocess.run([path, "-c", ""], env=system_environment(), check=False)
     return done.returncode == 0
 

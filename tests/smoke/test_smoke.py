@@ -86,7 +86,7 @@ def packages(
 
 
 def is_about_10(rate: float) -> bool:
-    """Tell whether a rate is that of the talkers, with tolerance for a busy machine."""
+    """Return whether a rate is that of the talkers, with tolerance for a busy machine."""
     return 5.0 < rate < 20.0
 
 

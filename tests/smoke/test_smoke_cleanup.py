@@ -96,7 +96,7 @@ async def wait_for_output(running: process.Running) -> None:
 
 
 def has_ended(entry: Path) -> bool:
-    """Tell whether the process of an entry in /proc has ended, zombies included."""
+    """Return whether the process of an entry in /proc has ended, zombies included."""
     try:
         return (entry / "stat").read_text().rpartition(")")[2].split()[0] in {"Z", "X"}
     except (FileNotFoundError, ProcessLookupError):
@@ -397,7 +397,7 @@ def domains_of(pids: Iterable[int]) -> set[int]:
 
 
 def is_shared(segment: str, domains: set[int]) -> bool:
-    """Tell whether a segment is a port of another domain, which other processes may use."""
+    """Return whether a segment is a port of another domain, which other processes may use."""
     port = re.fullmatch(r"fastrtps_port(\d+)", segment)
     return port is not None and (int(port[1]) - 7400) // 250 not in domains
 

@@ -41,7 +41,7 @@ def _wrong_answer(types: MessageTypes, value: ast.expr, answer: str) -> str:
 
 
 def _returns_nothing(function: ast.FunctionDef) -> bool:
-    """Tell whether a function returns nothing, and is neither empty nor raises."""
+    """Return whether a function returns nothing, and is neither empty nor raises."""
     is_plain = not function.decorator_list and not is_generator(function)
     does_something = any(
         isinstance(node, ast.Assign | ast.Attribute) for node in ast.walk(function)

@@ -362,7 +362,7 @@ def _function(types: MessageTypes, server: ActionServer, name: str) -> FunctionN
 
 
 def _is_new(types: MessageTypes, function: FunctionNode, value: ast.expr | None) -> bool:
-    """Tell whether a new response is returned although fields of the given one were set."""
+    """Return whether a new response is returned although fields of the given one were set."""
     if not isinstance(value, ast.Call) or value.args or value.keywords:
         return False
     given = function.args.args[-1].arg if function.args.args else ""
@@ -396,7 +396,7 @@ def _filled_instead(
 
 
 def _is_untouched(types: MessageTypes, function: FunctionNode, value: ast.expr | None) -> bool:
-    """Tell whether a value is the given response without changes."""
+    """Return whether a value is the given response without changes."""
     given = function.args.args[-1].arg if function.args.args else ""
     uses = [x for x in types.module.below(function, ast.Name) if x.id == given]
     return bool(given) and uses == [value]

@@ -130,14 +130,14 @@ _TIMER = "a timer"
 
 
 def _is_repeated(file: RclpyFile, function: FunctionNode, call: ast.Call) -> bool:
-    """Tell whether an object is created in each call of a callback."""
+    """Return whether an object is created in each call of a callback."""
     if _MADE[_name(call)] == _TIMER:
         return _adds_up(file, function, call)
     return not file.is_conditional(call) and not conditions_on(file.module, call)
 
 
 def _adds_up(file: RclpyFile, function: FunctionNode, call: ast.Call) -> bool:
-    """Tell whether timers are never stopped, and created regardless of the node's state.
+    """Return whether timers are never stopped, and created regardless of the node's state.
 
     Conditions may only depend on the message: ``if msg.data:``.
     """

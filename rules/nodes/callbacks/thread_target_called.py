@@ -196,7 +196,7 @@ class ThreadTargetCalled(RclpyRule):
 
 
 def _is_ended(file: RclpyFile, timer: Timer) -> bool:
-    """Tell whether a timer is canceled or destroyed anywhere, as in its first call."""
+    """Return whether a timer is canceled or destroyed anywhere, as in its first call."""
     index = file.module.index
     name = timer.attribute or timer.variable
     ends = [end.value for end in index.attributes("cancel")]
@@ -215,7 +215,7 @@ def _is_single(file: RclpyFile, node: ast.expr) -> bool:
 
 
 def _is_left(package: Package, file: RclpyFile, call: ast.Call, idle: frozenset[str]) -> bool:
-    """Tell whether an object is never used, or never started."""
+    """Return whether an object is never used, or never started."""
     index = file.module.index
     match file.module.parent(call):
         case ast.Assign(targets=[ast.Name() as name]):
@@ -233,7 +233,7 @@ def _is_left(package: Package, file: RclpyFile, call: ast.Call, idle: frozenset[
 def _are_idle(
     file: RclpyFile, uses: Sequence[ast.Name | ast.Attribute], idle: frozenset[str]
 ) -> bool:
-    """Tell whether no use of an object starts it or passes it on."""
+    """Return whether no use of an object starts it or passes it on."""
     reads = [file.module.parent(use) for use in uses if isinstance(use.ctx, ast.Load)]
     return all(isinstance(use, ast.Attribute) and use.attr in idle for use in reads)
 
@@ -250,7 +250,7 @@ _ENDING = re.compile(
 
 
 def _is_endless(file: RclpyFile, thread: ast.Call) -> bool:
-    """Tell whether a non-daemon thread runs an endless loop."""
+    """Return whether a non-daemon thread runs an endless loop."""
     words = {word.arg: word.value for word in thread.keywords}
     if (
         "target" not in words

@@ -267,7 +267,7 @@ class WaitsForCallback(RclpyRule):
 
 
 def _is_spun_for(file: RclpyFile, name: str) -> bool:
-    """Tell whether a loop spins until an attribute or an event is set."""
+    """Return whether a loop spins until an attribute or an event is set."""
     for loop in file.module.walk(ast.While):
         asked = {node.attr for node in ast.walk(loop) if isinstance(node, ast.Attribute)}
         if name in asked and any("spin" in attribute for attribute in asked):
@@ -276,7 +276,7 @@ def _is_spun_for(file: RclpyFile, name: str) -> bool:
 
 
 def _excludes(file: RclpyFile, executed: Executed, setters: set[ast.AST | None]) -> bool:
-    """Tell whether a callback prevents all callbacks that could end its wait from running."""
+    """Return whether a callback prevents all callbacks that could end its wait from running."""
     entity = executed.entity
     if entity is None or executed.is_task or file.module.mentions("Thread("):
         return False
@@ -311,12 +311,12 @@ def _waits(file: RclpyFile, executed: Executed) -> Iterator[tuple[ast.expr | ast
 
 
 def _is_limited(node: ast.AST) -> bool:
-    """Tell whether a call waits with a timeout."""
+    """Return whether a call waits with a timeout."""
     return isinstance(node, ast.Call) and bool(node.args or node.keywords)
 
 
 def _is_asked(file: RclpyFile, call: ast.Call) -> bool:
-    """Tell whether the result of the wait is used; otherwise it may be a mere sleep."""
+    """Return whether the result of the wait is used; otherwise it may be a mere sleep."""
     match file.module.parent(call):
         case ast.UnaryOp(op=ast.Not()) as negated:
             return isinstance(file.module.parent(negated), ast.If)
@@ -334,7 +334,7 @@ def _may_end(loop: ast.While) -> bool:
 
 
 def _is_in_spinning_loop(file: RclpyFile, call: ast.Call) -> bool:
-    """Tell whether callbacks run between one wait and the next."""
+    """Return whether callbacks run between one wait and the next."""
     return any(
         isinstance(parent, ast.While) and any(map(_spins, ast.walk(parent)))
         for parent in file.module.parents(call)
@@ -370,7 +370,7 @@ def _setters(file: RclpyFile, name: str, node: ast.AST) -> set[ast.AST | None]:
 
 
 def _is_field_of_local_message(file: RclpyFile, stored: ast.AST) -> bool:
-    """Tell whether the target is a field of a message created in the same function."""
+    """Return whether the target is a field of a message created in the same function."""
     while isinstance(stored, ast.Attribute):
         stored = stored.value
     made = file.evaluator.single_value(stored) if isinstance(stored, ast.Name) else None

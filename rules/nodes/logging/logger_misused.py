@@ -260,7 +260,7 @@ def _is_logger(file: RclpyFile, node: ast.expr) -> bool:
 
 
 def _is_number(file: RclpyFile, node: ast.Attribute) -> bool:
-    """Tell whether all values assigned to an attribute of ``self`` are numbers."""
+    """Return whether all values assigned to an attribute of ``self`` are numbers."""
     class_ = file.module.enclosing_class(node)
     if class_ is None or not isinstance(node.value, ast.Name) or node.value.id != "self":
         return False

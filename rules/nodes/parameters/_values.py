@@ -85,7 +85,7 @@ def _objects(file: RclpyFile) -> Iterator[Entity]:
 
 
 def _stands_for_value(file: RclpyFile, node: ast.AST) -> bool:
-    """Tell whether a node is in a place where only the value makes sense."""
+    """Return whether a node is in a place where only the value makes sense."""
     parent = file.module.parent(node)
     used = False
     match parent:

@@ -305,7 +305,7 @@ def _set_names(package: Package) -> frozenset[str]:
 
 
 def _is_only_tested(file: RclpyFile, parameter: Parameter) -> bool:
-    """Tell whether the code only reads a parameter, or handles None."""
+    """Return whether the code only reads a parameter, or handles None."""
     module = file.module
     reads = [read.call for read in file.parameter_reads if read.name == parameter.name]
     values = [value for call in reads for value in _uses(module, call)]
@@ -367,7 +367,7 @@ def _default_problem(file: RclpyFile, parameter: Parameter, node: ast.expr) -> s
 
 
 def _is_path(file: RclpyFile, node: ast.expr) -> bool:
-    """Tell whether a value is a ``pathlib.Path``, or one with parts appended to it."""
+    """Return whether a value is a ``pathlib.Path``, or one with parts appended to it."""
     value = file.evaluator.single_value(node)
     while isinstance(value, ast.BinOp) and isinstance(value.op, ast.Div):
         value = file.evaluator.single_value(value.left)

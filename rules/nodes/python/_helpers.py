@@ -29,7 +29,7 @@ def too_early(file: RclpyFile, node: NodeClass) -> Iterator[tuple[ast.Call, str]
 
 
 def _is_known(file: RclpyFile, node: NodeClass) -> bool:
-    """Tell whether all base classes up to rclpy's Node are in the file."""
+    """Return whether all base classes up to rclpy's Node are in the file."""
     owner: NodeClass | None = node
     while owner is not None:
         if owner.file is not file or len(owner.node.bases) != 1:
@@ -85,7 +85,7 @@ def _is_of_self(used: ast.Attribute) -> bool:
 
 
 def _is_always_used(file: RclpyFile, used: ast.Attribute) -> bool:
-    """Tell whether a method uses an attribute unconditionally, without checking it."""
+    """Return whether a method uses an attribute unconditionally, without checking it."""
     quoted = (f"'{used.attr}'", f'"{used.attr}"')
     if file.module.mentions(*quoted) or _in_loop(file, used) or conditions_on(file.module, used):
         return False

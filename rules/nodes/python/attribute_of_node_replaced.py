@@ -165,7 +165,7 @@ def _breaks_node(name: str, method: FunctionNode) -> bool:
 
 
 def _takes_too_few(name: str, method: FunctionNode) -> bool:
-    """Tell whether a method cannot be called with the arguments that rclpy passes."""
+    """Return whether a method cannot be called with the arguments that rclpy passes."""
     given = method.args
     if name not in _CALLED or given.vararg is not None or method.decorator_list:
         return False

@@ -377,7 +377,7 @@ def _setters(
 
 
 def _needs_value(file: RclpyFile, used: ast.Attribute) -> bool:
-    """Tell whether a use of an attribute fails for None."""
+    """Return whether a use of an attribute fails for None."""
     match file.module.parent(used):
         case ast.Attribute(value=value) | ast.Subscript(value=value):
             return value is used
@@ -385,13 +385,13 @@ def _needs_value(file: RclpyFile, used: ast.Attribute) -> bool:
 
 
 def _may_wait(file: RclpyFile, node: NodeClass) -> bool:
-    """Tell whether the constructor waits for a message, or cancels a timer for now."""
+    """Return whether the constructor waits for a message, or cancels a timer for now."""
     text = file.module.text(node.constructor) if node.constructor is not None else ""
     return any(word in text for word in ("while ", "spin", "wait_for", ".cancel("))
 
 
 def _is_always_used(file: RclpyFile, used: ast.Attribute) -> bool:
-    """Tell whether a function uses an attribute unconditionally, without checking it."""
+    """Return whether a function uses an attribute unconditionally, without checking it."""
     in_loop = any(
         isinstance(parent, ast.For | ast.While | ast.comprehension)
         for parent in file.module.parents(used)

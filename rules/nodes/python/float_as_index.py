@@ -142,14 +142,14 @@ _OF_INTEGERS = {
 
 
 def _is_of_labels(module: PythonModule, node: ast.Slice) -> bool:
-    """Tell whether a slice is one of pandas, where labels may have any type."""
+    """Return whether a slice is one of pandas, where labels may have any type."""
     subscript = module.enclosing(node, ast.Subscript)
     holder = subscript.value if subscript is not None else None
     return isinstance(holder, ast.Attribute) and holder.attr == "loc"
 
 
 def _is_of_own_length(file: RclpyFile, node: ast.Subscript) -> bool:
-    """Tell whether an index is a quotient of the length of the indexed list."""
+    """Return whether an index is a quotient of the length of the indexed list."""
     index = file.evaluator.single_value(node.slice) or node.slice
     if not isinstance(node.slice, ast.Name | ast.BinOp) or not _is_quotient(file, index):
         return False
@@ -166,7 +166,7 @@ def _is_of_own_length(file: RclpyFile, node: ast.Subscript) -> bool:
 
 
 def _is_quotient(file: RclpyFile, node: ast.expr) -> bool:
-    """Tell whether a value is certainly computed by a division."""
+    """Return whether a value is certainly computed by a division."""
     match node:
         case ast.BinOp(op=ast.Div(), left=left, right=right):
             texts = (x.value for x in (left, right) if isinstance(x, ast.Constant))

@@ -97,7 +97,7 @@ def _only_logged(file: RclpyFile, class_: NodeClass, method: ast.AST) -> Iterato
 
 
 def _is_set_to_start(file: RclpyFile, class_: NodeClass, stores: list[ast.Name]) -> bool:
-    """Tell whether variables are set to the initial constant of the attribute."""
+    """Return whether variables are set to the initial constant of the attribute."""
     starts = [
         parent.value
         for use in file.module.index.attributes(stores[0].id)
@@ -112,7 +112,7 @@ def _is_set_to_start(file: RclpyFile, class_: NodeClass, stores: list[ast.Name])
 
 
 def _is_logged(file: RclpyFile, name: ast.Name) -> bool:
-    """Tell whether a name is only used in a logged or printed text."""
+    """Return whether a name is only used in a logged or printed text."""
     for parent in file.module.parents(name):
         match parent:
             case ast.Call(func=ast.Attribute(value=ast.Call(func=ast.Attribute(attr=attr)))):
@@ -125,7 +125,7 @@ def _is_logged(file: RclpyFile, name: ast.Name) -> bool:
 
 
 def _is_state(file: RclpyFile, class_: NodeClass, method: ast.AST, name: str) -> bool:
-    """Tell whether an attribute is only set by the constructor, and read by other methods."""
+    """Return whether an attribute is only set by the constructor, and read by other methods."""
     uses = [
         use
         for use in file.module.index.attributes(name)
@@ -142,7 +142,7 @@ def _is_state(file: RclpyFile, class_: NodeClass, method: ast.AST, name: str) ->
 
 
 def _is_start(assigned: ast.AST | None) -> bool:
-    """Tell whether the initial value of an attribute is a constant or a parameter."""
+    """Return whether the initial value of an attribute is a constant or a parameter."""
     match assigned:
         case ast.Assign(value=ast.Constant() | ast.Attribute(attr="value", value=ast.Call())):
             return True

@@ -214,7 +214,7 @@ _OF_THREADS = {
 
 
 def _is_method_of_thread(file: RclpyFile, node: ast.Attribute) -> bool:
-    """Tell whether a statement consists of an uncalled method of a thread, event or lock."""
+    """Return whether a statement consists of an uncalled method of a thread, event or lock."""
     if not isinstance(file.module.parent(node), ast.Expr):
         return False
     made = file.evaluator.single_value(node.value)
@@ -223,7 +223,7 @@ def _is_method_of_thread(file: RclpyFile, node: ast.Attribute) -> bool:
 
 
 def _is_event(file: RclpyFile, node: ast.Attribute) -> bool:
-    """Tell whether an attribute is certainly an event of threading or asyncio."""
+    """Return whether an attribute is certainly an event of threading or asyncio."""
     values = file.evaluator.attribute_values(node) or ()
     names = [
         file.module.qualified_name(value.func) if isinstance(value, ast.Call) else None
@@ -249,7 +249,7 @@ def _needs_value(file: RclpyFile, node: ast.Attribute) -> bool:
 
 
 def _is_compared(file: RclpyFile, node: ast.expr) -> bool:
-    """Tell whether it is compared with a plain value, to which it is never equal."""
+    """Return whether it is compared with a plain value, to which it is never equal."""
     match file.module.parent(node):
         case ast.Compare(left=left, comparators=[ast.Constant(value=value)]):
             return left is node and value is not None
@@ -257,7 +257,7 @@ def _is_compared(file: RclpyFile, node: ast.expr) -> bool:
 
 
 def _is_condition(file: RclpyFile, node: ast.expr) -> bool:
-    """Tell whether it only matters that a value is true.
+    """Return whether it only matters that a value is true.
 
     Outside of conditions, ``or`` may choose a method: ``getattr(log, "info", None) or log.warn``.
     """
@@ -273,7 +273,7 @@ def _is_condition(file: RclpyFile, node: ast.expr) -> bool:
 
 
 def _is_own_method(file: RclpyFile, node: ast.Attribute) -> bool:
-    """Tell whether an expression is an own method of the node that is never replaced."""
+    """Return whether an expression is an own method of the node that is never replaced."""
     if file.evaluator.stores(node.attr) or _is_read_from(file, node):
         return False
     owner = file.owner_of(node.value)
@@ -284,7 +284,7 @@ def _is_own_method(file: RclpyFile, node: ast.Attribute) -> bool:
 
 
 def _is_passed(file: RclpyFile, node: ast.Attribute) -> bool:
-    """Tell whether the method is a callback elsewhere, so that a mention is harmless."""
+    """Return whether the method is a callback elsewhere, so that a mention is harmless."""
     return any(
         not isinstance(above := file.module.parent(use), ast.Expr | ast.Compare)
         and not (isinstance(above, ast.Call) and above.func is use)
@@ -293,7 +293,7 @@ def _is_passed(file: RclpyFile, node: ast.Attribute) -> bool:
 
 
 def _is_read_from(file: RclpyFile, node: ast.Attribute) -> bool:
-    """Tell whether an attribute of the method is read, which may be set elsewhere."""
+    """Return whether an attribute of the method is read, which may be set elsewhere."""
     return isinstance(file.module.parent(node), ast.Attribute)
 
 

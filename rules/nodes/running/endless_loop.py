@@ -183,7 +183,7 @@ class EndlessLoop(RclpyRule):
 
 
 def _is_in_emergency(file: RclpyFile, loop: ast.While) -> bool:
-    """Tell whether a loop is in an emergency function, or in a condition."""
+    """Return whether a loop is in an emergency function, or in a condition."""
     function = file.function_of(loop)
     conditions = [item.test for item in file.module.parents(loop) if isinstance(item, ast.If)]
     names = [getattr(function, "name", ""), *map(file.module.text, conditions)]

@@ -180,7 +180,7 @@ class InitMisused(RclpyRule):
 
 
 def _is_given_more(function: FunctionNode) -> bool:
-    """Tell whether a function needs further arguments, so that it is not an entry point."""
+    """Return whether a function needs further arguments, so that it is not an entry point."""
     arguments = function.args
     names = [item.arg for item in (*arguments.posonlyargs, *arguments.args)]
     required = names[: len(names) - len(arguments.defaults)]

@@ -157,7 +157,7 @@ def _left_out(
 
 
 def _spins_itself(file: RclpyFile, class_: NodeClass) -> bool:
-    """Tell whether a node, or an unknown base class, may spin the node itself."""
+    """Return whether a node, or an unknown base class, may spin the node itself."""
     names = (node.attr for node in file.module.below(class_.node, ast.Attribute))
     if any(map(_may_spin, names)) or _is_spun_by_code(file, class_.node):
         return True
@@ -176,7 +176,7 @@ def _may_spin(words: str) -> bool:
 
 
 def _hands_on(file: RclpyFile, use: ast.Name | ast.Attribute) -> bool:
-    """Tell whether a node is passed on, besides calling its methods and reading attributes."""
+    """Return whether a node is passed on, besides calling its methods and reading attributes."""
     parent = file.module.parent(use)
     is_read = isinstance(parent, ast.Attribute) and isinstance(parent.ctx, ast.Load)
     return isinstance(use.ctx, ast.Load) and not is_read

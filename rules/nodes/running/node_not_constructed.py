@@ -297,7 +297,7 @@ def _is_init(call: ast.Call) -> bool:
 
 @fact
 def _ends_chain(package: Package, path: str, name: str) -> bool | None:
-    """Tell whether the constructor of a class calls no other; ``None`` if that is not known."""
+    """Return whether the constructor of a class calls no other; ``None`` if that is not known."""
     classes = [item for item in package.module(path).walk(ast.ClassDef) if item.name == name]
     if len(classes) != 1 or classes[0].bases or classes[0].decorator_list:
         return None
@@ -313,7 +313,7 @@ def _ends_chain(package: Package, path: str, name: str) -> bool | None:
 
 
 def _is_outline(package: Package, file: RclpyFile, node: NodeClass) -> bool:
-    """Tell whether a constructor is still empty and its class unused."""
+    """Return whether a constructor is still empty and its class unused."""
     body = node.constructor.body if node.constructor is not None else []
     if not all(isinstance(item, ast.Pass | ast.Expr) for item in body):
         return False
@@ -326,7 +326,7 @@ def _is_outline(package: Package, file: RclpyFile, node: NodeClass) -> bool:
 
 
 def _is_used_as_node(file: RclpyFile, node: NodeClass) -> bool:
-    """Tell whether an object of a class is used as a node, or passed on."""
+    """Return whether an object of a class is used as a node, or passed on."""
     own = defined_by(node)
     made_here = [
         call
@@ -406,7 +406,7 @@ def _lacks_base(file: RclpyFile, class_: ast.ClassDef) -> bool:
 
 
 def _hands_on(file: RclpyFile, class_: ast.ClassDef) -> bool:
-    """Tell whether a class without bases calls ``super().__init__`` like a mixin."""
+    """Return whether a class without bases calls ``super().__init__`` like a mixin."""
     for call in file.module.below(class_, ast.Call):
         match call:
             case ast.Call(

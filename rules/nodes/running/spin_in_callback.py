@@ -244,7 +244,7 @@ class SpinInCallback(RclpyRule):
 
 
 def _is_in_one_executor(file: RclpyFile) -> bool:
-    """Tell whether the executor of rclpy runs the node, maybe with several callback groups.
+    """Return whether the executor of rclpy runs the node, maybe with several callback groups.
 
     It is also the one that waits for the future, so that the node stays in it.
     """
@@ -253,7 +253,7 @@ def _is_in_one_executor(file: RclpyFile) -> bool:
 
 
 def _is_last(file: RclpyFile, function: ast.AST) -> bool:
-    """Tell whether callbacks call a function only at the end of the node."""
+    """Return whether callbacks call a function only at the end of the node."""
     start = {executed.function for executed in in_constructors(file)}
     calls = [
         attribute
@@ -264,7 +264,7 @@ def _is_last(file: RclpyFile, function: ast.AST) -> bool:
 
 
 def _waits_once(file: RclpyFile, call: ast.Call) -> bool:
-    """Tell whether a spin waits for an attribute that stays set, such as a count of messages.
+    """Return whether a spin waits for an attribute that stays set, such as a count of messages.
 
     Callers before the callback may have waited for it already.
     """
@@ -281,7 +281,7 @@ def _waits_once(file: RclpyFile, call: ast.Call) -> bool:
 
 
 def _only_counts(file: RclpyFile, name: str) -> bool:
-    """Tell whether an attribute only increases after the construction of the node."""
+    """Return whether an attribute only increases after the construction of the node."""
     start = {executed.function for executed in in_constructors(file)}
     stores = [
         file.module.parent(use)
@@ -294,7 +294,7 @@ def _only_counts(file: RclpyFile, name: str) -> bool:
 
 
 def _ends_after(file: RclpyFile, node: ast.AST) -> bool:
-    """Tell whether later statements in the block of a call may end the node."""
+    """Return whether later statements in the block of a call may end the node."""
     return any(True for _ in _endings_after(file, node))
 
 

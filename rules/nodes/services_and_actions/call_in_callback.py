@@ -305,7 +305,7 @@ def _pending_future(test: ast.expr) -> str:
 
 
 def _ends_at_once(module: PythonModule, loop: ast.While) -> bool:
-    """Tell whether a loop ends in its first iteration."""
+    """Return whether a loop ends in its first iteration."""
     leaves = any(isinstance(item, ast.Break | ast.Return | ast.Raise) for item in loop.body)
     return leaves and not any(module.below(loop, ast.Continue))
 

@@ -191,7 +191,7 @@ class GoalNeverCanceled(RclpyRule):
 
 
 def _accepts(file: RclpyFile, node: ast.expr) -> bool:
-    """Tell whether a cancel callback accepts requests and does nothing else but log."""
+    """Return whether a cancel callback accepts requests and does nothing else but log."""
     function = file.callback(node).function
     if function is None:
         return False
@@ -205,7 +205,7 @@ def _accepts(file: RclpyFile, node: ast.expr) -> bool:
 
 
 def _only_reports(file: RclpyFile, server: ActionServer) -> bool:
-    """Tell whether an execute callback waits in a loop, and no other code gets its goal handle."""
+    """Return whether an execute callback waits in a loop, with no other user of its goal handle."""
     function = server.callback.function if server.callback else None
     if function is None or not function.args.args or not _waits(file, server):
         return False
@@ -249,7 +249,7 @@ def _execution(file: RclpyFile, server: ActionServer) -> list[FunctionNode | ast
 
 
 def _gives_way(file: RclpyFile, function: FunctionNode | ast.Lambda) -> bool:
-    """Tell whether the executor may run other callbacks before a callback is done."""
+    """Return whether the executor may run other callbacks before a callback is done."""
     return isinstance(function, ast.AsyncFunctionDef) and any(
         file.module.below(function, ast.Await, ast.AsyncFor, ast.AsyncWith)
     )

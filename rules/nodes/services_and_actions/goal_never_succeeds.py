@@ -255,7 +255,7 @@ def _executed_after(file: RclpyFile, statement: ast.stmt) -> Iterator[ast.stmt]:
 
 
 def _ends_in(file: RclpyFile, body: list[ast.stmt]) -> bool:
-    """Tell whether statements, or functions of the file that they call, may end a goal."""
+    """Return whether statements, or functions of the file that they call, may end a goal."""
     for statement in body:
         for node in ast.walk(statement):
             if isinstance(node, ast.Attribute) and node.attr in {*_ENDS, "succeed"}:
@@ -285,7 +285,7 @@ def _execute_callback(file: RclpyFile, server: ActionServer) -> FunctionNode | N
 
 
 def _hands_on_the_goal(callback: Callback | None) -> bool:
-    """Tell whether a lambda only passes the goal handle to a function."""
+    """Return whether a lambda only passes the goal handle to a function."""
     match callback.function if callback else None:
         case ast.Lambda(
             args=ast.arguments(args=[ast.arg(arg=handle)]),
@@ -296,7 +296,7 @@ def _hands_on_the_goal(callback: Callback | None) -> bool:
 
 
 def _is_kept(file: RclpyFile, function: FunctionNode, name: str, depth: int = 0) -> bool:
-    """Tell whether a goal handle is only used in a function and its callees in the file."""
+    """Return whether a goal handle is only used in a function and its callees in the file."""
     for use in ast.walk(function):
         if not isinstance(use, ast.Name) or use.id != name:
             continue
@@ -312,7 +312,7 @@ def _is_kept(file: RclpyFile, function: FunctionNode, name: str, depth: int = 0)
 
 
 def _stays_open(file: RclpyFile, call: ast.Call, at: int, depth: int) -> bool:
-    """Tell whether a call of a function of the file does not end its goal."""
+    """Return whether a call of a function of the file does not end its goal."""
     callback = file.callback(call.func)
     function = callback.function
     if function is None or isinstance(function, ast.Lambda) or function.decorator_list:

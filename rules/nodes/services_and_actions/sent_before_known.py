@@ -200,14 +200,14 @@ class SentBeforeKnown(RclpyRule):
 
 
 def _is_made_here(file: RclpyFile, made: ast.AST, where: ast.AST) -> bool:
-    """Tell whether a constructor or the same function always creates the publisher."""
+    """Return whether a constructor or the same function always creates the publisher."""
     function = file.function_of(made)
     is_here = getattr(function, "name", "") == "__init__" or function is where
     return is_here and not conditions_on(file.module, made)
 
 
 def _is_repeated(file: RclpyFile, call: ast.Call) -> bool:
-    """Tell whether it is sent in a loop, here or around a call of the function."""
+    """Return whether it is sent in a loop, here or around a call of the function."""
     module = file.module
     function = module.enclosing_function(call)
     name = function.name if function is not None else ""

@@ -214,7 +214,7 @@ _MIN_RATE = 1.5
 
 
 def _is_of_thousand(file: RclpyFile, given: ast.expr) -> bool:
-    """Tell whether 1000 is divided by a value that is not of that magnitude."""
+    """Return whether 1000 is divided by a value that is not of that magnitude."""
     match given:
         case ast.BinOp(left=left, op=ast.Div(), right=right):
             divisor = file.evaluator.evaluate(right)
@@ -227,7 +227,7 @@ _THOUSAND = 1000
 
 
 def _is_in_seconds(file: RclpyFile, given: ast.expr) -> bool:
-    """Tell whether the file mentions anywhere that the value is in seconds."""
+    """Return whether the file mentions anywhere that the value is in seconds."""
     name = given.attr if isinstance(given, ast.Attribute) else getattr(given, "id", "")
     pattern = rf"\b{re.escape(name)}\b[^\n]*(?:(?<!per )\bsec|\}} ?s\b)"
     return bool(name) and re.search(pattern, file.module.source.text) is not None

@@ -191,7 +191,7 @@ class StepWithoutFraction(RclpyRule):
 
 
 def _needs_other_part(file: RclpyFile, node: ast.BinOp, part: str) -> bool:
-    """Tell whether a difference of one part is a time step, which needs both parts."""
+    """Return whether a difference of one part is a time step, which needs both parts."""
     if _has_other_part(file, node, part) or not _is_step(file, node):
         return False
     return part != "sec" or not _is_meant_whole(file, node)
@@ -254,7 +254,7 @@ def _is_step(file: RclpyFile, node: ast.expr) -> bool:
 
 
 def _is_meant_whole(file: RclpyFile, node: ast.BinOp) -> bool:
-    """Tell whether whole seconds are enough: only compared, or counted once per second."""
+    """Return whether whole seconds are enough: only compared, or counted once per second."""
     match file.module.parent(node):
         case ast.Assign(targets=[ast.Name() | ast.Attribute() as target]):
             tests = [file.module.parent(use) for use in _uses(file, target)]

@@ -245,7 +245,7 @@ class LatchedTopicVolatile(RclpyRule):
 
 
 def _is_late(package: Package, endpoint: Subscription, topic: str) -> bool:
-    """Tell whether the package publishes everything for a volatile subscription only once."""
+    """Return whether the package publishes everything for a volatile subscription only once."""
     endpoints = topics_of(package).get(topic)
     if endpoint.qos is None or endpoint.qos.durability != "VOLATILE" or endpoints is None:
         return False
@@ -258,12 +258,12 @@ def _is_late(package: Package, endpoint: Subscription, topic: str) -> bool:
 
 
 def _waits(file: RclpyFile, call: ast.Call) -> bool:
-    """Tell whether a program may run until its message is sent."""
+    """Return whether a program may run until its message is sent."""
     return file.module.in_tests or file.module.mentions(*_WAITING) or _is_repeated(file, call, 0)
 
 
 def _is_repeated(file: RclpyFile, node: ast.AST, depth: int) -> bool:
-    """Tell whether code is in a loop, or in a function that is called repeatedly."""
+    """Return whether code is in a loop, or in a function that is called repeatedly."""
     module = file.module
     function = file.function_of(node)
     if any(isinstance(parent, _LOOPS) for parent in module.parents(node)) or depth == _MAX_CALLS:

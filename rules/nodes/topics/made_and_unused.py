@@ -286,7 +286,7 @@ def _unregistered(
 
 
 def _is_callback(file: RclpyFile, method: FunctionNode) -> bool:
-    """Tell whether a method is one by its parameters, or by its result."""
+    """Return whether a method is one by its parameters, or by its result."""
     arguments = method.args
     names = tuple(argument.arg for argument in arguments.args[1:])
     if arguments.vararg or arguments.kwarg or arguments.kwonlyargs or arguments.defaults:
@@ -327,7 +327,7 @@ def _uncalled_setups(file: RclpyFile, class_: NodeClass) -> Iterator[tuple[str, 
 
 
 def _is_replaced(file: RclpyFile, call: ast.Call, name: str) -> bool:
-    """Tell whether a loop over topics stores all publishers only in the same attribute."""
+    """Return whether a loop over topics stores all publishers only in the same attribute."""
     loop = file.module.enclosing(call, ast.For)
     if loop is None or file.function_of(loop) is not file.function_of(call):
         return False

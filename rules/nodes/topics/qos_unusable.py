@@ -157,7 +157,7 @@ class QosUnusable(RclpyRule):
 
 
 def _lacks_depth(file: RclpyFile, call: ast.Call) -> bool:
-    """Tell whether a profile has neither a depth nor a history without one."""
+    """Return whether a profile has neither a depth nor a history without one."""
     words = {word.arg: word.value for word in call.keywords}
     if {"depth", None} & words.keys() or call.args:
         return False
@@ -199,5 +199,5 @@ def _problem_of_word(file: RclpyFile, word: ast.keyword) -> str:
 
 
 def _has_old_keyword(call: ast.Call) -> bool:
-    """Tell whether the depth has its ROS 1 name, which TY004 reports."""
+    """Return whether the depth has its ROS 1 name, which TY004 reports."""
     return any(word.arg == "queue_size" for word in call.keywords)

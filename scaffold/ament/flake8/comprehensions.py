@@ -166,7 +166,7 @@ def _is_minus_one(node: ast.expr | None) -> bool:
 
 
 def _copies(node: _Copy) -> bool:
-    """Tell whether a comprehension yields its unchanged items."""
+    """Return whether a comprehension yields its unchanged items."""
     if len(node.generators) != 1 or node.generators[0].ifs or node.generators[0].is_async:
         return False
     target = node.generators[0].target
@@ -180,7 +180,7 @@ def _copies(node: _Copy) -> bool:
 
 
 def _repeats(node: _Copy) -> bool:
-    """Tell whether a comprehension maps all keys to the same constant."""
+    """Return whether a comprehension maps all keys to the same constant."""
     if not isinstance(node, ast.DictComp) or len(node.generators) != 1:
         return False
     (generator,) = node.generators

@@ -109,7 +109,7 @@ def check(
 
 
 def _is_undefined(message: Message, diagnostics: Sequence[RuffDiagnostic]) -> bool:
-    """Tell whether ruff reports a name as well; in a quoted annotation, at another column."""
+    """Return whether ruff reports a name as well; in a quoted annotation, at another column."""
     name = f"`{message.message_args[0]}`"
     return any(
         item.code == "F821" and item.line == message.lineno and name in item.message
@@ -118,7 +118,7 @@ def _is_undefined(message: Message, diagnostics: Sequence[RuffDiagnostic]) -> bo
 
 
 def _is_of_3(text: PythonText, code: str, arguments: Sequence[object]) -> bool:
-    """Tell whether pyflakes only reports this from version 3 on.
+    """Return whether pyflakes only reports this from version 3 on.
 
     Such as annotations without a value, and definitions that replace assigned names.
     """
@@ -157,7 +157,7 @@ def _handler_lines(text: PythonText) -> dict[int, int]:
 
 
 def _is_made_when_run(text: PythonText, code: str, arguments: Sequence[object]) -> bool:
-    """Tell whether the module may have names that are not defined in its text."""
+    """Return whether the module may have names that are not defined in its text."""
     if code == "F821":
         # A configuration such as .cmake-format.py is run by its program, which defines names.
         is_given = not _GIVEN.get(text.name, frozenset()).isdisjoint(arguments)
@@ -166,7 +166,7 @@ def _is_made_when_run(text: PythonText, code: str, arguments: Sequence[object]) 
 
 
 def _executes_text(text: PythonText) -> bool:
-    """Tell whether ``exec(text)`` may define names; one with a dictionary defines them there."""
+    """Return whether ``exec(text)`` may define names; one with a dictionary defines them there."""
     return "exec" in text.text and any(
         isinstance(node.func, ast.Name) and node.func.id == "exec" and len(node.args) == 1
         for node in text.nodes(ast.Call)
@@ -174,7 +174,7 @@ def _executes_text(text: PythonText) -> bool:
 
 
 def _is_stub(text: PythonText) -> bool:
-    """Tell whether a file is only for type checkers: in ``stubs``, with ``...`` as function bodies.
+    """Return whether a file is only for type checkers: in ``stubs``, with ``...`` as bodies.
 
     Files for ``mypy_path`` or pyright are rarely imported, although not always ``.pyi``.
     """
@@ -190,7 +190,7 @@ def _is_stub(text: PythonText) -> bool:
 
 
 def _has_getattr(text: PythonText) -> bool:
-    """Tell whether the module has ``__getattr__`` (PEP 562)."""
+    """Return whether the module has ``__getattr__`` (PEP 562)."""
     return text.tree is not None and any(
         isinstance(node, ast.FunctionDef) and node.name == "__getattr__" for node in text.tree.body
     )

@@ -16,7 +16,7 @@ _ALL = ("",)
 
 
 def _skips_file(text: PythonText) -> bool:
-    """Tell whether a comment makes flake8 skip the whole file."""
+    """Return whether a comment makes flake8 skip the whole file."""
     lowered = text.text.lower()
     if "flake8" not in lowered:
         return False
@@ -66,7 +66,7 @@ class _Silenced:
         }
 
     def covers(self, finding: Finding) -> bool:
-        """Tell whether a comment suppresses a finding."""
+        """Return whether a comment suppresses a finding."""
         if finding.code.startswith("Q") and finding.line in self._quotes:
             return True
         line = finding.line
@@ -75,7 +75,7 @@ class _Silenced:
         return finding.code.startswith(self._codes[line])
 
     def covers_by_plugin(self, finding: Finding) -> bool:
-        """Tell whether a comment suppresses a finding of the plugins for quotes and imports."""
+        """Return whether a comment suppresses a finding of the plugins for quotes and imports."""
         if not finding.code.startswith("I"):
             return finding.code.startswith("Q") and finding.line in self._quotes
         matched = re.search(_OF_IMPORTS, self._text.lines[finding.line - 1], re.IGNORECASE)

@@ -86,11 +86,11 @@ class Options(NamedTuple):
     ignore_self_only_init: bool = False
 
     def reports(self, code: str) -> bool:
-        """Tell whether a code is reported."""
+        """Return whether a code is reported."""
         return _reports(self.select, self.extend_select, self.ignore, self.extend_ignore, code)
 
     def reports_any(self, codes: Sequence[str]) -> bool:
-        """Tell whether any of some codes is reported."""
+        """Return whether any of some codes is reported."""
         return any(map(self.reports, codes))
 
     def for_file(self, path: str, directory: str) -> Options:
@@ -126,7 +126,7 @@ def normal(path: str, directory: str) -> str:
 
 
 def matches(path: str, patterns: Sequence[str]) -> bool:
-    """Tell whether an absolute path, or its name, matches one of some patterns."""
+    """Return whether an absolute path, or its name, matches one of some patterns."""
     name = path.rpartition("/")[2]
     return any(fnmatch(name, pattern) or fnmatch(path, pattern) for pattern in patterns)
 

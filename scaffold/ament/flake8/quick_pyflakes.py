@@ -132,7 +132,7 @@ class QuickChecker(Checker):
         return handler
 
     def differentForks(self, lnode: ast.AST, rnode: ast.AST) -> bool:  # noqa: N802
-        """Tell whether only one of two nodes is executed."""
+        """Return whether only one of two nodes is executed."""
         ancestor = self.getCommonAncestor(lnode, rnode, self.root)
         if isinstance(ancestor, ast.Match) and not self._splits_match:
             return False

@@ -26,7 +26,7 @@ Places = set[tuple[int, str]]
 
 
 def is_needed(settings: Settings) -> bool:
-    """Tell whether pydocstyle has to run."""
+    """Return whether pydocstyle has to run."""
     options = settings.flake8
     if settings.linters & PEP257 and not settings.pep257 <= codes.AMENT:
         return True

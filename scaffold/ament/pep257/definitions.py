@@ -178,7 +178,7 @@ def definitions(text: PythonText) -> Iterator[Definition]:
 
 
 def _is_misread(text: PythonText, node: _Definition) -> bool:
-    """Tell whether pydocstyle takes an earlier colon as the end of the header.
+    """Return whether pydocstyle takes an earlier colon as the end of the header.
 
     It does not support ``def f[T](x: T)`` or ``-> a[b:c]`` and stops at the first colon.
     """

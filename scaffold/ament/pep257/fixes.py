@@ -60,7 +60,7 @@ def _place(definition: Definition, offset: int) -> tuple[int, int]:
 
 
 def _is_too_long(definition: Definition, splices: tuple[Splice, ...]) -> bool:
-    """Tell whether the edits would make a line longer than the linters allow."""
+    """Return whether the edits would make a line longer than the linters allow."""
     literal, indent = definition.docstring, definition.indent
     parts: list[str] = []
     at = 0
@@ -118,7 +118,7 @@ def _text(definition: Definition) -> tuple[int, int]:
 
 
 def _touches_quotes(definition: Definition) -> bool:
-    """Tell whether the text would merge with quotes next to it."""
+    """Return whether the text would merge with quotes next to it."""
     start, end = _text(definition)
     literal = definition.docstring
     return '"' in (literal[start], literal[end - 1]) or "'" in (literal[start], literal[end - 1])

@@ -47,7 +47,7 @@ def splices(code: str, definition: Definition) -> Iterator[Splice]:
 
 
 def _is_numpy_afterwards(definition: Definition) -> bool:
-    """Tell whether no Google style is left once all names are alone above dashes.
+    """Return whether no Google style is left once all names are alone above dashes.
 
     Sections that only Google has keep their colons, and descriptions below names stay indented:
     dashes next to those would mix two conventions, which no tool supports.
@@ -58,7 +58,7 @@ def _is_numpy_afterwards(definition: Definition) -> bool:
 
 
 def _is_indented(section: Section) -> bool:
-    """Tell whether the text below a name is indented more than the name."""
+    """Return whether the text below a name is indented more than the name."""
     rows = [row for row in section.after if row.strip() and set(row.strip()) != {"-"}]
     return bool(rows) and len(leading_space(rows[0])) > len(leading_space(section.line))
 

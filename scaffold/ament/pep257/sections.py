@@ -128,7 +128,7 @@ def _sections(lines: Sequence[str], names: Names) -> list[Section]:
 
 
 def _is_section(line: str, before: str) -> bool:
-    """Tell whether a line is the name of a section, not just text."""
+    """Return whether a line is the name of a section, not just text."""
     name = _leading_words(line.strip()) or ""
     # Strips all characters that occur in the name, as pydocstyle does.
     suffix = line.strip().lstrip(name.strip()).strip()

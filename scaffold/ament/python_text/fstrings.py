@@ -33,7 +33,7 @@ def open_up(tokens: list[TokenInfo]) -> list[TokenInfo]:
 
 
 def _is_f_string(token: TokenInfo) -> bool:
-    """Tell whether a string is an f-string that the tokenizer did not split."""
+    """Return whether a string is an f-string that the tokenizer did not split."""
     return "f" in _prefix(token.string).lower()
 
 

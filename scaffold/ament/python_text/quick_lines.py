@@ -129,7 +129,7 @@ def _quoted(literal: str) -> str:
 
 
 def _is_balanced(value: str) -> bool:
-    """Tell whether a colon after a value starts its format, and is not inside of it."""
+    """Return whether a colon after a value starts its format, and is not inside of it."""
     return (
         value.count("(") == value.count(")")
         and value.count("[") == value.count("]")

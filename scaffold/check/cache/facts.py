@@ -44,7 +44,7 @@ class EarlierFacts:
             self._homes[directory].assume_facts(_Recall(self, directory))
 
     def hold(self, wanted: Iterable[FactId]) -> bool:
-        """Tell whether facts still have their values.
+        """Return whether facts still have their values.
 
         Those of edited files are computed again.
         """

@@ -177,7 +177,7 @@ class ResultCache:
         return True
 
     def _is_same(self, last: CachedRun, disk: Disk) -> bool:
-        """Tell whether the stored run is complete, including accesses for the report."""
+        """Return whether the stored run is complete, including accesses for the report."""
         if len(self._records) < len(self._targets) or disk.seen != last.outside:
             return False
         return all(
@@ -202,7 +202,7 @@ def _encode_findings(result: Result, encode: _Encode) -> bytes:
 def _is_unaffected(
     package: Package, verdict: tuple[Any, ...] | None, edited: frozenset[str]
 ) -> bool:
-    """Tell whether no finding in a package depends on the edited files.
+    """Return whether no finding in a package depends on the edited files.
 
     Filters of its findings may depend on the manifests of other packages.
     """
@@ -216,7 +216,7 @@ def _is_unaffected(
 
 
 def _configures(package: Package, verdict: tuple[Any, ...], edited: frozenset[str]) -> bool:
-    """Tell whether an edited file is or was a style configuration."""
+    """Return whether an edited file is or was a style configuration."""
     paths, *_, configuring = verdict
     if any(paths[at] in edited for at in configuring):
         return True

@@ -68,15 +68,15 @@ class CachedRun:
         self._changed: dict[int, list[Question] | None] = {}
 
     def is_current(self) -> bool:
-        """Tell whether nothing has changed since."""
+        """Return whether nothing has changed since."""
         return self.is_same_outside() and all(map(self.is_same, range(len(self.trees))))
 
     def is_same_outside(self) -> bool:
-        """Tell whether nothing has changed outside of the packages; the disk is read once."""
+        """Return whether nothing has changed outside of the packages; the disk is read once."""
         return self._changed_questions(-1, self.outside) == []
 
     def is_same(self, at: int) -> bool:
-        """Tell whether nothing has changed in the package with an index; the disk is read once."""
+        """Return whether nothing has changed in the package with an index; reads the disk once."""
         return self.changed(at) == []
 
     def changed(self, at: int) -> list[Question] | None:

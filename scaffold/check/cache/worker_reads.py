@@ -41,7 +41,7 @@ class WorkerReads(NamedTuple):
 
     @property
     def tells_anything(self) -> bool:
-        """Tell whether there is anything to transfer."""
+        """Return whether there is anything to transfer."""
         looked = self.inside.seen or self.outside.seen or self.used
         return bool(looked or self.uses_all or self.uses_interfaces or not self.is_repeatable)
 

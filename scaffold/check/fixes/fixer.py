@@ -162,7 +162,7 @@ def apply(
 
 
 def _is_too_late(fix: Fix | None, overlay: Overlay) -> bool:
-    """Tell whether a file of a fix has been edited in too many rounds."""
+    """Return whether a file of a fix has been edited in too many rounds."""
     return fix is not None and any(
         overlay.rounds[change.path] >= MAX_ROUNDS_OF_FILE for change in fix.changes
     )
@@ -254,12 +254,12 @@ def _end(edit: Edit) -> int:
 
 
 def _go_together(package: Package, edit: Edit, other: Edit) -> bool:
-    """Tell whether two edits that touch each other are compatible."""
+    """Return whether two edits that touch each other are compatible."""
     return _are_neighbors(package, edit, other) or _are_dependencies(edit, other)
 
 
 def _are_neighbors(package: Package, edit: Edit, other: Edit) -> bool:
-    """Tell whether both remove adjacent whole lines."""
+    """Return whether both remove adjacent whole lines."""
     first, second = sorted((edit, other), key=_start)
     if edit.text or other.text or not first.start < first.end == second.start < second.end:
         return False
@@ -272,7 +272,7 @@ def _are_neighbors(package: Package, edit: Edit, other: Edit) -> bool:
 
 
 def _are_dependencies(edit: Edit, other: Edit) -> bool:
-    """Tell whether both insert a dependency on a separate line at one place."""
+    """Return whether both insert a dependency on a separate line at one place."""
     if edit.path != MANIFEST or not edit.start == edit.end == other.start == other.end:
         return False
     from scaffold.model.manifest.edit import inserted_dependency

@@ -129,7 +129,7 @@ def _may_end_in_comment(source: Source, row: int) -> bool:
 
 
 def _is_inside(pattern: str, source: Source, row: int) -> bool:
-    """Tell whether the end of a row is inside of a match of a pattern."""
+    """Return whether the end of a row is inside of a match of a pattern."""
     end = source.offset(row) + len("".join(source.lines[row - 1 : row]))
     return any(
         match.start() < end < match.end()
@@ -139,7 +139,7 @@ def _is_inside(pattern: str, source: Source, row: int) -> bool:
 
 
 def _is_plain_yaml(source: Source, row: int) -> bool:
-    """Tell whether a comment at the end of a row does not change the data."""
+    """Return whether a comment at the end of a row does not change the data."""
     import yaml
 
     end = source.offset(row) + len("".join(source.lines[row - 1 : row]))

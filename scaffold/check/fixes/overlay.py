@@ -101,7 +101,7 @@ class Overlay:
         return data
 
     def is_executable(self, path: str) -> bool:
-        """Tell whether the file has or will have an executable bit."""
+        """Return whether the file has or will have an executable bit."""
         return path in self.executable or self.base.is_executable(path)
 
     def real(self, path: str) -> str | None:

@@ -19,7 +19,7 @@ def reader_of(path: str) -> Callable[[str, str], None] | None:
 
 
 def breaks(path: str, before: str, after: str) -> bool:
-    """Tell whether a file parses before an edit but not after it."""
+    """Return whether a file parses before an edit but not after it."""
     read = reader_of(path)
     return read is not None and not _is_read(read, path, after) and _is_read(read, path, before)
 

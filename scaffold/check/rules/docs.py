@@ -155,7 +155,7 @@ def _rows(rows: Iterable[tuple[str, str, Severity, Safety | None, str]]) -> str:
 
 
 def has_fix(rule: type[Rule]) -> bool:
-    """Tell whether a rule can fix what it reports."""
+    """Return whether a rule can fix what it reports."""
     return rule.fix_safety() is not None
 
 

@@ -122,7 +122,7 @@ def loaded() -> dict[str, type[Rule]]:
 
 
 def is_built_in(rule: type[Rule]) -> bool:
-    """Tell whether a rule comes with this tool."""
+    """Return whether a rule comes with this tool."""
     file = sys.modules[rule.__module__].__file__ or ""
     return rule.__module__.startswith("scaffold.") or file.startswith(
         os.path.join(content.built_in(), "rules", "")

@@ -65,7 +65,7 @@ class TypeRule(FileRule):
 def is_any_wrong(
     rules: Sequence[TypeRule], package: Package, path: str, reported: Sequence[TyDiagnostic]
 ) -> bool:
-    """Tell whether any of some reports about a file leads to a finding, as far as known."""
+    """Return whether any of some reports about a file leads to a finding, as far as known."""
     try:
         with time_limit.limited():
             return any(any(rule.judge_all(package, path, reported)) for rule in rules)

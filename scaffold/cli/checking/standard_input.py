@@ -24,7 +24,7 @@ WORD = "-"
 
 
 def validate(options: argparse.Namespace) -> bool:
-    """Tell whether standard input is to be checked.
+    """Return whether standard input is to be checked.
 
     Raises:
         InputError: other flags conflict with it.

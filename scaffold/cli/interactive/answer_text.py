@@ -24,7 +24,7 @@ def shown(question: Question, default: object) -> str:
 
 
 def is_default(question: Question, value: object) -> bool:
-    """Tell whether an answer is the same as the default."""
+    """Return whether an answer is the same as the default."""
     usual = split(question, shown(question, question.default))
     return value in ("", [], question.default, usual)
 

@@ -78,5 +78,5 @@ def columns() -> int:
 
 
 def is_dumb() -> bool:
-    """Tell whether the terminal cannot move its cursor."""
+    """Return whether the terminal cannot move its cursor."""
     return os.environ.get("TERM", "").lower() in {"", "dumb", "unknown"}

@@ -177,7 +177,7 @@ class _Interview:
         return f"default: {usual}"
 
     def _is_invalid(self, name: str, default: Given) -> bool:
-        """Tell whether the name or email of the user in git is invalid in a package."""
+        """Return whether the name or email of the user in git is invalid in a package."""
         return name in self._base and self._error_in(self._base[name], default.value) is not None
 
     @property

@@ -317,7 +317,7 @@ def _refuse_differing(
 
 
 def _is_defect(session: Session, diagnostics: list[Diagnostic], added: Added) -> bool:
-    """Tell whether an edit or a template caused an error.
+    """Return whether an edit or a template caused an error.
 
     Findings in other files are ignored: some are checked only now that there is a program. So are
     findings about existing lines.

@@ -58,7 +58,7 @@ class Added(NamedTuple):
     """Whether the new files have a license header."""
 
     def is_expected(self, diagnostic: Diagnostic) -> bool:
-        """Tell whether a finding is caused by an edit left to the user."""
+        """Return whether a finding is caused by an edit left to the user."""
         if any(item.path == diagnostic.location.path for item in self.by_hand):
             return True
         in_part = diagnostic.location.path in self.new

@@ -90,7 +90,7 @@ def identify_text(data: bytes) -> str | None:
 
 
 def is_decided(package: Package) -> bool:
-    """Tell whether the manifest has a license other than a placeholder."""
+    """Return whether the manifest has a license other than a placeholder."""
     return not any(is_placeholder(element.text) for element in package.manifest.all("license"))
 
 
@@ -164,7 +164,7 @@ def _named(notice: str) -> str:
 
 
 def _may_hold(package: Package, name: str) -> bool:
-    """Tell whether a notice may be by the package's authors, not by those they copied from."""
+    """Return whether a notice may be by the package's authors, not by those they copied from."""
     if not name.lower().startswith(_OF_EXAMPLES):
         return True
     maintainers = package.manifest.all("maintainer")

@@ -63,7 +63,7 @@ def find(
 
 
 def _makes_library_node(package: Package, path: str) -> bool:
-    """Tell whether a file derives from or instantiates a node class of a library."""
+    """Return whether a file derives from or instantiates a node class of a library."""
     try:
         module = package.module(path)
     except ViewError:

@@ -102,7 +102,7 @@ def as_new(target: Target, old: Provenance, piece: Piece) -> dict[str, str] | No
 
 
 def is_noted(old: Provenance, piece: Piece) -> bool:
-    """Tell whether the record of a package has a piece."""
+    """Return whether the record of a package has a piece."""
     return _with_piece(old, piece) == old.answers
 
 
@@ -174,7 +174,7 @@ def _following(target: Target, given: Mapping[str, Given], old: Provenance) -> l
 
 
 def _is_as(package: Package, path: str, text: str | None) -> bool:
-    """Tell whether a generated file is unedited; ``None`` if it was not generated."""
+    """Return whether a generated file is unedited; ``None`` if it was not generated."""
     if text is None or not package.has(path):
         return text is None and not package.has(path)
     return package.tree.read(path) == text.encode()

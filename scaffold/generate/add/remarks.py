@@ -86,7 +86,7 @@ def _path(use: Use) -> str | None:
 
 
 def _has_rule(clash: Clash) -> bool:
-    """Tell whether the rule topic-type-differs reports a clash."""
+    """Return whether the rule topic-type-differs reports a clash."""
     is_fixed = clash.first.is_fixed and clash.other.is_fixed
     return is_fixed and clash.first.kind in {"topic", "service"}
 

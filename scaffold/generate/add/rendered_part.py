@@ -124,7 +124,7 @@ def make(target: Target, old: Provenance | None, wanted: Wanted, day: date | Non
 
 
 def _is_foreign(package: Package, old: Provenance | None, path: str, rendered: Rendered) -> bool:
-    """Tell whether a package has its own fixtures in the file for ours."""
+    """Return whether a package has its own fixtures in the file for ours."""
     if path not in rendered.files or not package.has(path):
         return False
     is_ours = old is not None and path in old.rendered

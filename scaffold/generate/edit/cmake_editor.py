@@ -24,7 +24,7 @@ _NAME = "${PROJECT_NAME}"
 
 
 def installs_program(lists: CMakeLists, path: str, package: str) -> bool:
-    """Tell whether a file is installed where ``ros2 run`` looks for programs."""
+    """Return whether a file is installed where ``ros2 run`` looks for programs."""
     return any(
         install.destination is not None
         and install.destination.rstrip("/") == f"lib/{package}"
@@ -34,7 +34,7 @@ def installs_program(lists: CMakeLists, path: str, package: str) -> bool:
 
 
 def runs_test(lists: CMakeLists, path: str) -> bool:
-    """Tell whether a pytest file is run, alone or with its directory."""
+    """Return whether a pytest file is run, alone or with its directory."""
     for command in lists.commands:
         if not (command.name.startswith("ament_add_") and command.name.endswith("pytest_test")):
             continue
@@ -173,7 +173,7 @@ def _installs(lists: CMakeLists, install: Install, path: str) -> bool:
 
 
 def _globs(lists: CMakeLists, argument: Argument, path: str) -> bool:
-    """Tell whether an argument is a variable filled by ``file(GLOB)`` with such files."""
+    """Return whether an argument is a variable filled by ``file(GLOB)`` with such files."""
     for command in lists.find("file"):
         values = command.values
         if values[:1] in (["GLOB"], ["GLOB_RECURSE"]) and argument.raw == f"${{{values[1]}}}":
@@ -183,7 +183,7 @@ def _globs(lists: CMakeLists, argument: Argument, path: str) -> bool:
 
 
 def _installs_directory(lists: CMakeLists, path: str) -> bool:
-    """Tell whether a directory is installed already, with any destination."""
+    """Return whether a directory is installed already, with any destination."""
     return any(
         item.path is not None and (path == item.path or path.startswith(f"{item.path}/"))
         for install in lists.installs
@@ -193,7 +193,7 @@ def _installs_directory(lists: CMakeLists, path: str) -> bool:
 
 
 def _installs_file(lists: CMakeLists, path: str) -> bool:
-    """Tell whether a file is installed: by name, by a list, or with a directory around it."""
+    """Return whether a file is installed: by name, by a list, or with a directory around it."""
     return any(
         _selects(install, path)
         if install.kind == "DIRECTORY" and item.path and path.startswith(f"{item.path}/")
@@ -205,7 +205,7 @@ def _installs_file(lists: CMakeLists, path: str) -> bool:
 
 
 def _selects(install: Install, path: str) -> bool:
-    """Tell whether the patterns of a directory let a file through; in doubt they do."""
+    """Return whether the patterns of a directory let a file through; in doubt they do."""
     if not install.command.has("FILES_MATCHING") or install.command.has("REGEX"):
         return True
     name = path.rpartition("/")[2]

@@ -177,7 +177,7 @@ def _insert_below(launch: LaunchFile, statement: ast.stmt, added: str | Block) -
 
 
 def _is_apart(source: Source, number: int) -> bool:
-    """Tell whether a blank line follows a line, by its number from 1."""
+    """Return whether a blank line follows a line, by its number from 1."""
     return number < len(source.lines) and not source.lines[number].strip()
 
 

@@ -37,7 +37,7 @@ def missing_entry(existing: bytes, text: str) -> str | None:
 
 
 def _checks(hook: dict[str, Any], files: str | None) -> bool:
-    """Tell whether a hook checks the package of some files, perhaps with others."""
+    """Return whether a hook checks the package of some files, perhaps with others."""
     # One of our own repository has no entry, as it has that of the repository.
     command, chosen = hook.get("entry", _CHECK), hook.get("files")
     if hook.get("id") not in _IDS or not isinstance(command, str):

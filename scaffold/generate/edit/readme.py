@@ -181,7 +181,7 @@ def _above_table(lines: Sequence[str]) -> Sequence[str]:
 
 
 def _contains(old: Iterable[str], new: Section) -> bool:
-    """Tell whether some lines contain all commands of a block, or all of its text."""
+    """Return whether some lines contain all commands of a block, or all of its text."""
     text = [line for line in new.lines if line.strip() and not _is_row(line)]
     wanted = [line for line in text if line.startswith("ros2 ")] or text
     return bool(wanted) and set(wanted) <= set(old)

@@ -49,7 +49,7 @@ def add_to_setup(
 
 
 def installs_package(setup: SetupPy, name: str) -> bool | None:
-    """Tell whether an import package is installed; ``None`` if unknown."""
+    """Return whether an import package is installed; ``None`` if unknown."""
     packages = setup.packages
     if isinstance(packages, FindPackages):
         if not isinstance(packages.include, tuple) or not isinstance(packages.exclude, tuple):
@@ -65,7 +65,7 @@ def installs_package(setup: SetupPy, name: str) -> bool | None:
 
 
 def _is_for(data: DataFile, path: str, share: str) -> bool:
-    """Tell whether an entry of data_files is for a directory."""
+    """Return whether an entry of data_files is for a directory."""
     return str(data.destination).rstrip("/") == share or any(
         str(source.pattern if isinstance(source, Glob) else source).startswith(f"{path}/")
         for source in data.sources
@@ -73,7 +73,7 @@ def _is_for(data: DataFile, path: str, share: str) -> bool:
 
 
 def _installs(data: DataFile, path: str) -> bool:
-    """Tell whether an entry of data_files installs a file; in doubt it does."""
+    """Return whether an entry of data_files installs a file; in doubt it does."""
     return not data.complete or any(
         source is UNKNOWN
         or (bool(matches(source, [path])) if isinstance(source, Glob) else source == path)

@@ -102,5 +102,5 @@ def _definitions(real: str) -> Definitions:
 
 
 def _has_interfaces(directory: str) -> bool:
-    """Tell whether a package may define interfaces, without reading its manifest."""
+    """Return whether a package may define interfaces, without reading its manifest."""
     return any(os.path.isdir(os.path.join(directory, kind)) for kind in KINDS)

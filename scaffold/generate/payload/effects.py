@@ -152,7 +152,7 @@ def _is_frame(value: ast.expr) -> bool:
 
 
 def _differs(value: ast.expr) -> bool:
-    """Tell whether a value is certainly not the default of its field; constants of types may be."""
+    """Return whether a value is certainly no default of its field; that of a constant may be."""
     return not isinstance(value, ast.Attribute) and any(
         bool(node.value) if isinstance(node, ast.Constant) else isinstance(node, ast.Name)
         for node in ast.walk(value)
@@ -160,7 +160,7 @@ def _differs(value: ast.expr) -> bool:
 
 
 def _is_literal(value: ast.expr) -> bool:
-    """Tell whether a value is a number, a text or a flag that is not the default of its field."""
+    """Return whether a value is a number, a text or a flag that is not the default of its field."""
     try:
         literal = ast.literal_eval(value)
     except ValueError:

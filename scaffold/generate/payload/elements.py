@@ -59,7 +59,7 @@ def shortened(name: str) -> str:
 
 
 def is_free(name: str) -> bool:
-    """Tell whether a local variable may have a name."""
+    """Return whether a local variable may have a name."""
     return name.isidentifier() and not iskeyword(name) and name not in _TAKEN
 
 

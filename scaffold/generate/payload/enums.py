@@ -31,7 +31,7 @@ def telling(options: Sequence[Constant], field: Field) -> Constant:
 
 
 def is_good(constant: Constant) -> bool:
-    """Tell whether a constant means success."""
+    """Return whether a constant means success."""
     return _GOOD.search(constant.name) is not None
 
 
@@ -87,6 +87,6 @@ def _by_name(section: Section, field: Field) -> list[Constant]:
 
 
 def _is_next_to(constant: Constant, field: Field, section: Section) -> bool:
-    """Tell whether no other field is between a constant and the field below it."""
+    """Return whether no other field is between a constant and the field below it."""
     at, line = constant.location.line, field.location.line
     return at < line and not any(at < other.location.line < line for other in section.fields)

@@ -60,7 +60,7 @@ def of_message(text: str, interfaces: Definitions) -> Payload:
 
 
 def is_short(check: str) -> bool:
-    """Tell whether the lines of a check fit into a test."""
+    """Return whether the lines of a check fit into a test."""
     return all(len(line) <= MAX_CHECK for line in check.splitlines())
 
 
@@ -81,7 +81,7 @@ def _fill(types: Types) -> tuple[list[str], Walk]:
 
 
 def changes(lines: Iterable[str]) -> bool:
-    """Tell whether the lines give a different message each time."""
+    """Return whether the lines give a different message each time."""
     return any(re.search(r"self\.(count|get_clock)|uuid4", line) for line in lines)
 
 

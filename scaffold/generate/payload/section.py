@@ -45,7 +45,7 @@ def answered(types: Types, section: Section, given: Sequence[Section]) -> Sectio
 
 
 def _is_failure(section: Section, field: Field) -> bool:
-    """Tell whether a field is an error code without a constant for success, which is 0."""
+    """Return whether a field is an error code without a constant for success, which is 0."""
     if field.type.name not in INTEGER_RANGES or not _ERROR.search(field.name):
         return False
     return not any(enums.is_good(item) for item in enums.constants_of(section, field))

@@ -52,7 +52,7 @@ class Walk:
         return next((item for item in result if item != "map"), result[0] if result else FRAME)
 
     def _is_root(self, target: str) -> bool:
-        """Tell whether a target is the root or a part of it, and not a local name."""
+        """Return whether a target is the root or a part of it, and not a local name."""
         return target.partition(".")[0] == self._root
 
     @property
@@ -326,7 +326,7 @@ class Walk:
 
 
 def _fits(known_recipe: Recipe, section: Section) -> bool:
-    """Tell whether a message has the fields of a recipe; on another distribution it may not."""
+    """Return whether a message has the fields of a recipe; on another distribution it may not."""
     fields = {field.name for field in section.fields}
     return {*re.findall(r"\bmsg\.([a-z]\w*)", known_recipe.code)} <= fields
 

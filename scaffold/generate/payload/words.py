@@ -247,5 +247,5 @@ _TRUE = re.compile(
 
 
 def is_true(name: str) -> bool:
-    """Tell whether a flag with this name is usually true."""
+    """Return whether a flag with this name is usually true."""
     return _TRUE.match(name) is not None

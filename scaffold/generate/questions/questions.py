@@ -259,7 +259,7 @@ def resolve(
 
 
 def is_derived(default: object) -> bool:
-    """Tell whether a default depends on other answers."""
+    """Return whether a default depends on other answers."""
     return isinstance(default, str) and "{" in default
 
 

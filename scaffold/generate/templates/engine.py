@@ -37,7 +37,7 @@ class Engine(Protocol):
     """A renderer, in this process or in another one."""
 
     def has(self, name: str) -> bool:
-        """Tell whether there is a file, such as ``launch/_readme.md.jinja``."""
+        """Return whether there is a file, such as ``launch/_readme.md.jinja``."""
 
     def text(self, source: str, context: Mapping[str, Any]) -> str:
         """Render a short text; raises ContentError."""
@@ -91,7 +91,7 @@ class LocalEngine:
         return self._text_environment.overlay(finalize=filters.xml, bytecode_cache=kept)
 
     def has(self, name: str) -> bool:
-        """Tell whether there is a file, such as ``launch/_readme.md.jinja``."""
+        """Return whether there is a file, such as ``launch/_readme.md.jinja``."""
         try:
             self._text_environment.get_template(name)
         except TemplateNotFound:

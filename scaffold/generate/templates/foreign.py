@@ -50,7 +50,7 @@ class ForeignEngine:
         self._process: subprocess.Popen[bytes] | None = None
 
     def has(self, name: str) -> bool:
-        """Tell whether there is a file, such as ``launch/_readme.md.jinja``."""
+        """Return whether there is a file, such as ``launch/_readme.md.jinja``."""
         return bool(self._request("has", name))
 
     def text(self, source: str, context: Mapping[str, Any]) -> str:

@@ -51,7 +51,7 @@ class Renderer:
         self._engine = _engine(roots, directories, is_tutorial=is_tutorial)
 
     def has(self, name: str) -> bool:
-        """Tell whether there is a file, such as ``launch/_readme.md.jinja``."""
+        """Return whether there is a file, such as ``launch/_readme.md.jinja``."""
         return self._engine.has(name)
 
     def text(self, source: str, context: Mapping[str, Any]) -> str:
@@ -156,7 +156,7 @@ def _file(layer: Template, source: str) -> str:
 
 
 def are_built_in(roots: Sequence[str]) -> bool:
-    """Tell whether all templates are built in."""
+    """Return whether all templates are built in."""
     return list(roots) == content.roots("templates")
 
 

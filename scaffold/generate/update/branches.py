@@ -50,7 +50,7 @@ def _sides(parts: Parts) -> Iterator[tuple[Parts, Parts]]:
 
 
 def _is_merge_of(old: Provenance, ours: Mapping[str, str], theirs: Mapping[str, str]) -> bool:
-    """Tell whether the merged record is that of two branches with these files."""
+    """Return whether the merged record is that of two branches with these files."""
     return all(
         {hash_of(side.get(path, "").encode()) for side in (ours, theirs)} == set(hashes)
         for path, hashes in old.merged.items()

@@ -337,7 +337,7 @@ def _depth(value: object) -> int:
 
 
 def _are_answers(answers: object) -> bool:
-    """Tell whether answers have the right structure; each is validated later."""
+    """Return whether answers have the right structure; each is validated later."""
     if not isinstance(answers, dict) or not isinstance(answers.get("package"), str):
         return False
     if _depth(answers) > _MAX_DEPTH:

@@ -79,7 +79,7 @@ class Scope:
         return Known(released.partition(".")[0], is_asked=True)
 
     def is_set(self, name: str) -> bool:
-        """Tell whether the file sets a variable to a tracked value."""
+        """Return whether the file sets a variable to a tracked value."""
         return name in self._known
 
     def expand(self, text: str) -> Known:

@@ -167,7 +167,7 @@ class _Walk:
 
     @property
     def _is_sure(self) -> bool:
-        """Tell whether a command is in a branch that certainly runs on the target."""
+        """Return whether a command is in a branch that certainly runs on the target."""
         around: list[_Block] = []
         for block in reversed(self._blocks):
             if block.name == "function":
@@ -236,7 +236,7 @@ def _as_word(argument: Argument) -> Word:
 
 
 def _ends_file(command: Command) -> bool:
-    """Tell whether no command of the file runs after another one."""
+    """Return whether no command of the file runs after another one."""
     return command.name == "return" or (
         command.name == "message" and command.values[:1] == ["FATAL_ERROR"]
     )

@@ -173,7 +173,7 @@ class CMakeLists:
     # -- testing
 
     def guarded_by_testing(self, command: Command) -> bool:
-        """Tell whether a command only runs when tests are built: ``if(BUILD_TESTING)``."""
+        """Return whether a command only runs when tests are built: ``if(BUILD_TESTING)``."""
         if any(left.index < command.index for left in self._leaves_without_testing):
             return True
         if command.depth > _MAX_DEPTH:
@@ -198,7 +198,7 @@ class CMakeLists:
             at = at.parent
 
     def is_for_ros1(self, command: Command) -> bool:
-        """Tell whether a command runs with ROS 1 only: ``if($ENV{ROS_VERSION} EQUAL 1)``."""
+        """Return whether a command runs with ROS 1 only: ``if($ENV{ROS_VERSION} EQUAL 1)``."""
         at = command if command.depth <= _MAX_DEPTH else None
         while at is not None and at.parent is not None and at.branch is not None:
             if at.parent.name == "if":
@@ -209,7 +209,7 @@ class CMakeLists:
         return False
 
     def is_off(self, command: Command) -> bool:
-        """Tell whether a command only runs if an option is switched on."""
+        """Return whether a command only runs if an option is switched on."""
         off = self._options_off
         at = command if off and command.depth <= _MAX_DEPTH else None
         while at is not None and at.parent is not None and at.branch is not None:
@@ -256,7 +256,7 @@ class CMakeLists:
         return bool(self.find("ament_auto_find_test_dependencies"))
 
     def finds(self, name: str) -> bool:
-        """Tell whether a package is found by name."""
+        """Return whether a package is found by name."""
         return any(package.name == name for package in self.found_packages)
 
     def _found_packages(self) -> Iterator[FoundPackage]:
@@ -294,7 +294,7 @@ class CMakeLists:
 
 
 def _asks_for_testing(condition: Command) -> bool | None:
-    """Tell whether a condition requires (true) or excludes (false) tests; else ``None``."""
+    """Return whether a condition requires (true) or excludes (false) tests; else ``None``."""
     values = condition.values
     for number, value in enumerate(values):
         if value in {"BUILD_TESTING", "${BUILD_TESTING}"}:

@@ -210,7 +210,7 @@ class Command:
         return self.sections({name, *keywords}).get(name, [])
 
     def has(self, keyword: str) -> bool:
-        """Tell whether a keyword is among the arguments."""
+        """Return whether a keyword is among the arguments."""
         return any(argument.value == keyword for argument in self.arguments)
 
     def _ancestors(self) -> Iterator[Command]:
@@ -358,7 +358,7 @@ class _Parser:
         self.at = end
 
     def _command_follows(self, number: int) -> bool:
-        """Tell whether a known command starts at a token, the first of its line."""
+        """Return whether a known command starts at a token, the first of its line."""
         kinds, starts = self.kinds, self.tokens.starts
         number = self._behind_space(number)
         if number >= len(kinds) or kinds[number] != "identifier":

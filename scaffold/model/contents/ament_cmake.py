@@ -41,7 +41,7 @@ class Program(NamedTuple):
 
 
 def uses_ament(package: Package) -> bool:
-    """Tell whether a CMakeLists.txt belongs to an ament_cmake package."""
+    """Return whether a CMakeLists.txt belongs to an ament_cmake package."""
     cmake = package.cmake
     return any(
         found_package.name.startswith("ament_cmake") for found_package in cmake.found_packages
@@ -49,7 +49,7 @@ def uses_ament(package: Package) -> bool:
 
 
 def is_built_for_ros1(package: Package) -> bool:
-    """Tell whether CMake builds a package with catkin alone, or a bridge to ROS 1."""
+    """Return whether CMake builds a package with catkin alone, or a bridge to ROS 1."""
     try:
         is_bridge = bool(package.cmake.find("find_ros1_package"))
         return is_bridge or (package.cmake.finds("catkin") and not uses_ament(package))
@@ -58,7 +58,7 @@ def is_built_for_ros1(package: Package) -> bool:
 
 
 def has_unknown_commands(package: Package) -> bool:
-    """Tell whether commands of other packages may do anything, such as call ament_package."""
+    """Return whether commands of other packages may do anything, such as call ament_package."""
     cmake = package.cmake
     own = {command.arguments[0].value.lower() for command in _definitions(cmake)}
     if cmake.find("include", "add_subdirectory"):
@@ -132,7 +132,7 @@ def _module_directories(lists: CMakeLists) -> Iterator[str]:
 
 
 def is_only_imported(package: Package, path: str) -> bool:
-    """Tell whether an installed Python file only has definitions for import."""
+    """Return whether an installed Python file only has definitions for import."""
     try:
         module = package.module(path)
     except ViewError:
@@ -179,7 +179,7 @@ def programs(package: Package) -> list[Program]:
 
 
 def installs_directory(package: Package, directory: str) -> bool | None:
-    """Tell whether a directory, or one around it, is installed; ``None`` if unknown."""
+    """Return whether a directory, or one around it, is installed; ``None`` if unknown."""
     unknown = False
     for install in package.cmake.installs:
         for item in install.items:
@@ -198,7 +198,7 @@ def _includes(item: InstallItem, directory: str) -> bool:
 
 
 def is_made_by_build(package: Package, path: str) -> bool:
-    """Tell whether the build itself may create a file in the source directory."""
+    """Return whether the build itself may create a file in the source directory."""
     name = path.rpartition("/")[2]
     makers = package.cmake.find(*_MAKERS)
     if any(name in argument.value for maker in makers for argument in maker.arguments):
@@ -209,7 +209,7 @@ def is_made_by_build(package: Package, path: str) -> bool:
 
 
 def runs_if_exists(command: Command) -> bool:
-    """Tell whether a command runs only if a file exists: ``if(EXISTS ...)``."""
+    """Return whether a command runs only if a file exists: ``if(EXISTS ...)``."""
     at = command
     while at.parent is not None and at.branch is not None:
         asked = [at.branch, at.parent] if at.branch.name == "else" else [at.branch]
@@ -220,7 +220,7 @@ def runs_if_exists(command: Command) -> bool:
 
 
 def is_used_by_build(package: Package, path: str) -> bool:
-    """Tell whether a file is installed, alone or in a directory of programs, or passed on.
+    """Return whether a file is installed, alone or in a directory of programs, or passed on.
 
     Also when an entry point starts it, when it lies deep in a directory of data, and when a comment
     says that it is excluded. A package without programs has scripts as data that Python is given.
@@ -253,14 +253,14 @@ _TESTING = re.compile(r"_test$|^add_test$|^message$")
 
 
 def _is_entry_point(package: Package, path: str) -> bool:
-    """Tell whether the setup.cfg of a CMake package has an entry point in a file."""
+    """Return whether the setup.cfg of a CMake package has an entry point in a file."""
     entry = path.removesuffix(".py").replace("/", ".") + ":"
     files = [*package.glob("setup.cfg"), *package.glob("*/setup.cfg")]
     return any(entry in _text(package, file) for file in files)
 
 
 def runs_with_python(package: Package, path: str) -> bool:
-    """Tell whether a CMake file runs a script with the Python found by CMake."""
+    """Return whether a CMake file runs a script with the Python found by CMake."""
     name = path.rpartition("/")[2]
     return any(
         name in line and "python" in line.partition(name)[0].lower()

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 def is_installed_to_build(package: Package, keys: Collection[str]) -> bool:
-    """Tell whether building a package and what it uses from source installs one of some keys.
+    """Return whether building a package and what it uses from source installs one of some keys.
 
     rosdep installs the dependencies of all kinds, and colcon builds the used packages of the
     workspace on the same machine; their test dependencies do not count.

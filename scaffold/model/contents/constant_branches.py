@@ -26,7 +26,7 @@ _COMPARISONS: Mapping[type[ast.cmpop], Callable[[object, object], object]] = {
 
 @fact
 def is_in_disabled_branch(package: Package, path: str, line: int) -> bool:
-    """Tell whether a line is in a branch whose condition is false, as long as nobody edits it.
+    """Return whether a line is in a branch whose condition is false, as long as nobody edits it.
 
     The condition asks for a constant of the file, or for an attribute that only ``__init__`` sets,
     to a constant.
@@ -96,7 +96,7 @@ def _only_value(module: PythonModule, attribute: ast.Attribute) -> ast.expr | No
 
 
 def _is_set_elsewhere(package: Package, module: PythonModule, node: ast.expr, name: str) -> bool:
-    """Tell whether another file may set a variable or an attribute, or this one by its name.
+    """Return whether another file may set a variable or an attribute, or this one by its name.
 
     There ``self`` is another object, unless the file knows the class.
     """

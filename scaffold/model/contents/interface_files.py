@@ -37,7 +37,7 @@ def generations(package: Package) -> list[Generation]:
 
 
 def may_generate_more(package: Package) -> bool:
-    """Tell whether other CMake files or commands may generate interfaces, too."""
+    """Return whether other CMake files or commands may generate interfaces, too."""
     return has_unknown_commands(package) or any(
         "generate" in command.name and "interfaces" in command.name
         for command in package.cmake.commands
@@ -46,7 +46,7 @@ def may_generate_more(package: Package) -> bool:
 
 
 def is_interface_package(package: Package) -> bool:
-    """Tell whether a package installs interfaces; raises ViewError."""
+    """Return whether a package installs interfaces; raises ViewError."""
     return any(
         not generation.for_tests and "SKIP_INSTALL" not in generation.options
         for generation in generations(package)
@@ -65,7 +65,7 @@ def ungenerated_candidates(package: Package) -> list[str]:
 
 
 def is_commented_out(package: Package, path: str) -> bool:
-    """Tell whether a comment of CMakeLists.txt mentions a file, which is omitted on purpose."""
+    """Return whether a comment of CMakeLists.txt mentions a file, which is omitted on purpose."""
     cmake = package.cmake
     name = path.rpartition("/")[2]
     return any(name in cmake.text(token) for token in cmake.comments)

@@ -36,7 +36,7 @@ class Exports(NamedTuple):
     classes: tuple[str, ...]
 
     def defines(self, name: str) -> bool | None:
-        """Tell whether an attribute of this name exists; ``None`` if unknown."""
+        """Return whether an attribute of this name exists; ``None`` if unknown."""
         if name in self.names:
             return True
         return None if self.is_open or name in self.doubtful else False

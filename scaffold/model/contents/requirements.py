@@ -70,7 +70,7 @@ class Requirement(NamedTuple):
     """Whether only files in the share directory import it, which no command starts."""
 
     def is_stronger_than(self, other: Requirement) -> bool:
-        """Tell whether it is more important: programs before tests, tests before data."""
+        """Return whether it is more important: programs before tests, tests before data."""
         return (self.in_data, self.for_tests) < (other.in_data, other.for_tests)
 
 
@@ -83,7 +83,7 @@ class Declared(NamedTuple):
     """Packages that are neither released nor in the workspace; what they bring is not known."""
 
     def may_bring(self, package: Package, name: str) -> bool:
-        """Tell whether an unknown dependency may bring a package from outside of the workspace.
+        """Return whether an unknown dependency may bring a package from outside of the workspace.
 
         Their names are related: ``arm_bringup`` may bring ``arm_msgs``, and ``arm_msgs`` may bring
         ``sensor_msgs``.
@@ -93,7 +93,7 @@ class Declared(NamedTuple):
         )
 
     def may_use(self, package: Package, name: str) -> bool:
-        """Tell whether an unknown dependency may bring a library or node that it uses itself.
+        """Return whether an unknown dependency may bring a library or node that it uses itself.
 
         ``arm_driver`` may use any one, which ``arm_msgs`` does not.
         """
@@ -169,14 +169,14 @@ def _declared(package: Package, for_tests: bool) -> Declared:  # noqa: FBT001  a
 
 
 def _is_unknown(package: Package, name: str) -> bool:
-    """Tell whether a dependency is a package that is neither released nor in the workspace."""
+    """Return whether a dependency is a package that is neither released nor in the workspace."""
     is_known = is_released(name) or name in ROS_PACKAGES or name in ROS1_PACKAGES
     is_module = name in sys.stdlib_module_names or keys_of_module(name) or module_of_key(name)
     return not (is_known or is_module) and package.workspace.get(name) is None
 
 
 def _are_related(dependency: str, name: str) -> bool:
-    """Tell whether two packages are of one family, or both contain interfaces."""
+    """Return whether two packages are of one family, or both contain interfaces."""
     first = dependency.partition("_")[0]
     if first == name.partition("_")[0] and first not in _COMMON_WORDS:
         return True
@@ -184,7 +184,7 @@ def _are_related(dependency: str, name: str) -> bool:
 
 
 def _may_use(dependency: str, name: str) -> bool:
-    """Tell whether a package may use a library or a node of ROS, as its name is of no other kind.
+    """Return whether a package may use a library or a node of ROS, as its name is of no other kind.
 
     Programs themselves declare their client library, and the tools of builds and tests.
     """
@@ -196,14 +196,14 @@ def _may_use(dependency: str, name: str) -> bool:
 
 
 def _has_messages(name: str) -> bool:
-    """Tell whether a package has interfaces alone; ``tf2_geometry_msgs`` converts those of ROS."""
+    """Return whether a package has only interfaces; ``tf2_geometry_msgs`` converts those of ROS."""
     needed = dependencies(name)
     is_generated = not needed or any(item.startswith("rosidl_") for item in needed)
     return name.endswith(_OF_MESSAGES) and is_generated
 
 
 def is_shipped(package: Package, path: str) -> bool:
-    """Tell whether a file is installed or is a test; helper scripts and documentation are not.
+    """Return whether a file is installed or is a test; helper scripts and documentation are not.
 
     A module of a Python package, a launch file, a test, or a script in a build file.
     """
@@ -233,13 +233,13 @@ def _mentions(*paths: str) -> re.Pattern[str]:
 
 
 def _is_of_ros1(imports: Iterable[Import]) -> bool:
-    """Tell whether a file is a node of ROS 1, which does not start in ROS 2 anyway."""
+    """Return whether a file is a node of ROS 1, which does not start in ROS 2 anyway."""
     roots = {item.root for item in imports if not item.guarded and not item.conditional}
     return "rclpy" not in roots and not roots.isdisjoint(_ROS1)
 
 
 def _is_data(package: Package, path: str) -> bool:
-    """Tell whether a script is installed with a data directory."""
+    """Return whether a script is installed with a data directory."""
     directory, _, name = path.rpartition("/")
     if path.endswith("launch.py") or is_in_tests(path) or package.has(f"{directory}/__init__.py"):
         return False
@@ -256,7 +256,7 @@ def _is_data(package: Package, path: str) -> bool:
 
 
 def _is_collected(name: str) -> bool:
-    """Tell whether pytest or launch_testing collects a file."""
+    """Return whether pytest or launch_testing collects a file."""
     return is_collected(name) or name.endswith(".test.py") or "conftest" in name
 
 
@@ -276,7 +276,7 @@ def _is_imported_by_tests(package: Package, name: str) -> bool:
 
 
 def _is_for_tests(package: Package, path: str) -> bool:
-    """Tell whether only tests run a file; ``tf_test.py`` may be a program."""
+    """Return whether only tests run a file; ``tf_test.py`` may be a program."""
     directory, _, name = path.rpartition("/")
     if name.endswith(".launch.py") and not is_in_tests(f"{directory}/"):
         return False  # such as launch/test_arm.launch.py, started by users
@@ -297,7 +297,7 @@ def _programs(package: Package) -> frozenset[str]:
 
 
 def _is_named_for_tests(package: Package, path: str) -> bool:
-    """Tell whether CMake uses a file, or a directory around it, only for tests."""
+    """Return whether CMake uses a file, or a directory around it, only for tests."""
     try:
         cmake = package.cmake
     except ViewError:

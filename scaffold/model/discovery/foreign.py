@@ -137,7 +137,7 @@ class Foreign:
         return self._submodules[directory]
 
     def _is_named(self, disk: Disk, path: str, top: str, *, is_directory: bool) -> bool:
-        """Tell whether a pattern matches a path, or a directory above it and below another."""
+        """Return whether a pattern matches a path, or a directory above it and below another."""
         key = path, is_directory
         if key not in self._named:
             self._named[key] = False
@@ -180,7 +180,7 @@ class Foreign:
         return self._repositories[directory]
 
     def _is_untracked(self, disk: Disk, repository: str, path: str) -> bool:
-        """Tell whether an ignored path is not tracked by git."""
+        """Return whether an ignored path is not tracked by git."""
         if repository not in self._tracked:
             self._tracked[repository] = _tracked(disk, repository)
         tracked = self._tracked[repository]

@@ -17,7 +17,7 @@ _SUBMODULES = ".gitmodules"
 
 
 def is_untracked(package: Package, path: str) -> bool:
-    """Tell whether a ``.gitignore`` matches a file or directory of a package, or one around it.
+    """Return whether a ``.gitignore`` matches a file or directory of a package, or one around it.
 
     Negated patterns are not supported.
     """
@@ -44,7 +44,7 @@ def _ignore_files(package: Package, path: str) -> Iterator[tuple[str, str, str]]
 
 
 def _is_named(pattern: str, path: str, full_path: str) -> bool:
-    """Tell whether a pattern matches a path, or a directory above it in the package.
+    """Return whether a pattern matches a path, or a directory above it in the package.
 
     Args:
         pattern: A line of the file.
@@ -62,7 +62,7 @@ def _is_named(pattern: str, path: str, full_path: str) -> bool:
 
 
 def _is_of_submodule(package: Package, path: str) -> bool:
-    """Tell whether a path is in a git submodule."""
+    """Return whether a path is in a git submodule."""
     for prefix, text in _texts(package, _SUBMODULES):
         for line in text.splitlines():
             key, _, directory = line.partition("=")

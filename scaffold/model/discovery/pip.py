@@ -23,7 +23,7 @@ _MAX_BYTES = 100_000
 
 
 def is_in_requirements(package: Package, module: str) -> bool:
-    """Tell whether the package of a module is listed for pip."""
+    """Return whether the package of a module is listed for pip."""
     names = package.remember("names for pip", lambda: frozenset(_names(package)))
     return any(name == module.lower() or module_of_key(name) == module for name in names)
 

@@ -21,7 +21,7 @@ _MAX_BYTES = 100_000
 
 
 def is_fetched(package: Package, name: str) -> bool:
-    """Tell whether a file of the repository lists a package to fetch as source."""
+    """Return whether a file of the repository lists a package to fetch as source."""
     return name in package.remember("fetched as source", lambda: frozenset(_names(package)))
 
 

@@ -33,7 +33,7 @@ def node_scripts(package: Package) -> list[EntryPoint]:
 
 
 def has_program_files(package: Package) -> bool:
-    """Tell whether data_files install files for ``ros2 run``."""
+    """Return whether data_files install files for ``ros2 run``."""
     return any(_put_into_lib(package))
 
 

@@ -17,7 +17,7 @@ SECTION = "options.extras_require"
 
 
 def lacks_pytest(package: Package) -> bool:
-    """Tell whether a package built by its setup.py certainly declares pytest nowhere."""
+    """Return whether a package built by its setup.py certainly declares pytest nowhere."""
     try:
         setup = package.setup_py
         if package.build_type != "ament_python" or setup.call is None:
@@ -32,7 +32,7 @@ def lacks_pytest(package: Package) -> bool:
 
 
 def has_extra(package: Package) -> bool:
-    """Tell whether an extra for tests has pytest, as far as known."""
+    """Return whether an extra for tests has pytest, as far as known."""
     extras = package.setup_py.keyword("extras_require")
     if extras is None:
         cfg = setup_cfg(package)

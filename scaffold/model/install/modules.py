@@ -87,7 +87,7 @@ def moved_to(package: Package, name: str) -> str:
 
 
 def is_elsewhere(package: Package, name: str) -> bool:
-    """Tell whether a directory of the checkout above a package has a module.
+    """Return whether a directory of the checkout above a package has a module.
 
     Then the package is assembled elsewhere, such as in a container.
     """
@@ -99,7 +99,7 @@ def is_elsewhere(package: Package, name: str) -> bool:
 
 
 def may_be_made(package: Package, name: str) -> bool:
-    """Tell whether a module may come from elsewhere: compiled, generated, a namespace."""
+    """Return whether a module may come from elsewhere: compiled, generated, a namespace."""
     base = name.replace(".", "/")
     if package.has_directory(base) or package.glob(f"{base}.*") or is_untracked(package, base):
         return True
@@ -120,12 +120,12 @@ def may_be_made(package: Package, name: str) -> bool:
 
 
 def _is_put_into_package(package: Package, name: str) -> bool:
-    """Tell whether CMake installs the file of a module from elsewhere into a Python package."""
+    """Return whether CMake installs the file of a module from elsewhere into a Python package."""
     return package.has("CMakeLists.txt") and name in _modules_installed_by_path(package)
 
 
 def is_installed_by_path(user: Package, name: str) -> bool:
-    """Tell whether a package of the workspace installs a module with ``install(DESTINATION)``."""
+    """Return whether a package of the workspace installs a module with ``install(DESTINATION)``."""
     root = name.partition(".")[0]
     package = user if user.name == root else user.workspace.get(root)
     if package is None or not package.has("CMakeLists.txt"):
@@ -246,7 +246,7 @@ def _python_packages(package: Package) -> set[str]:
 
 
 def _lacks_package(package: Package, path: str, own: str, name: str) -> bool:
-    """Tell whether the module of an entry point has imports without the name of its package."""
+    """Return whether the module of an entry point has imports without the name of its package."""
     root = name.partition(".")[0]
     setup = package.setup_py
     started = {script.module for script in setup.console_scripts}
@@ -261,13 +261,13 @@ def _lacks_package(package: Package, path: str, own: str, name: str) -> bool:
 
 
 def _is_beside_scripts(package: Package, path: str | None) -> bool:
-    """Tell whether data_files install a module next to the scripts, which find it there."""
+    """Return whether data_files install a module next to the scripts, which find it there."""
     return path in (installed_data(package) or ())
 
 
 @fact
 def is_started(package: Package, path: str) -> bool:
-    """Tell whether a file is a program: a shebang, a main guard, rclpy.
+    """Return whether a file is a program: a shebang, a main guard, rclpy.
 
     A module in a Python package of a CMake package, without a ``main`` and without a node
     that is spun, is only a demo when started: others import it.

@@ -127,13 +127,13 @@ def _named_in(package: Package, module: PythonModule) -> Iterator[OwnFile]:
 
 
 def _is_in_main_guard(module: PythonModule, node: ast.expr) -> bool:
-    """Tell whether code only runs where Python is given the source file."""
+    """Return whether code only runs where Python is given the source file."""
     guard = module.main_guard_node
     return guard is not None and guard.lineno <= node.lineno <= (guard.end_lineno or 0)
 
 
 def _is_tried(module: PythonModule, node: ast.expr) -> bool:
-    """Tell whether a path is one of several candidates, one of which need exist."""
+    """Return whether a path is one of several candidates, one of which need exist."""
     holder = module.parent(node)
     is_one_of_several = isinstance(holder, ast.List | ast.Tuple) and len(holder.elts) > 1
     return is_one_of_several and module.mentions("exists(", "isfile(", "is_file(")

@@ -30,7 +30,7 @@ class Share(NamedTuple):
     """Prefixes of paths in directories ignored by git, such as products of other tools."""
 
     def has(self, path: str) -> bool:
-        """Tell whether a file or a directory exists."""
+        """Return whether a file or a directory exists."""
         return path in self.files or any(name.startswith(f"{path}/") for name in self.files)
 
 
@@ -115,7 +115,7 @@ def _base(item: InstallItem) -> str:
 
 
 def _selected(install: Install, path: str) -> bool:
-    """Tell whether the patterns of install(DIRECTORY) select a file; true in doubt."""
+    """Return whether the patterns of install(DIRECTORY) select a file; true in doubt."""
     if "FILES_MATCHING" not in install.command.values or "REGEX" in install.command.values:
         return True
     return any(fnmatchcase(path.rpartition("/")[2], pattern) for pattern in install.patterns)

@@ -65,7 +65,7 @@ _FOR_TESTS = "conftest.py"
 
 
 def is_copy_of_old_code(package: Package, path: str) -> bool:
-    """Tell whether a file or its directory is named like a copy, and is never mentioned."""
+    """Return whether a file or its directory is named like a copy, and is never mentioned."""
     *directories, name = path.split("/")
     stem, dot, _ = name.rpartition(".")
     if not dot or not name.endswith(_KEPT):
@@ -75,7 +75,7 @@ def is_copy_of_old_code(package: Package, path: str) -> bool:
 
 
 def is_never_run(package: Package, path: str) -> bool:
-    """Tell whether a Python file is a copy of old code, or is not installed.
+    """Return whether a Python file is a copy of old code, or is not installed.
 
     Scripts started from the sources need no dependency of the package.
     """
@@ -83,7 +83,7 @@ def is_never_run(package: Package, path: str) -> bool:
 
 
 def is_out_of_reach(package: Package, path: str) -> bool:
-    """Tell whether a Python file is in no directory that is installed, and nothing names it.
+    """Return whether a Python file is in no directory that is installed, and nothing names it.
 
     People start a script from the sources when a text of the package says so.
     """
@@ -91,7 +91,7 @@ def is_out_of_reach(package: Package, path: str) -> bool:
 
 
 def _is_never_reached(package: Package, path: str, texts: tuple[str, ...]) -> bool:
-    """Tell whether a file is apart, and only named by others that are never reached either."""
+    """Return whether a file is apart, and only named by others that are never reached either."""
 
     def find() -> bool:
         if path == _SETUP:
@@ -122,7 +122,7 @@ def _stem(path: str) -> str:
 
 
 def _is_apart(package: Package, path: str) -> bool:
-    """Tell whether a Python file is in no directory that is installed, or no test that is run."""
+    """Return whether a Python file is in no directory that is installed, or no test that is run."""
     directory, _, name = path.rpartition("/")
     stem = name.removesuffix(".py")
     if stem == name or ".launch." in name or stem.endswith("launch"):
@@ -148,7 +148,7 @@ def _is_apart(package: Package, path: str) -> bool:
 
 
 def is_in_python_package(package: Package, path: str) -> bool:
-    """Tell whether a directory around a file has ``__init__.py``."""
+    """Return whether a directory around a file has ``__init__.py``."""
     directories = path.split("/")[:-1]
     return any(
         package.has("/".join([*directories[:at], "__init__.py"]))
@@ -163,7 +163,7 @@ def _building(package: Package) -> list[str]:
 
 
 def _uses_setup_py(package: Package) -> bool:
-    """Tell whether CMake may run setup.py."""
+    """Return whether CMake may run setup.py."""
     return any(_RUNS_SETUP.search(without_comments(package.data(path))) for path in _lists(package))
 
 
@@ -172,7 +172,7 @@ def _is_built_by_cmake(package: Package) -> bool:
 
 
 def is_unrun_test(package: Package, path: str) -> bool:
-    """Tell whether a test file is neither run as a test nor used by one."""
+    """Return whether a test file is neither run as a test nor used by one."""
     *directories, name = path.split("/")
     stem = name.removesuffix(".py")
     if not is_in_tests(path) or stem == name or name in _RUN_AS_THEY_ARE:
@@ -194,7 +194,7 @@ def is_unrun_test(package: Package, path: str) -> bool:
 
 
 def _runs_in_cmake(package: Package, directories: Sequence[str]) -> bool:
-    """Tell whether CMake runs Python, and names one of some directories as a whole, if any."""
+    """Return whether CMake runs Python, and names one of some directories as a whole, if any."""
     lists = [without_comments(package.data(item)) for item in _lists(package)]
     calls = [_ADDS_DIRECTORY.sub(b"", text) for text in lists]
     return any(
@@ -232,7 +232,7 @@ def _commands_in(package: Package, path: str) -> bytes:
 
 
 def is_named(package: Package, path: str, stem: str, texts: tuple[str, ...] = ()) -> bool:
-    """Tell whether any other file of the package mentions a name, such as that of a module.
+    """Return whether any other file of the package mentions a name, such as that of a module.
 
     Parameter files mention a node whether it is started or not.
 
@@ -261,7 +261,7 @@ def _files_naming(package: Package, path: str, stem: str, texts: tuple[str, ...]
 
 
 def _is_in_code(package: Package, path: str, name: str, directory: str) -> bool:
-    """Tell whether a file may mention a name outside of comments; too large code may.
+    """Return whether a file may mention a name outside of comments; too large code may.
 
     Large XML and YAML is data, such as the weights of a classifier.
     """
@@ -275,7 +275,7 @@ def _is_in_code(package: Package, path: str, name: str, directory: str) -> bool:
 
 
 def names_file(code: bytes, stem: str, *, is_python: bool) -> bool:
-    """Tell whether code may import or start a file; Python may use its name for a variable."""
+    """Return whether code may import or start a file; Python may use its name for a variable."""
     word = rb"(?<![\w-])%b(?![\w-])" % re.escape(stem.encode("utf-8", "surrogateescape"))
     if not is_python:
         return re.search(word, code) is not None
@@ -289,14 +289,14 @@ def names_file(code: bytes, stem: str, *, is_python: bool) -> bool:
 
 
 def _mentions_directory(data: bytes, name: str) -> bool:
-    """Tell whether a build file mentions a directory itself, or all files of a kind."""
+    """Return whether a build file mentions a directory itself, or all files of a kind."""
     word = re.escape(name.encode("utf-8", "surrogateescape"))
     pattern = rb"(?<![\w-])%b(?![\w-])(?!/[\w/-]+\.\w+)(?!/[\w/-]*\*\.(?!py\b)\w+)" % word
     return re.search(pattern, data) is not None
 
 
 def _mentions(data: bytes, name: str, directory: str) -> bool:
-    """Tell whether a text mentions a name, not only as a file in another directory."""
+    """Return whether a text mentions a name, not only as a file in another directory."""
     word = name.encode("utf-8", "surrogateescape")
     if word not in data:
         return False

@@ -246,7 +246,7 @@ class WatchedDefinitions(Definitions):
 
 
 def _is_copy(full_name: str) -> bool:
-    """Tell whether an interface is one of the package that repeats those of std_msgs."""
+    """Return whether an interface is one of the package that repeats those of std_msgs."""
     return full_name.startswith("example_interfaces/")
 
 

@@ -46,7 +46,7 @@ class DefinitionSource(Protocol):
 
 
 def is_test_data(path: str) -> bool:
-    """Tell whether a file is test data and never generated."""
+    """Return whether a file is test data and never generated."""
     return not {"test", "tests", "testing", "templates"}.isdisjoint(path.split("/")[:-1])
 
 

@@ -85,17 +85,17 @@ class FieldType(NamedTuple):
 
 
 def is_field_name(name: str) -> bool:
-    """Tell whether a name is a valid field or package name for rosidl."""
+    """Return whether a name is a valid field or package name for rosidl."""
     return re.fullmatch("[a-z](_?[a-z0-9])*", name) is not None
 
 
 def is_constant_name(name: str) -> bool:
-    """Tell whether a name is a valid constant name for rosidl."""
+    """Return whether a name is a valid constant name for rosidl."""
     return re.fullmatch("[A-Z](_?[A-Z0-9])*", name) is not None
 
 
 def is_type_name(name: str) -> bool:
-    """Tell whether a name is a valid type name for rosidl."""
+    """Return whether a name is a valid type name for rosidl."""
     name = name.removeprefix("Sample_")
     for suffix in _SUFFIXES:
         name = name.removesuffix(suffix)

@@ -93,5 +93,5 @@ def _unpacked(module: PythonModule, node: ast.expr) -> list[ast.keyword] | None:
 
 
 def _is_unpacked(parent: ast.AST | None) -> bool:
-    """Tell whether an expression is an argument after ``**``."""
+    """Return whether an expression is an argument after ``**``."""
     return isinstance(parent, ast.keyword) and parent.arg is None

@@ -50,7 +50,7 @@ def set_names(
 
 
 def may_be_set_elsewhere(package: Package, path: str, name: str) -> bool:
-    """Tell whether another launch file of the workspace includes the one of a path and sets a name.
+    """Return whether another launch file of the workspace includes the file and sets the name.
 
     Or a file that is included before it does, perhaps through others; or a command line gives it.
     """
@@ -65,12 +65,12 @@ def may_be_set_elsewhere(package: Package, path: str, name: str) -> bool:
 
 
 def is_named_elsewhere(package: Package, path: str, name: str) -> bool:
-    """Tell whether another launch file of the workspace contains the name of a configuration."""
+    """Return whether another launch file of the workspace contains the name of a configuration."""
     return any(name in text for text in _other_launch_files(package, path))
 
 
 def _may_compute(text: str, basename: str) -> bool:
-    """Tell whether a launch file computes file names that may be this one."""
+    """Return whether a launch file computes file names that may be this one."""
     return any(basename.endswith(match[1]) for match in _COMPUTED.finditer(text))
 
 
@@ -89,7 +89,7 @@ def _other_launch_files(package: Package, but: str) -> Iterator[str]:
 
 
 def _has_own_actions(launch: LaunchFile) -> bool:
-    """Tell whether functions or classes of other packages may declare arguments.
+    """Return whether functions or classes of other packages may declare arguments.
 
     Such as those of nav2_common, moveit_configs_utils and simple_launch.
     """

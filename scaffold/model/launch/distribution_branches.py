@@ -29,7 +29,7 @@ _VALUES = {"let": "value", "arg": "default"}
 
 
 def has_conditions(package: Package, path: str) -> bool:
-    """Tell whether the conditions of a file are those of launch."""
+    """Return whether the conditions of a file are those of launch."""
     return path.endswith(ENDINGS) or (path.endswith(".py") and path in launch_paths(package))
 
 

@@ -48,7 +48,7 @@ def data_files(package: Package, directory: str) -> list[str]:
 
 
 def is_named(package: Package, directory: str) -> bool:
-    """Tell whether code or a launch file of the workspace looks for a file of a data directory.
+    """Return whether code or a launch file of the workspace looks for a file of a data directory.
 
     The name of a file alone may be that of one in any other directory.
     """
@@ -112,14 +112,14 @@ def _data_names(package: Package) -> frozenset[str]:
 
 
 def _is_of_neighbor(package: Package, name: str) -> bool:
-    """Tell whether another package has a data file with this name."""
+    """Return whether another package has a data file with this name."""
     return any(
         name in _data_names(other) for other in package.workspace if other.name != package.name
     )
 
 
 def _is_named_in(text: str, name: str) -> bool:
-    """Tell whether a text mentions a file, not as a path into a source tree."""
+    """Return whether a text mentions a file, not as a path into a source tree."""
     for match in re.finditer(rf"{re.escape(name)}(?![\w.-])", text):
         line = text[max(0, match.start() - _LONGEST_PATH) : match.start()]
         path = re.split(r"[\"'\s=]", line)[-1]

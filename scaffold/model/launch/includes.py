@@ -103,7 +103,7 @@ def included(package: Package, launch: LaunchFile, call: LaunchCall) -> Included
 
 
 def _is_conditional(launch: LaunchFile, call: LaunchCall) -> bool:
-    """Tell whether an argument may be undeclared: under a condition, or in a group."""
+    """Return whether an argument may be undeclared: under a condition, or in a group."""
     if "condition" in call.given or launch.is_optional(call.call):
         return True
     parents = [

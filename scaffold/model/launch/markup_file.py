@@ -94,7 +94,7 @@ def markup_paths(package: Package) -> list[str]:
 
 
 def is_known(attribute: Attribute | None) -> bool:
-    """Tell whether an attribute has a value without substitutions."""
+    """Return whether an attribute has a value without substitutions."""
     return attribute is not None and "$(" not in attribute.value and attribute.value != ""
 
 
@@ -189,7 +189,7 @@ def _of_yaml(tag: str, node: Mapping) -> _Element:
 
 
 def _is_plain(node: Mapping) -> bool:
-    """Tell whether no value of a mapping is in quotes."""
+    """Return whether no value of a mapping is in quotes."""
     return all(isinstance(value, Scalar) and value.is_plain for _, value in node.pairs)
 
 
@@ -225,5 +225,5 @@ def _renamed(remaps: Iterable[dict[str, Attribute]]) -> list[Attribute]:
 
 
 def changes_name(source: str, target: object) -> bool:
-    """Tell whether a remapping changes a name, as some have the same name twice."""
+    """Return whether a remapping changes a name, as some have the same name twice."""
     return not isinstance(target, str) or source.lstrip("/") != target.lstrip("/")

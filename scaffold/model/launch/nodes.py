@@ -263,7 +263,7 @@ def _has_more_parameters(launch: LaunchFile, call: LaunchCall) -> bool:
 
 
 def _is_dictionary(launch: LaunchFile, node: ast.expr) -> bool:
-    """Tell whether an item of ``parameters=`` is a dictionary with known names.
+    """Return whether an item of ``parameters=`` is a dictionary with known names.
 
     Also through a variable.
     """
@@ -291,7 +291,7 @@ def _remappings(launch: LaunchFile, call: LaunchCall) -> Iterator[tuple[str, str
 
 
 def _has_choices(launch: LaunchFile, configuration: LaunchCall) -> bool:
-    """Tell whether an argument has choices, all of which are strings in YAML."""
+    """Return whether an argument has choices, all of which are strings in YAML."""
     name = launch.evaluator.evaluate(configuration.given.get("variable_name"))
     for call in launch.calls:
         if call.kind == "DeclareLaunchArgument" and "choices" in call.given:
@@ -302,7 +302,7 @@ def _has_choices(launch: LaunchFile, configuration: LaunchCall) -> bool:
 
 
 def _is_text(value: object) -> bool:
-    """Tell whether YAML reads a word as a string."""
+    """Return whether YAML reads a word as a string."""
     return (
         isinstance(value, str)
         and re.fullmatch(r"[A-Za-z_][\w-]*", value) is not None
@@ -328,7 +328,7 @@ def _file_of(launch: LaunchFile, node: ast.expr) -> str | Unknown:
 
 
 def _is_handed_on(launch: LaunchFile, expression: ast.expr) -> bool:
-    """Tell whether a launch file also passes a parameter file to an included file."""
+    """Return whether a launch file also passes a parameter file to an included file."""
     text = launch.module.text(expression)
     return any(
         text in launch.module.text(given)
@@ -338,7 +338,7 @@ def _is_handed_on(launch: LaunchFile, expression: ast.expr) -> bool:
 
 
 def _is_listed(launch: LaunchFile, call: ast.Call) -> bool:
-    """Tell whether an action is in the list of the LaunchDescription, or is added to it."""
+    """Return whether an action is in the list of the LaunchDescription, or is added to it."""
     module = launch.module
     for parent in module.parents(call):
         if isinstance(parent, ast.If | ast.For | ast.While | ast.IfExp | ast.Try | ast.match_case):

@@ -104,7 +104,7 @@ _LOADERS = ("yaml.safe_load", "yaml.load", "yaml.full_load", "ruamel")
 
 
 def is_loaded(package: Package, path: str, owners: Sequence[KnownNode] = (), key: str = "") -> bool:
-    """Tell whether Python code of the workspace loads a parameter file itself, as YAML.
+    """Return whether Python code of the workspace loads a parameter file itself, as YAML.
 
     Then it may have values only for that code. The code mentions the file, or is that of the nodes
     of the file, which may get its name as a parameter.
@@ -127,7 +127,7 @@ def is_loaded(package: Package, path: str, owners: Sequence[KnownNode] = (), key
 
 
 def _has(package: Package, code: str, key: str) -> bool:
-    """Tell whether code contains a string; any code has the empty key."""
+    """Return whether code contains a string; any code has the empty key."""
     return not key or any(mentions(package, code, f"{quote}{key}{quote}") for quote in "'\"")
 
 
@@ -159,7 +159,7 @@ def names_alike(file: ParameterFile, names: set[str], name: str) -> list[str]:
 
 
 def _is_alike(name: str, other: str) -> bool:
-    """Tell whether one node name may be a misspelling of the other."""
+    """Return whether one node name may be a misspelling of the other."""
     first, second = name.replace("_", "").lower(), other.replace("_", "").lower()
     if first == second:
         return name != other
@@ -169,7 +169,7 @@ def _is_alike(name: str, other: str) -> bool:
 
 
 def _is_mentioned(package: Package, path: str, launch_files: set[str]) -> bool:
-    """Tell whether a launch file mentions a parameter file in an unknown way."""
+    """Return whether a launch file mentions a parameter file in an unknown way."""
     name = path.rpartition("/")[2]
     for other in package.files:
         if other.endswith(_LAUNCH_ENDINGS) and other not in launch_files and other != "setup.py":

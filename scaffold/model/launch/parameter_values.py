@@ -58,5 +58,5 @@ def _list_given(value: list[object] | tuple[object, ...]) -> GivenValue | None:
 
 
 def _is_more_than_a_word(text: str) -> bool:
-    """Tell whether YAML may read a text as other than a word or a number."""
+    """Return whether YAML may read a text as other than a word or a number."""
     return text == "" or any(character in text for character in "'\"[]{}:#&*!|>%@`, \n")

@@ -227,7 +227,7 @@ class LaunchFile:
         return words[:2], items[0].node if items else None
 
     def is_optional(self, node: ast.AST) -> bool:
-        """Tell whether an expression is evaluated under a Python condition, or may fail."""
+        """Return whether an expression is evaluated under a Python condition, or may fail."""
         kinds = (ast.If, ast.IfExp, ast.Try, ast.match_case)
         return any(isinstance(parent, kinds) for parent in self.module.parents(node))
 
@@ -267,7 +267,7 @@ class LaunchFile:
         return share_path(self.evaluator.joined_text(node)) is not None
 
     def _is_extended(self, node: ast.expr) -> bool:
-        """Tell whether an expression is only the start of an unknown path."""
+        """Return whether an expression is only the start of an unknown path."""
         parent = self.module.parent(node)
         match parent:
             case ast.BinOp() | ast.FormattedValue() | ast.Attribute():

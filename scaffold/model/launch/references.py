@@ -108,7 +108,7 @@ def _in_xml(package: Package) -> Iterator[Reference]:
 
 
 def exists(package: Package, name: str) -> bool:
-    """Tell whether a package is known: itself, in the workspace, declared, or released."""
+    """Return whether a package is known: itself, in the workspace, declared, or released."""
     if name == package.name or name in ROS_PACKAGES or package.workspace.get(name) is not None:
         return True
     try:

@@ -115,7 +115,7 @@ def _names_at(
 
 
 def has_name(names: set[str], source: str, node: object) -> bool:
-    """Tell whether a remapping may apply to a name of a node."""
+    """Return whether a remapping may apply to a name of a node."""
     wanted = source.rpartition(":")[2].partition("/_action/")[0].removeprefix("~").strip("/")
     last = wanted.rpartition("/")[2]
     if (
@@ -133,7 +133,7 @@ def has_name(names: set[str], source: str, node: object) -> bool:
 
 
 def is_reversed(names: set[str], source: str, target: str | None, node: object) -> bool:
-    """Tell whether a remapping is reversed: the node has the target, not the source."""
+    """Return whether a remapping is reversed: the node has the target, not the source."""
     if target is None or any(name.startswith("/") for name in names):
         return False
     plain = {name.removeprefix("~").strip("/") for name in names}

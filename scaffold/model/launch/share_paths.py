@@ -114,7 +114,7 @@ def _is_of_tests(path: str) -> bool:
 
 
 def _is_only_read(file: LaunchFile, node: ast.expr) -> bool:
-    """Tell whether a path is only opened for reading, and not passed to other functions."""
+    """Return whether a path is only opened for reading, and not passed to other functions."""
     module = file.module
     holder = module.parent(node)
     targets = holder.targets if isinstance(holder, ast.Assign) else ()
@@ -134,7 +134,7 @@ def _owner(call: ast.Call) -> Iterator[ast.expr]:
 
 
 def _is_read(call: ast.Call) -> bool:
-    """Tell whether a call reads the file passed to it."""
+    """Return whether a call reads the file passed to it."""
     name = getattr(call.func, "attr", getattr(call.func, "id", ""))
     if name != "open":
         return _READING.fullmatch(name) is not None
@@ -162,7 +162,7 @@ def _as_installed(package: Package, launch: LaunchFile, path: SharePath) -> Iter
 
 
 def _is_given_to_unknown(launch: LaunchFile, node: ast.expr) -> bool:
-    """Tell whether a path is passed to an unknown function, which may test whether it exists."""
+    """Return whether a path is passed to an unknown function, which may test whether it exists."""
     call = launch.module.parent(node)
     if not (isinstance(call, ast.Call) and isinstance(call.func, ast.Name)):
         return False
@@ -176,7 +176,7 @@ def _is_given_to_unknown(launch: LaunchFile, node: ast.expr) -> bool:
 
 
 def _is_written(launch: LaunchFile, node: ast.expr) -> bool:
-    """Tell whether a launch file writes the file itself, ``open(path, 'w')``, or tests for it."""
+    """Return whether a launch file writes the file itself, ``open(path, 'w')``, or tests for it."""
     holder = launch.module.parent(node)
     if isinstance(holder, ast.Dict) and _is_for_output(holder, node):
         return True
@@ -198,14 +198,14 @@ def _is_written(launch: LaunchFile, node: ast.expr) -> bool:
 
 
 def _is_redirected_to(command: ast.List, path: ast.expr) -> bool:
-    """Tell whether the shell writes to a path: it follows ``'date > '``."""
+    """Return whether the shell writes to a path: it follows ``'date > '``."""
     at = command.elts.index(path)
     before = command.elts[at - 1] if at else None
     return isinstance(before, ast.Constant) and str(before.value).rstrip().endswith(">")
 
 
 def _is_for_output(parameters: ast.Dict, path: ast.expr) -> bool:
-    """Tell whether a parameter has a name such as ``output_file``: its node writes the file."""
+    """Return whether a parameter has a name such as ``output_file``: its node writes the file."""
     return any(
         isinstance(key, ast.Constant) and re.search(r"output|save|record|export", str(key.value))
         for key, value in zip(parameters.keys, parameters.values, strict=True)
@@ -214,7 +214,7 @@ def _is_for_output(parameters: ast.Dict, path: ast.expr) -> bool:
 
 
 def _is_demanded(launch: LaunchFile, call: ast.Call) -> bool:
-    """Tell whether a launch file raises an error if a tested file does not exist."""
+    """Return whether a launch file raises an error if a tested file does not exist."""
     parents = [parent for parent in launch.module.parents(call) if isinstance(parent, ast.If)]
     return any(isinstance(node, ast.Raise) for parent in parents[:1] for node in ast.walk(parent))
 
@@ -253,7 +253,7 @@ def _before_field(path: str) -> Callable[[str], bool]:
 
 
 def is_left_to_the_user(package: Package, named: NamedPath) -> bool:
-    """Tell whether the directory of a missing file is a placeholder for files of the user.
+    """Return whether the directory of a missing file is a placeholder for files of the user.
 
     It only has a README or ``.gitkeep`` in the sources: weights of a model, for example.
     """
@@ -292,7 +292,7 @@ def _reason(owner: Package, path: str, files: dict[str, str]) -> str | None:
 
 
 def _is_converted(owner: Package, path: str) -> bool:
-    """Tell whether the build generates a URDF from a xacro file."""
+    """Return whether the build generates a URDF from a xacro file."""
     if owner.build_type != "ament_cmake":
         return False
     converters = owner.cmake.find("xacro_add_files", "xacro_add_xacro_file")
@@ -312,7 +312,7 @@ def _installed_alternative(owner: Package, path: str, installed: list[str]) -> s
 
 
 def _nothing_of(path: str, installed: dict[str, str]) -> bool:
-    """Tell whether no file of a common data directory is installed."""
+    """Return whether no file of a common data directory is installed."""
     directory = path.partition("/")[0]
     return directory in {"launch", *DATA_DIRECTORIES} and not any(
         source.startswith(f"{directory}/") for source in installed.values()
@@ -324,7 +324,7 @@ def _name(path: str) -> str:
 
 
 def _is_file_name(path: str) -> bool:
-    """Tell whether a path is a file name, not a directory, a prefix or a pattern."""
+    """Return whether a path is a file name, not a directory, a prefix or a pattern."""
     stem, ending = posixpath.splitext(_name(path))
     is_pattern = not {"*", "?", "["}.isdisjoint(path)
     return bool(stem) and 2 <= len(ending) <= 8 and not is_pattern  # noqa: PLR2004  .py to .geojson

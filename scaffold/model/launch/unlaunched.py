@@ -24,7 +24,7 @@ _VIEWS = frozenset({"items", "format"})
 
 @fact
 def is_in_unlaunched_action(package: Package, path: str, line: int, column: int) -> bool:
-    """Tell whether a place is in an action, or a value of one, that is never launched.
+    """Return whether a place is in an action, or a value of one, that is never launched.
 
     Raises:
         ViewError: the file cannot be read.
@@ -35,7 +35,7 @@ def is_in_unlaunched_action(package: Package, path: str, line: int, column: int)
 
 
 def covers(node: ast.expr, line: int, column: int) -> bool:
-    """Tell whether an expression contains a place."""
+    """Return whether an expression contains a place."""
     start = node.lineno, node.col_offset
     end = node.end_lineno or node.lineno, node.end_col_offset or 0
     return start <= (line, column - 1) < end
@@ -47,7 +47,7 @@ def is_never_used(
     seen: frozenset[ast.Name] = frozenset(),
     ignored: frozenset[ast.AST] = frozenset(),
 ) -> bool:
-    """Tell whether a path or an action is only stored in a variable that is never read.
+    """Return whether a path or an action is only stored in a variable that is never read.
 
     The variable is a local one, or one of a launch file that no module can import. Classes of
     launch access files when executed, functions may do so immediately.
@@ -73,7 +73,7 @@ def is_never_used(
 
 
 def is_unread(launch: LaunchFile, target: ast.Name) -> bool:
-    """Tell whether nothing reads a variable after it is set here, not even to store it again."""
+    """Return whether nothing reads a variable after it is set here, not even to store it again."""
     return _reads(launch, target) == []
 
 
@@ -103,7 +103,7 @@ def _variable_with(launch: LaunchFile, node: ast.AST) -> ast.Name | None:
 
 
 def _makes_object(call: ast.Call) -> bool:
-    """Tell whether a call is that of a class, or of a method without effects."""
+    """Return whether a call is that of a class, or of a method without effects."""
     name = call.func.attr if isinstance(call.func, ast.Attribute) else call.func
     name = name.id if isinstance(name, ast.Name) else name
     return isinstance(name, str) and (name[:1].isupper() or name in _VIEWS)

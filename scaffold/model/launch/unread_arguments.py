@@ -32,7 +32,7 @@ def unread_arguments(package: Package, launch: LaunchFile) -> Iterator[tuple[Lau
 
 
 def is_of_unread_argument(package: Package, at: Location) -> bool:
-    """Tell whether a path in a launch file is only the default of arguments that nothing reads.
+    """Return whether a path in a launch file is only the default of arguments that nothing reads.
 
     Raises:
         ViewError: the file cannot be read.
@@ -52,7 +52,7 @@ def is_of_unread_argument(package: Package, at: Location) -> bool:
 
 
 def _is_open(package: Package, launch: LaunchFile) -> bool:
-    """Tell whether a file may read arguments by computed names, or unknown files may."""
+    """Return whether a file may read arguments by computed names, or unknown files may."""
     if launch.module.mentions("launch_configurations"):
         return True
     names = [launch.text(call, "variable_name") for call in launch.find("LaunchConfiguration")]
@@ -63,7 +63,7 @@ def _is_open(package: Package, launch: LaunchFile) -> bool:
 
 
 def _is_mentioned(launch: LaunchFile, declaration: LaunchCall, name: str) -> bool:
-    """Tell whether a string outside of a declaration contains the name of the argument."""
+    """Return whether a string outside of a declaration contains the name of the argument."""
     whole = re.compile(rf"(?<!\w){re.escape(name)}(?!\w)")
     return any(
         isinstance(node.value, str)
@@ -74,7 +74,7 @@ def _is_mentioned(launch: LaunchFile, declaration: LaunchCall, name: str) -> boo
 
 
 def _is_in_yaml(package: Package, name: str) -> bool:
-    """Tell whether a file with substitutions, such as a parameter file, has the argument."""
+    """Return whether a file with substitutions, such as a parameter file, has the argument."""
     for path in package.files:
         if path.endswith((".yaml", ".yml")):
             try:

@@ -23,7 +23,7 @@ _PUT_TOGETHER = rb"[\"'})](?:\.urdf)?%b"
 
 
 def is_left_alone(package: Package, path: str) -> bool:
-    """Tell whether launch files are about a package, and nothing in the workspace names a file.
+    """Return whether launch files are about a package, and nothing in the workspace names a file.
 
     A launch file that puts the name together may name any with that ending.
     """

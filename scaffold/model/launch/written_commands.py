@@ -22,7 +22,7 @@ _MAX_BYTES = 200_000
 
 
 def gives_argument(package: Package, launch_file: str, name: str) -> bool:
-    """Tell whether a command line starts a launch file with an argument.
+    """Return whether a command line starts a launch file with an argument.
 
     Args:
         package: The package of the launch file.

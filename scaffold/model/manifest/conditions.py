@@ -60,7 +60,7 @@ def holds(condition: str, variables: Mapping[str, str] | None = None) -> bool:
 
 
 def names_unknown(condition: str) -> bool:
-    """Tell whether a condition uses a custom variable, not one of ROS."""
+    """Return whether a condition uses a custom variable, not one of ROS."""
     return any(name not in VARIABLES for name in re.findall(r"\$([A-Za-z0-9_]+)", condition))
 
 
@@ -121,7 +121,7 @@ def constants(condition: str) -> Iterator[Constant]:
 
 
 def is_never_true(condition: str) -> bool:
-    """Tell whether a condition is true on no distribution of ROS, whatever its Python is.
+    """Return whether a condition is true on no distribution of ROS, whatever its Python is.
 
     Args:
         condition: A condition that follows the grammar.

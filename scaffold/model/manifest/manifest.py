@@ -235,7 +235,7 @@ class Manifest:
         return [child for child in self.root.children if child.tag in tags]
 
     def member_of(self, group: str) -> bool:
-        """Tell whether the package is a member of a group."""
+        """Return whether the package is a member of a group."""
         return any(
             element.text == group and _is_active(element.get("condition"))
             for element in self.all("member_of_group")

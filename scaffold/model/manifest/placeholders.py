@@ -12,7 +12,7 @@ _ADDRESSES = (
 
 
 def is_placeholder(text: str) -> bool:
-    """Tell whether a text is only a placeholder.
+    """Return whether a text is only a placeholder.
 
     ``TODO: Package description`` is what ``ros2 pkg create`` writes.
     """
@@ -20,5 +20,5 @@ def is_placeholder(text: str) -> bool:
 
 
 def is_placeholder_address(address: str) -> bool:
-    """Tell whether an email address is a placeholder, such as ``user@todo.todo``."""
+    """Return whether an email address is a placeholder, such as ``user@todo.todo``."""
     return re.fullmatch(_ADDRESSES, address.strip()) is not None

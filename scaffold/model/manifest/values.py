@@ -17,7 +17,7 @@ URL_TYPES = ("website", "bugtracker", "repository")
 
 
 def fits(pattern: str, value: str) -> bool:
-    """Tell whether a normalized value matches a pattern completely."""
+    """Return whether a normalized value matches a pattern completely."""
     return re.fullmatch(pattern, value) is not None
 
 
@@ -25,7 +25,7 @@ _HIGHEST_PORT = 2**31 - 1
 
 
 def is_uri(value: str) -> bool:
-    """Tell whether a value is a URI or a relative reference.
+    """Return whether a value is a URI or a relative reference.
 
     As in schemas, characters that would have to be escaped (spaces, quotes, anything outside of
     ASCII) may be written as they are.

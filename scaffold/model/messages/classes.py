@@ -35,7 +35,7 @@ class MessageClass(NamedTuple):
         return self.interface.origin
 
     def allows(self, attribute: str) -> bool:
-        """Tell whether objects of the class may have an attribute."""
+        """Return whether objects of the class may have an attribute."""
         return (
             attribute.startswith("_")
             or attribute.endswith("__DEFAULT")

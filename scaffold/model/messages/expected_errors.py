@@ -11,7 +11,7 @@ _CAUGHT = frozenset({"AttributeError", "TypeError", "AssertionError", "ValueErro
 
 
 def is_error_expected(module: PythonModule, node: ast.AST) -> bool:
-    """Tell whether an error here is expected: a negative test, or a handler for it."""
+    """Return whether an error here is expected: a negative test, or a handler for it."""
     return is_tested_to_fail(module, node) or _is_caught(module, node)
 
 

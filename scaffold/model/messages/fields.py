@@ -58,7 +58,7 @@ class TypeMismatches:
         return problem or self._joined(type_, node)
 
     def is_alike(self, item: Assigned) -> bool:
-        """Tell whether a message is given instead of another one with the same fields."""
+        """Return whether a message is given instead of another one with the same fields."""
         given = self._types.type_of(item.value)
         expected = self._types.definitions.find(item.field.type.full_name)
         if given is None or expected is None or item.field.type.is_array:
@@ -67,14 +67,14 @@ class TypeMismatches:
         return fields == [(field.name, str(field.type)) for field in given.section.fields]
 
     def is_zero(self, item: Assigned) -> bool:
-        """Tell whether a float field gets the int 0, which is sent as zero."""
+        """Return whether a float field gets the int 0, which is sent as zero."""
         if not target().fact("messages.has_check_fields"):
             return False  # setters always check values
         value = self._types.file.evaluator.evaluate(item.value)
         return item.field.type.name in {"float32", "float64"} and type(value) is int and value == 0
 
     def is_unreachable(self, item: Assigned) -> bool:
-        """Tell whether a value is only assigned if a message field is ``None``."""
+        """Return whether a value is only assigned if a message field is ``None``."""
         inner: ast.AST = item.value
         for node in self._types.module.parents(item.value):
             match node:
@@ -90,7 +90,7 @@ class TypeMismatches:
         return False
 
     def _is_field(self, condition: ast.If, node: ast.expr) -> bool:
-        """Tell whether an expression is a message field, which is never ``None``."""
+        """Return whether an expression is a message field, which is never ``None``."""
         if isinstance(node, ast.Name):
             attribute = self._assigned_before(condition, node.id)
             return attribute is not None and self._is_field(condition, attribute)
@@ -238,7 +238,7 @@ class TypeMismatches:
         return None
 
     def _is_epoch(self, node: ast.expr) -> bool:
-        """Tell whether a number is a current time in nanoseconds since 1970."""
+        """Return whether a number is a current time in nanoseconds since 1970."""
         match self._types.file.evaluator.single_value(node):
             case ast.Attribute(attr="nanoseconds", value=ast.Call(func=ast.Attribute(attr="now"))):
                 return True
@@ -278,7 +278,7 @@ class TypeMismatches:
         return counted and not self._is_watched(node.attr)
 
     def _runs_again(self, node: ast.AST) -> bool:
-        """Tell whether a loop or the executor runs code repeatedly, other than on user input."""
+        """Return whether a loop or the executor runs code repeatedly, other than on user input."""
         module, file = self._types.module, self._types.file
         if any(isinstance(parent, ast.While) for parent in module.parents(node)):
             return True
@@ -289,13 +289,13 @@ class TypeMismatches:
         )
 
     def _is_start(self, target: ast.AST, value: ast.expr) -> bool:
-        """Tell whether an assignment is in ``__init__``, where it resets nothing."""
+        """Return whether an assignment is in ``__init__``, where it resets nothing."""
         function = self._types.module.enclosing_function(target)
         is_int = isinstance(self._types.file.evaluator.evaluate(value), int)
         return is_int and function is not None and function.name == "__init__"
 
     def _is_watched(self, name: str) -> bool:
-        """Tell whether an attribute is compared anywhere, which may limit the count."""
+        """Return whether an attribute is compared anywhere, which may limit the count."""
         for compare in self._types.module.walk(ast.Compare):
             for part in ast.walk(compare):
                 if isinstance(part, ast.Attribute) and part.attr == name:

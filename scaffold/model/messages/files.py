@@ -28,7 +28,7 @@ def message_paths(package: Package) -> Sequence[str]:
 
 @fact
 def _uses_interfaces(package: Package, path: str) -> bool:
-    """Tell whether a file imports interfaces and is not of ROS 1; raises ViewError."""
+    """Return whether a file imports interfaces and is not of ROS 1; raises ViewError."""
     module = package.module(path)
     if "rospy" in module.imports_by_root:
         return False

@@ -277,7 +277,7 @@ class MessageTypes:
         return parameters[index] if index < len(parameters) else None
 
     def _is_for_others(self, name: str) -> bool:
-        """Tell whether a callback is also passed to something that may pass other objects."""
+        """Return whether a callback is also passed to something that may pass other objects."""
         for use in self.module.index.attributes(name):
             match self.module.parent(use):
                 case ast.AugAssign(value=value) if value is use:
@@ -288,7 +288,7 @@ class MessageTypes:
         return False
 
     def _is_asked(self, scope: ast.AST, name: str) -> bool:
-        """Tell whether code tests the type of an object, which may then be any."""
+        """Return whether code tests the type of an object, which may then be any."""
         return (scope, name) in self._type_checked_names
 
     @cached_property

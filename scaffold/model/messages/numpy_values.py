@@ -51,7 +51,7 @@ def numpy_class(types: MessageTypes, node: ast.expr) -> tuple[str, str] | None:
 
 
 def _is_single_precision(types: MessageTypes, node: ast.expr) -> bool:
-    """Tell whether numpy converts a field to an array of 32-bit floats."""
+    """Return whether numpy converts a field to an array of 32-bit floats."""
     for _ in range(_MAX_DEPTH):
         node = types.file.evaluator.single_value(node)
         field = types.field_type_of(node)

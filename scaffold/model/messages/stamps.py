@@ -164,7 +164,7 @@ def _fields(types: MessageTypes, made: ast.Call, sent: ast.expr) -> set[str]:
 
 
 def _names_child(types: MessageTypes, made: ast.Call, sent: ast.expr, *, needs_twist: bool) -> bool:
-    """Tell whether the child frame of a message is set; raise `_Doubt` if other code may set it.
+    """Return whether the child frame of a message is set; raise `_Doubt` if other code may set it.
 
     Odometry without a twist may be a pose alone, and need none.
     """
@@ -233,7 +233,7 @@ def _message(types: MessageTypes, made: ast.Call) -> MessageClass | None:
 
 
 def _is_sender(types: MessageTypes, method: ast.Attribute) -> bool:
-    """Tell whether a method certainly is that of a publisher or a transform broadcaster."""
+    """Return whether a method certainly is that of a publisher or a transform broadcaster."""
     made = types.file.evaluator.single_value(method.value)
     if not isinstance(made, ast.Call):
         return False
@@ -340,7 +340,7 @@ def _set_in_header(
 
 
 def _is_zero(types: MessageTypes, stamp: ast.expr) -> bool:
-    """Tell whether a stamp is ``Time()`` of messages, or ``Time().to_msg()`` of rclpy."""
+    """Return whether a stamp is ``Time()`` of messages, or ``Time().to_msg()`` of rclpy."""
     match stamp:
         case ast.Call(
             func=ast.Attribute(attr="to_msg", value=ast.Call(args=[], keywords=[]) as time)

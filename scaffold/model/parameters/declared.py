@@ -55,12 +55,12 @@ class Declared(NamedTuple):
     """Whether no others can be declared."""
 
     def has(self, name: str) -> bool:
-        """Tell whether a parameter exists."""
+        """Return whether a parameter exists."""
         return name in self.types or has_always(name)
 
 
 def has_always(name: str) -> bool:
-    """Tell whether rclpy declares a parameter on every node."""
+    """Return whether rclpy declares a parameter on every node."""
     return name in ALWAYS or name.startswith(_ALWAYS_PREFIXES)
 
 
@@ -176,7 +176,7 @@ def _bases(file: RclpyFile) -> frozenset[ast.ClassDef | None]:
 
 
 def _declares_on_others(file: RclpyFile) -> bool:
-    """Tell whether the file declares parameters on an unknown object."""
+    """Return whether the file declares parameters on an unknown object."""
     return any(parameter.owner is None for parameter in file.parameters)
 
 
@@ -237,7 +237,7 @@ def _fixed_type(parameter: Parameter, *, may_be_dynamic: bool) -> str | None:
 
 
 def escapes(owner: NodeDefinition) -> bool:
-    """Tell whether the node is passed to code that may declare more."""
+    """Return whether the node is passed to code that may declare more."""
     if not isinstance(owner, NodeClass):
         return _is_handed_on(owner, owner.file.module.tree, owner.name)
     others = owner.node.bases[: owner.base_index] + owner.node.bases[owner.base_index + 1 :]
@@ -261,7 +261,7 @@ def _is_handed_on(owner: NodeDefinition, scope: ast.AST, name: str) -> bool:
 
 
 def _is_kept_elsewhere(parent: ast.AST | None, name: str) -> bool:
-    """Tell whether a statement stores a node in another object: ``part.node = self``."""
+    """Return whether a statement stores a node in another object: ``part.node = self``."""
     return isinstance(parent, ast.Assign) and any(
         isinstance(target, ast.Attribute | ast.Subscript)
         and not (isinstance(target.value, ast.Name) and target.value.id == name)

@@ -68,7 +68,7 @@ class Section(NamedTuple):
         return self.node.rpartition("/")[2]
 
     def fits(self, full_name: str) -> bool:
-        """Tell whether it matches a node, ``/robot1/talker``."""
+        """Return whether it matches a node, ``/robot1/talker``."""
         expression = ""
         for part in self.node.strip("/").split("/"):
             expression += {"**": r"(?:/\w+)*", "*": r"/\w+"}.get(part, f"/{re.escape(part)}")
@@ -136,7 +136,7 @@ class ParameterFile:
 
 
 def _has_key(mapping: Mapping) -> bool:
-    """Tell whether a mapping is that of a node, even if its key is ``parameters``."""
+    """Return whether a mapping is that of a node, even if its key is ``parameters``."""
     return any(key.text == KEY for key, _ in mapping.pairs)
 
 
@@ -245,7 +245,7 @@ def scalar_type(node: Scalar) -> str | None:
 
 
 def is_empty(node: YamlNode) -> bool:
-    """Tell whether the value is missing."""
+    """Return whether the value is missing."""
     return isinstance(node, Scalar) and node.is_plain and node.start == node.end
 
 

@@ -19,7 +19,7 @@ _LAUNCH = (".launch.py", "_launch.py", ".launch.xml", ".launch.yaml", ".launch.y
 
 
 def keeps_default_name(package: Package, endpoint: NamedEndpoint) -> bool:
-    """Tell whether no parameter file or launch file of a package sets another name."""
+    """Return whether no parameter file or launch file of a package sets another name."""
     parameter = endpoint.from_parameter
     if parameter is None:
         return True
@@ -35,7 +35,7 @@ def keeps_default_name(package: Package, endpoint: NamedEndpoint) -> bool:
 
 
 def _may_name(package: Package, path: str, name: str) -> bool:
-    """Tell whether the last part of a name is a key in a file, without parsing it."""
+    """Return whether the last part of a name is a key in a file, without parsing it."""
     key = re.escape(name.rpartition(".")[2])
     with suppress(ViewError):
         return re.search(rf"\b{key}\b['\"]?\s*:", package.source(path).text) is not None
@@ -43,7 +43,7 @@ def _may_name(package: Package, path: str, name: str) -> bool:
 
 
 def _is_named(package: Package, name: str) -> bool:
-    """Tell whether a launch file contains a word."""
+    """Return whether a launch file contains a word."""
     word = re.compile(rf"\b{re.escape(name)}\b")
     return any(name in text and word.search(text) for text in _launch_texts(package))
 

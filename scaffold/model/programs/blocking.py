@@ -52,7 +52,7 @@ class Executed(NamedTuple):
 
 
 def may_run_meanwhile(file: RclpyFile, executed: Executed) -> bool:
-    """Tell whether callbacks of a node may run in parallel to its callback or constructor."""
+    """Return whether callbacks of a node may run in parallel to its callback or constructor."""
     if executed.is_task:
         return not spins_in_one_thread(file)
     if names_other_executor(file):
@@ -61,7 +61,7 @@ def may_run_meanwhile(file: RclpyFile, executed: Executed) -> bool:
 
 
 def blocks_node(file: RclpyFile, executed: Executed) -> bool:
-    """Tell whether no other callback of a node runs during its callback or constructor."""
+    """Return whether no other callback of a node runs during its callback or constructor."""
     if executed.is_task:
         return spins_in_one_thread(file)
     if executed.entity is None:
@@ -281,7 +281,7 @@ def _places(run: Execution) -> dict[object, str]:
 
 
 def _may_end(file: RclpyFile, wait: _Wait) -> bool:
-    """Tell whether a file may have code that ends a wait."""
+    """Return whether a file may have code that ends a wait."""
     if any(call.name.rpartition(".")[2] != "spin" for call in file.spin_calls):
         return True  # step by step
     return spins_elsewhere(file) or (wait.in_callback and names_other_executor(file))

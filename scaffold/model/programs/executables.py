@@ -111,7 +111,7 @@ def _find_imported(package: Package, path: str) -> Iterator[str]:
 
 
 def _is_readable(package: Package, path: str) -> bool:
-    """Tell whether a file can be parsed."""
+    """Return whether a file can be parsed."""
     try:
         known_nodes(package, path)
     except ViewError:

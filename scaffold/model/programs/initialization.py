@@ -30,7 +30,7 @@ def late_init(file: RclpyFile, made: ast.Call) -> ast.Call | None:
 
 @fact
 def may_init(package: Package, path: str) -> bool:
-    """Tell whether a file may initialize rclpy, or creates its own context; raises ViewError."""
+    """Return whether a file may initialize rclpy, or creates its own context; raises ViewError."""
     module = package.module(path)
     index = module.index
     for name in ("init", "Context"):
@@ -44,7 +44,7 @@ def may_init(package: Package, path: str) -> bool:
 
 
 def calls_others(package: Package, run: Execution, made: ast.Call) -> bool:
-    """Tell whether foreign code runs before the node is created, which may initialize rclpy."""
+    """Return whether foreign code runs before the node is created, which may initialize rclpy."""
     module = run.file.module
     function = run.file.function_of(made)
     own = {part for path in package.python_files for part in path.split("/")}

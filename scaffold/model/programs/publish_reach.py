@@ -92,7 +92,7 @@ class PublishReach:
         return _strongest(reached)
 
     def _is_behind_spin(self, function: FunctionNode, call: ast.Call) -> bool:
-        """Tell whether a function spins forever before a call."""
+        """Return whether a function spins forever before a call."""
         return any(
             spin.name.rpartition(".")[2] == "spin"
             and spin.function is function

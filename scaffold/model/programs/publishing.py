@@ -89,7 +89,7 @@ def publish_rates(
 
 
 def ticks_always(file: RclpyFile, timer: Timer) -> bool:
-    """Tell whether a timer certainly runs from the start of its node to the end."""
+    """Return whether a timer certainly runs from the start of its node to the end."""
     try:
         _expect_ticking(file, timer)
     except _Doubt:
@@ -119,7 +119,7 @@ def _expect_ticking(file: RclpyFile, timer: Timer) -> None:
 
 
 def _may_be_held_up(file: RclpyFile, timer: Timer) -> bool:
-    """Tell whether a timer is in an unknown callback group."""
+    """Return whether a timer is in an unknown callback group."""
     group = timer.argument("callback_group")
     if group is None:
         return False
@@ -129,7 +129,7 @@ def _may_be_held_up(file: RclpyFile, timer: Timer) -> bool:
 
 
 def _runs_once(file: RclpyFile, function: FunctionNode | None) -> bool:
-    """Tell whether a function is run once per node: constructor, its helper, or main."""
+    """Return whether a function is run once per node: constructor, its helper, or main."""
     for _ in range(_MAX_CALLS):
         if function is None or function.name == "__init__":
             return True
@@ -199,7 +199,7 @@ def _attribute_references(
 
 
 def _is_placeholder(store: Store, entity: Entity) -> bool:
-    """Tell whether an attribute is None until it is set further down."""
+    """Return whether an attribute is None until it is set further down."""
     return is_none_literal(store.value) and store.node.lineno < entity.call.lineno
 
 
@@ -290,12 +290,12 @@ def _is_certain_call(file: RclpyFile, reference: ast.expr) -> bool:
 
 
 def _is_certain(file: RclpyFile, node: ast.AST, function: FunctionNode | ast.Lambda) -> bool:
-    """Tell whether a node is run exactly once per call of its function."""
+    """Return whether a node is run exactly once per call of its function."""
     return not _is_conditional(file, node, function) and _gets_to(file, node, function)
 
 
 def _is_conditional(file: RclpyFile, node: ast.AST, function: FunctionNode | ast.Lambda) -> bool:
-    """Tell whether a node is inside of a statement that may skip or repeat it."""
+    """Return whether a node is inside of a statement that may skip or repeat it."""
     child = node
     for parent in file.module.parents(node):
         if parent is function:
@@ -316,7 +316,7 @@ def _is_conditional(file: RclpyFile, node: ast.AST, function: FunctionNode | ast
 
 
 def _gets_to(file: RclpyFile, node: ast.AST, function: FunctionNode | ast.Lambda) -> bool:
-    """Tell whether a function cannot be left before a node."""
+    """Return whether a function cannot be left before a node."""
     return not any(
         file.function_of(leaving) is function and _is_before(leaving, node)
         for kind in (ast.Return, ast.Raise, ast.Yield)

@@ -25,14 +25,14 @@ _SPINNING = ("thread", "concurrent", "process", "async", "pool", "event", "group
 
 @per_file
 def names_other_executor(file: RclpyFile) -> bool:
-    """Tell whether a file mentions a multithreaded executor."""
+    """Return whether a file mentions a multithreaded executor."""
     return any(
         name.endswith("Executor") and name not in _NO_SPINNERS for name, _ in _identifiers(file)
     )
 
 
 def spins_in_one_thread(file: RclpyFile) -> bool:
-    """Tell whether a file spins its nodes, and runs one callback at a time."""
+    """Return whether a file spins its nodes, and runs one callback at a time."""
     if not file.spin_calls or not names_other_executor(file):
         return bool(file.spin_calls)
     # An executor that is not spun does not matter.
@@ -43,13 +43,13 @@ def spins_in_one_thread(file: RclpyFile) -> bool:
 
 
 def names_callback_group(file: RclpyFile) -> bool:
-    """Tell whether a file mentions a callback group."""
+    """Return whether a file mentions a callback group."""
     return file.module.mentions("CallbackGroup", "callback_group")
 
 
 @per_file
 def spins_elsewhere(file: RclpyFile) -> bool:
-    """Tell whether a file may spin a node other than with a plain call.
+    """Return whether a file may spin a node other than with a plain call.
 
     A thread may spin it, or code in another file. A thread that does not spin is of no
     help to a call that waits for a callback.
@@ -66,7 +66,7 @@ def spins_elsewhere(file: RclpyFile) -> bool:
 
 
 def share_group(file: RclpyFile, first: Entity, second: Entity) -> bool | None:
-    """Tell whether callbacks of two entities are mutually exclusive; ``None`` if unknown."""
+    """Return whether callbacks of two entities are mutually exclusive; ``None`` if unknown."""
     groups = _group_of(file, first), _group_of(file, second)
     if None in groups:
         return None
@@ -74,7 +74,7 @@ def share_group(file: RclpyFile, first: Entity, second: Entity) -> bool | None:
 
 
 def blocks_others(file: RclpyFile, entity: Entity) -> bool:
-    """Tell whether a callback of an entity certainly blocks other callbacks of the node.
+    """Return whether a callback of an entity certainly blocks other callbacks of the node.
 
     They do if one thread runs them all, whatever their groups. With several threads, those of the
     same group wait; that is all of the node unless the code says otherwise.
@@ -107,7 +107,7 @@ def _group_of(file: RclpyFile, entity: Entity) -> object:
 
 
 def _has_default_group(owner: NodeDefinition) -> bool:
-    """Tell whether a node has rclpy's own default group, which runs one callback at a time."""
+    """Return whether a node has rclpy's own default group, which runs one callback at a time."""
     node = owner
     while True:
         if node.file.module.mentions("default_callback_group"):
@@ -134,7 +134,7 @@ def _identifiers(file: RclpyFile) -> Iterator[tuple[str, ast.AST]]:
 
 
 def _may_refer_to_spin(file: RclpyFile, name: str, node: ast.AST) -> bool:
-    """Tell whether an identifier with "spin" may refer to a function that spins."""
+    """Return whether an identifier with "spin" may refer to a function that spins."""
     match node:
         case ast.keyword(value=ast.Constant(value=value)):
             return bool(value)
@@ -172,7 +172,7 @@ def _is_passed(file: RclpyFile, node: ast.Name | ast.Attribute) -> bool:
 
 
 def _imports_spinner(file: RclpyFile) -> bool:
-    """Tell whether an imported library may spin nodes, judging by its name."""
+    """Return whether an imported library may spin nodes, judging by its name."""
     for item in file.module.imports:
         if item.level or item.root in sys.stdlib_module_names or item.root == "rclpy":
             continue

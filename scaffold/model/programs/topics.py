@@ -117,12 +117,12 @@ def services_of(package: Package) -> Mapping[str, ServiceName]:
 
 
 def is_private(endpoint: NamedEndpoint) -> bool:
-    """Tell whether a name is below that of its node: ``~/chatter``."""
+    """Return whether a name is below that of its node: ``~/chatter``."""
     return endpoint.name.startswith("~/")
 
 
 def is_remapped(package: Package, endpoint: NamedEndpoint) -> bool:
-    """Tell whether a launch file of the package mentions the name of an endpoint, to remap it."""
+    """Return whether a launch file of the package mentions the name of an endpoint, to remap it."""
     for path in package.files:
         if ".launch." in path or path.endswith("_launch.py"):
             try:
@@ -135,7 +135,7 @@ def is_remapped(package: Package, endpoint: NamedEndpoint) -> bool:
 
 
 def is_named_in_compiled_code(package: Package, topic: str) -> bool:
-    """Tell whether C++ or Rust code of the workspace mentions a name, in any namespace."""
+    """Return whether C++ or Rust code of the workspace mentions a name, in any namespace."""
     texts = [f'{before}{topic}"'.encode() for before in ('"', "/")]
     return any(text in data for data in _compiled_code(package) for text in texts)
 

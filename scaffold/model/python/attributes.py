@@ -126,7 +126,7 @@ class AttributeEvaluator(Evaluator):
         return values
 
     def _is_only_default(self, target: ast.Attribute) -> bool:
-        """Tell whether other code may set an attribute: ``if not hasattr(self, 'rate'):``."""
+        """Return whether other code may set an attribute: ``if not hasattr(self, 'rate'):``."""
         if not self.module.mentions("hasattr"):
             return False
         for parent in self.module.parents(target):

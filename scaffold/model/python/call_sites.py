@@ -51,7 +51,7 @@ class CallSites:
         return calls
 
     def _is_mention(self, name: ast.Name, parent: ast.AST | None) -> bool:
-        """Tell whether a class is only mentioned: as a base, in an annotation, for a constant."""
+        """Return whether a class is only mentioned: as a base, in an annotation, for a constant."""
         if isinstance(parent, ast.ClassDef | ast.arg | ast.AnnAssign | ast.Attribute):
             return True
         if isinstance(parent, ast.FunctionDef | ast.AsyncFunctionDef):

@@ -34,7 +34,7 @@ def stretches_not_run(module: PythonModule) -> Iterator[Stretch]:
 
 
 def is_run(module: PythonModule, at: Location) -> bool:
-    """Tell whether a place may run on the target, judging by conditions on the distribution."""
+    """Return whether a place may run on the target, judging by conditions on the distribution."""
     place = (at.line, at.column)
     return not any(item[:2] <= place < item[2:] for item in stretches_not_run(module))
 
@@ -81,7 +81,7 @@ def _left_out(module: PythonModule, node: ast.stmt) -> Iterator[tuple[ast.AST, a
 
 
 def _leaves_block(module: PythonModule, statement: ast.stmt) -> bool:
-    """Tell whether a statement leaves its block on the target."""
+    """Return whether a statement leaves its block on the target."""
     if isinstance(statement, ast.If):
         decided = holds(module, statement.test)
         branches = [statement.body, statement.orelse]

@@ -91,7 +91,7 @@ def open_parts(module: SyntaxTree, test: ast.expr, depth: int = 0) -> Iterator[a
 
 
 def asks(module: SyntaxTree, value: ast.expr) -> bool:
-    """Tell whether the value of an expression depends on the distribution."""
+    """Return whether the value of an expression depends on the distribution."""
     if not module.mentions(*ASKED):
         return False
     evaluator = _DistributionEvaluator(module)
@@ -157,14 +157,14 @@ class _DistributionEvaluator(Evaluator):
         return UNKNOWN
 
     def _is_substitution(self, node: ast.expr) -> bool:
-        """Tell whether an expression is the substitution of launch for the variable."""
+        """Return whether an expression is the substitution of launch for the variable."""
         match _only_value(self.module, node) or node:
             case ast.Call(func=func, args=[ast.Constant(value=key), *_]) if key == VARIABLE:
                 return self.module.qualified_name(func) == _SUBSTITUTION
         return False
 
     def _is_environment(self, node: ast.expr) -> bool:
-        """Tell whether an expression is the environment, of the process or a launch context."""
+        """Return whether an expression is the environment, of the process or a launch context."""
         node = _only_value(self.module, node) or node
         if self.module.qualified_name(node) == "os.environ":
             return True
@@ -268,7 +268,7 @@ class _DistributionEvaluator(Evaluator):
         return UNKNOWN if result is None else result
 
     def _is_ros_version(self, node: ast.expr) -> bool:
-        """Tell whether a name, or the argument of a conversion, is ``ros_version``."""
+        """Return whether a name, or the argument of a conversion, is ``ros_version``."""
         match node:
             case ast.Call(args=[argument], keywords=[]):
                 return self._is_ros_version(argument)

@@ -26,7 +26,7 @@ _ALL = frozenset({"Exception", "BaseException"})
 def is_handled(
     module: PythonModule, node: ast.AST, exception: str, *, is_broad: bool = True
 ) -> bool:
-    """Tell whether an exception raised at a node is caught in its function, or never raised.
+    """Return whether an exception raised at a node is caught in its function, or never raised.
 
     Args:
         module: The file.
@@ -53,7 +53,7 @@ def is_handled(
 
 
 def has_fallback(module: PythonModule, node: ast.AST, *, is_rare: bool) -> bool:
-    """Tell whether a handler of any exception replaces a failing node.
+    """Return whether a handler of any exception replaces a failing node.
 
     A handler that logs, or that sets a constant, hides a permanent failure; occasional
     failures are what such handlers are for.
@@ -78,7 +78,7 @@ def has_fallback(module: PythonModule, node: ast.AST, *, is_rare: bool) -> bool:
 
 
 def _goes_on(module: PythonModule, failing: ast.stmt, handler: ast.ExceptHandler) -> bool:
-    """Tell whether all names are set after a handler, or no code follows it."""
+    """Return whether all names are set after a handler, or no code follows it."""
     if any(isinstance(node, ast.Raise) for node in module.below(handler, ast.Raise)):
         return False
     if leaves_block(module, handler.body[-1]):
@@ -89,7 +89,7 @@ def _goes_on(module: PythonModule, failing: ast.stmt, handler: ast.ExceptHandler
 
 
 def _replaces(module: PythonModule, failing: ast.stmt, handler: ast.ExceptHandler) -> bool:
-    """Tell whether a handler computes the result of a statement in another way."""
+    """Return whether a handler computes the result of a statement in another way."""
     for instead in handler.body:
         match failing, instead:
             case ast.Assign(targets=[target]), ast.Assign(targets=[other], value=value):
@@ -106,7 +106,7 @@ def _replaces(module: PythonModule, failing: ast.stmt, handler: ast.ExceptHandle
 
 
 def _does_the_same(module: PythonModule, first: ast.Call, second: ast.Call) -> bool:
-    """Tell whether two calls are of one function, or of methods with equal arguments."""
+    """Return whether two calls are of one function, or of methods with equal arguments."""
     if module.text(first.func) == module.text(second.func):
         return True
     match first.func, second.func:
@@ -125,7 +125,7 @@ def _expected_in(parent: ast.AST, child: ast.AST) -> set[str]:
 
 
 def is_unevaluated(module: PythonModule, node: ast.AST) -> bool:
-    """Tell whether a name is in an unevaluated annotation, or only for type checkers.
+    """Return whether a name is in an unevaluated annotation, or only for type checkers.
 
     Python never evaluates those of local variables, and those that are strings.
     """
@@ -144,7 +144,7 @@ def is_unevaluated(module: PythonModule, node: ast.AST) -> bool:
 
 
 def _is_never_evaluated(module: PythonModule, node: ast.AST, parent: ast.AST) -> bool:
-    """Tell whether a node is for type checkers, or a postponed annotation."""
+    """Return whether a node is for type checkers, or a postponed annotation."""
     match parent:
         case ast.If(test=ast.Name() | ast.Attribute() as test, body=body):
             return node in body and module.text(test).rpartition(".")[2] == "TYPE_CHECKING"
@@ -164,7 +164,7 @@ def _is_annotation(node: ast.AST, parent: ast.AST) -> bool:
 
 
 def is_guarded_by(module: PythonModule, node: ast.AST, value: ast.expr) -> bool:
-    """Tell whether a node runs only if a condition on a value holds: ``if self.topic:``.
+    """Return whether a node runs only if a condition on a value holds: ``if self.topic:``.
 
     Args:
         module: The file.
@@ -266,7 +266,7 @@ def values_asked(module: PythonModule, test: ast.expr) -> list[ast.expr]:
 
 
 def _is_question(value: ast.expr) -> bool:
-    """Tell whether an expression is a condition, or another name of one."""
+    """Return whether an expression is a condition, or another name of one."""
     if isinstance(value, ast.Call):
         return not value.args and not value.keywords
     kinds = (ast.Compare, ast.BoolOp, ast.UnaryOp, ast.IfExp, ast.Name, ast.Attribute)
@@ -318,7 +318,7 @@ def _stored(module: PythonModule, name: str) -> Iterator[ast.expr]:
 
 
 def leaves_block(module: PythonModule, statement: ast.stmt) -> bool:
-    """Tell whether a statement always leaves its block."""
+    """Return whether a statement always leaves its block."""
     match statement:
         case ast.Expr(value=ast.Call(func=func)):
             name = func.id if isinstance(func, ast.Name) else ""

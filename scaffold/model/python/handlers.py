@@ -16,7 +16,7 @@ _EXPECT = _RAISES | {"suppress"}
 
 
 def catches_import_errors(node: ast.Try) -> bool:
-    """Tell whether a ``try`` has a handler for a failed import."""
+    """Return whether a ``try`` has a handler for a failed import."""
     return any(
         handler.type is None or not IMPORT_ERRORS.isdisjoint(last_names(handler.type))
         for handler in node.handlers
@@ -32,7 +32,7 @@ def expected_errors(item: ast.withitem) -> set[str]:
 
 
 def is_tested_to_fail(module: SyntaxTree, node: ast.AST) -> bool:
-    """Tell whether a test expects that a node fails.
+    """Return whether a test expects that a node fails.
 
     It may be in a ``with``, in a lambda or in a nested function: ``assertRaises(TypeError, call)``.
     """
@@ -56,7 +56,7 @@ def is_tested_to_fail(module: SyntaxTree, node: ast.AST) -> bool:
 
 
 def _calls(node: ast.expr, names: frozenset[str]) -> bool:
-    """Tell whether an expression calls a function with one of some names."""
+    """Return whether an expression calls a function with one of some names."""
     return isinstance(node, ast.Call) and not names.isdisjoint(last_names(node.func))
 
 

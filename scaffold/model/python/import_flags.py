@@ -13,7 +13,7 @@ from scaffold.model.python.scopes import Binding
 
 
 def asks_which_release(module: PythonModule, condition: Condition, package: str) -> bool:
-    """Tell whether a condition tests the release of a package by an import.
+    """Return whether a condition tests the release of a package by an import.
 
     The handler of the import has another one from the same package, or the conditional code
     runs only after the handler.
@@ -47,7 +47,7 @@ def _bindings(module: PythonModule, name: ast.AST) -> Sequence[Binding]:
 
 
 def _imports(body: Sequence[ast.stmt], package: str) -> bool:
-    """Tell whether statements import from a package."""
+    """Return whether statements import from a package."""
     for statement in body:
         match statement:
             case ast.ImportFrom(module=str(name), level=0):
@@ -82,7 +82,7 @@ def _required_names(condition: Condition) -> Iterator[Condition]:
 
 
 def _is_said_by_failure(module: PythonModule, attempt: ast.Try, name: Condition) -> bool:
-    """Tell whether a name has its required value only after a failed import."""
+    """Return whether a name has its required value only after a failed import."""
     by_field: defaultdict[str, set[bool | None]] = defaultdict(set)
     for binding in _bindings(module, name.test):
         field = _field_in(module, attempt, binding.node)

@@ -125,7 +125,7 @@ class _Guards:
         return top_level, in_function, guarded, type_checking, conditional
 
     def _is_asked_for(self, node: ast.AST) -> bool:
-        """Tell whether the file looks for an imported module before, or skips its tests."""
+        """Return whether the file looks for an imported module before, or skips its tests."""
         match node:
             case ast.Import(names=[ast.alias(name=module)]) | ast.ImportFrom(module=str(module)):
                 return module.partition(".")[0] in self._asked_for
@@ -144,7 +144,7 @@ class _Guards:
         )
 
     def _is_never_run(self, node: ast.If, child: ast.AST) -> bool:
-        """Tell whether a branch is disabled by a constant of the file, or is for ROS 1."""
+        """Return whether a branch is disabled by a constant of the file, or is for ROS 1."""
         is_body = child in node.body
         return _is_switched(self._module, node.test, not is_body) or (
             holds(self._module, node.test) is (not is_body)
@@ -160,7 +160,7 @@ class _Guards:
 
 
 def _is_switched(module: SyntaxTree, test: ast.expr, wanted: bool) -> bool:  # noqa: FBT001
-    """Tell whether a condition is a constant, or the name of one, that is true or false."""
+    """Return whether a condition is a constant, or the name of one, that is true or false."""
     match test:
         case ast.Constant():
             return bool(test.value) is wanted
@@ -174,7 +174,7 @@ def _is_switched(module: SyntaxTree, test: ast.expr, wanted: bool) -> bool:  # n
 
 
 def is_main_test(test: ast.expr) -> bool:
-    """Tell whether a condition is ``__name__ == '__main__'``."""
+    """Return whether a condition is ``__name__ == '__main__'``."""
     match test:
         case ast.Compare(
             left=ast.Name(id="__name__"), ops=[ast.Eq()], comparators=[ast.Constant("__main__")]

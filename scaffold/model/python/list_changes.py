@@ -58,7 +58,7 @@ def statement_of(module: SyntaxTree, node: ast.AST) -> ast.stmt | None:
 
 
 def is_straight(module: SyntaxTree, first: ast.stmt | None, change: ast.Name) -> bool:
-    """Tell whether a change is in the same block as the first assignment, after it."""
+    """Return whether a change is in the same block as the first assignment, after it."""
     second = statement_of(module, change)
     if first is None or second is None or second.lineno < first.lineno:
         return False
@@ -68,7 +68,7 @@ def is_straight(module: SyntaxTree, first: ast.stmt | None, change: ast.Name) ->
 
 
 def _looks_like_list(node: ast.expr) -> bool:
-    """Tell whether an expression is a list literal, or one with something added."""
+    """Return whether an expression is a list literal, or one with something added."""
     while isinstance(node, ast.BinOp) and isinstance(node.op, ast.Add):
         if _looks_like_list(node.right):
             return True

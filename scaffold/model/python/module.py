@@ -40,7 +40,7 @@ _TEST_TOOLS = ("pytest", "unittest", "launch_testing")
 
 
 def is_in_tests(path: str) -> bool:
-    """Tell whether a file is a test, by its name or directory."""
+    """Return whether a file is a test, by its name or directory."""
     *directories, name = path.split("/")
     return (
         not {"test", "tests"}.isdisjoint(directories)
@@ -51,7 +51,7 @@ def is_in_tests(path: str) -> bool:
 
 
 def is_collected(name: str) -> bool:
-    """Tell whether pytest collects a file, by its name."""
+    """Return whether pytest collects a file, by its name."""
     return name.startswith("test_") or name.endswith("_test.py")
 
 
@@ -83,7 +83,7 @@ class PythonModule(SyntaxTree):
         return is_in_tests(self.path) and not self._is_program()
 
     def _is_program(self) -> bool:
-        """Tell whether a file is named like a test but is a program."""
+        """Return whether a file is named like a test but is a program."""
         *directories, name = self.path.split("/")
         if name == "conftest.py" or not {"test", "tests"}.isdisjoint(directories):
             return False
@@ -149,7 +149,7 @@ class PythonModule(SyntaxTree):
         return result
 
     def defines(self, name: str) -> bool | None:
-        """Tell whether the module has an attribute of this name.
+        """Return whether the module has an attribute of this name.
 
         ``None`` if unknown: a star import, a module ``__getattr__``, ``globals()``.
         """

@@ -247,7 +247,7 @@ _DEEPEST_F_STRING = 8
 
 
 def _has_new_f_string(text: str, start: int, end: int) -> bool:
-    """Tell whether a line has an f-string that is only valid since Python 3.12."""
+    """Return whether a line has an f-string that is only valid since Python 3.12."""
     for item in re.finditer(_F_STRING, text[start:end]):
         is_new, after = _scan_f_string(text, start + item.end(), item[1], 0)
         if is_new and after > 0:

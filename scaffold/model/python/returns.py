@@ -54,17 +54,17 @@ def value_set_before(function: FunctionNode, statement: ast.Return) -> ast.expr 
 
 
 def is_generator(function: FunctionNode) -> bool:
-    """Tell whether a call of the function returns a generator."""
+    """Return whether a call of the function returns a generator."""
     return any(isinstance(node, ast.Yield | ast.YieldFrom) for node in _own_nodes(function))
 
 
 def may_end(function: FunctionNode) -> bool:
-    """Tell whether the end of the function may be reached, so that it returns ``None``."""
+    """Return whether the end of the function may be reached, so that it returns ``None``."""
     return _passes(function.body)
 
 
 def may_end_with_items(function: FunctionNode) -> bool:
-    """Tell whether the end may be reached if the last argument, a list, is not empty."""
+    """Return whether the end may be reached if the last argument, a list, is not empty."""
     *before, last = function.body
     names = [arg.arg for arg in function.args.args[-1:]]
     match last:
@@ -84,7 +84,7 @@ def _own_nodes(function: FunctionNode) -> Iterator[ast.AST]:
 
 
 def _passes(body: Sequence[ast.stmt]) -> bool:
-    """Tell whether the code after some statements may be reached."""
+    """Return whether the code after some statements may be reached."""
     return all(_passes_one(statement) for statement in body)
 
 
@@ -114,7 +114,7 @@ def _passes_one(statement: ast.stmt) -> bool:
 
 
 def _holds_until_shutdown(test: ast.expr) -> bool:
-    """Tell whether a condition is always true, or ``rclpy.ok()``."""
+    """Return whether a condition is always true, or ``rclpy.ok()``."""
     match test:
         case ast.Constant(value=value):
             return bool(value)
@@ -128,7 +128,7 @@ def _sets(node: ast.AST, name: str) -> bool:
 
 
 def _is_safe(statement: ast.stmt) -> bool:
-    """Tell whether a statement returns an expression that cannot raise, such as a constant."""
+    """Return whether a statement returns an expression that cannot raise, such as a constant."""
     match statement:
         case ast.Return(value=None | ast.Constant() | ast.Name()):
             return True

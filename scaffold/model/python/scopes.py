@@ -208,7 +208,7 @@ class ScopeIndex:
         return scope
 
     def _is_first_iterable(self, generator: ast.comprehension, node: ast.AST) -> bool:
-        """Tell whether a node is the first iterable of a comprehension, evaluated outside of it."""
+        """Return whether a node is the first iterable of a comprehension, evaluated outside."""
         if node is not generator.iter:
             return False
         holder = self._parents[generator]
@@ -410,7 +410,7 @@ _FIELDS = _Fields()
 
 
 def _is_inside(scope: ast.AST, child: ast.AST) -> bool:
-    """Tell whether a child of a scope is evaluated inside of it."""
+    """Return whether a child of a scope is evaluated inside of it."""
     match scope:
         case ast.FunctionDef() | ast.AsyncFunctionDef() | ast.ClassDef():
             return isinstance(child, ast.stmt)

@@ -109,7 +109,7 @@ class SyntaxTree:
         return self.index.parents(node)
 
     def is_inside(self, node: ast.AST, scope: ast.AST) -> bool:
-        """Tell whether a node is a descendant of another one."""
+        """Return whether a node is a descendant of another one."""
         return any(parent is scope for parent in self.parents(node))
 
     def enclosing(self, node: ast.AST, *kinds: type[Node]) -> Node | None:
@@ -182,7 +182,7 @@ class SyntaxTree:
         return exact if exact == whole or self._reads_as(node, start, end) else whole
 
     def _reads_as(self, node: ast.expr, start: int, end: int) -> bool:
-        """Tell whether a part of the text is an expression."""
+        """Return whether a part of the text is an expression."""
         try:
             parsed = ast.parse(self.source.text[start:end].strip(), mode="eval")
         except (SyntaxError, ValueError):
@@ -215,7 +215,7 @@ class SyntaxTree:
         return self._words[condition]
 
     def mentions(self, *texts: str) -> bool:
-        """Tell whether the file contains any of some texts; results are cached."""
+        """Return whether the file contains any of some texts; results are cached."""
         mentions = self._mentions
         for text in texts:
             if text not in mentions:

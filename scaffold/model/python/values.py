@@ -119,12 +119,12 @@ NAMED_VALUES: Mapping[str, object] = {
 
 
 def is_none_literal(node: ast.AST | None) -> bool:
-    """Tell whether an expression is ``None``, as written."""
+    """Return whether an expression is ``None``, as written."""
     return isinstance(node, ast.Constant) and node.value is None
 
 
 def is_known(value: object) -> bool:
-    """Tell whether a value and everything in it is known."""
+    """Return whether a value and everything in it is known."""
     if value is UNKNOWN or isinstance(value, Glob):
         return False
     if isinstance(value, list | tuple | set):
@@ -141,7 +141,7 @@ def kind_of(value: object) -> str:
 
 
 def same(first: object, second: object) -> bool:
-    """Tell whether two values are equal and of the same type: 1 and True are not."""
+    """Return whether two values are equal and of the same type: 1 and True are not."""
     return type(first) is type(second) and first == second
 
 

@@ -81,13 +81,13 @@ def names_of(distribution: Distribution) -> Mapping[str, frozenset[str]]:
 
 
 def has(owner: str, name: str) -> bool:
-    """Tell whether a module or class of the table has a name."""
+    """Return whether a module or class of the table has a name."""
     names = known_names()[owner]
     return name in names or f"{name}()" in names or name.startswith("__")
 
 
 def is_method(owner: str, name: str) -> bool:
-    """Tell whether a name of a class is a method."""
+    """Return whether a name of a class is a method."""
     return f"{name}()" in known_names().get(owner, ())
 
 
@@ -154,7 +154,7 @@ def _class_made(file: RclpyFile, call: ast.Call, func: ast.Attribute, depth: int
 
 
 def _is_annotated_as_node(file: RclpyFile, node: ast.expr) -> bool:
-    """Tell whether an expression is a function parameter annotated as a node, or set to one."""
+    """Return whether an expression is a function parameter annotated as a node, or set to one."""
     argument = file.parameter_of(file.evaluator.single_value(node))
     if argument is None or argument.annotation is None:
         return False

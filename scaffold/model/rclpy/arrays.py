@@ -34,7 +34,7 @@ _MAX_DEPTH = 8
 
 
 def is_array(file: RclpyFile, node: ast.expr, depth: int = 0) -> bool:
-    """Tell whether an expression is certainly an array of NumPy.
+    """Return whether an expression is certainly an array of NumPy.
 
     Args:
         file: The file.

@@ -73,7 +73,7 @@ def defined_by(node: NodeClass) -> set[str]:
 
 
 def is_read_in_full(node: NodeClass) -> bool:
-    """Tell whether a class and its bases are fully known, and define no names at run time."""
+    """Return whether a class and its bases are fully known, and define no names at run time."""
     owner: NodeClass | None = node
     while owner is not None:
         bindings = owner.file.module.index.bindings(owner.node)
@@ -88,7 +88,7 @@ def is_read_in_full(node: NodeClass) -> bool:
 
 
 def is_unused(package: Package, file: RclpyFile, entity: Entity) -> bool:
-    """Tell whether a stored object is never used in the package."""
+    """Return whether a stored object is never used in the package."""
     if entity.attribute:
         names = file.module.index.attributes(entity.attribute)
         is_read = any(isinstance(node.ctx, ast.Load) for node in names)
@@ -102,7 +102,7 @@ def is_unused(package: Package, file: RclpyFile, entity: Entity) -> bool:
 
 
 def is_used_elsewhere(package: Package, file: RclpyFile, attribute: str) -> bool:
-    """Tell whether other modules of the package use an attribute set by a class of a file.
+    """Return whether other modules of the package use an attribute set by a class of a file.
 
     A class that sets an attribute of the same name on ``self`` uses its own.
     """
@@ -115,7 +115,7 @@ def is_used_elsewhere(package: Package, file: RclpyFile, attribute: str) -> bool
 
 @fact
 def _uses_of_another(package: Package, path: str, attribute: str) -> bool:
-    """Tell whether a file uses an attribute that none of its classes sets on ``self``."""
+    """Return whether a file uses an attribute that none of its classes sets on ``self``."""
     if attribute.encode() not in package.data(path):  # most files need not be parsed
         return False
     nodes = package.module(path).index.attributes(attribute)
@@ -132,7 +132,7 @@ def names_of_bases(package: Package) -> frozenset[str]:
 
 
 def is_overridden(package: Package, method: FunctionNode, class_: ast.ClassDef) -> bool:
-    """Tell whether a class is never instantiated, but has subclasses with this method."""
+    """Return whether a class is never instantiated, but has subclasses with this method."""
     if class_.name not in names_of_bases(package):
         return False
     overriding = f"{class_.name}.{method.name}" in _overridden_methods(package)

@@ -119,7 +119,7 @@ def _is_static_method(function: FunctionNode) -> bool:
 
 
 def _returns_function(function: FunctionNode | ast.Lambda) -> bool:
-    """Tell whether a function may return another function."""
+    """Return whether a function may return another function."""
     if isinstance(function, ast.Lambda):
         return True
     return any(

@@ -54,7 +54,7 @@ def _names_of_callee(file: RclpyFile, call: ast.Call) -> set[str]:
 
 
 def _is_meant(file: RclpyFile, call: ast.Call, change: Change) -> bool:
-    """Tell whether a call has the changed arguments, and is not prepared for the change."""
+    """Return whether a call has the changed arguments, and is not prepared for the change."""
     if any(word.arg is None for word in call.keywords) or _is_ready(file.module, call, change):
         return False
     if change.without and _argument(call, change.without) is not None:
@@ -80,7 +80,7 @@ def _is_ready(module: PythonModule, call: ast.Call, change: Change) -> bool:
 
 
 def _is_caught(module: PythonModule, call: ast.Call, error: str) -> bool:
-    """Tell whether code continues after an error of a call as without one."""
+    """Return whether code continues after an error of a call as without one."""
     if not caught_around(module, call).isdisjoint({error, _ABOVE.get(error, error)}):
         return True
     return has_fallback(module, call, is_rare=True)
@@ -98,13 +98,13 @@ def _argument(call: ast.Call, keyword: str, place: int | None = None) -> ast.exp
 
 
 def _is_of_node(file: RclpyFile, value: ast.expr) -> bool:
-    """Tell whether an expression is a node, or a method of one."""
+    """Return whether an expression is a node, or a method of one."""
     node = value.value if isinstance(value, ast.Attribute) else value
     return file.owner_of(node) is not None
 
 
 def _runs_on_both(module: PythonModule, call: ast.Call, name: str) -> bool:
-    """Tell whether a call runs on both the target and the source distribution."""
+    """Return whether a call runs on both the target and the source distribution."""
     if is_asked_for(module, call, name):
         return False
     origin = distributions.origin() or distributions.target()

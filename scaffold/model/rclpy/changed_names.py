@@ -71,7 +71,7 @@ def changed_uses(module: PythonModule, changes: Sequence[Change]) -> Iterator[Ch
 
 
 def _is_mentioned(module: PythonModule, name: str) -> bool:
-    """Tell whether a file may use a name; methods of rclpy objects need no import."""
+    """Return whether a file may use a name; methods of rclpy objects need no import."""
     root, word = name.partition(".")[0], name.rpartition(".")[2].rstrip("*")
     return module.mentions(word) and (root == "rclpy" or module.mentions(root))
 
@@ -200,7 +200,7 @@ class _Search:
                 yield f"{class_}.{node.attr}"
 
     def _is_logger(self, node: ast.expr) -> bool:
-        """Tell whether an expression is the logger of any node."""
+        """Return whether an expression is the logger of any node."""
         value = self._file.evaluator.single_value(node)
         match value:
             case ast.Call(func=ast.Attribute(attr="get_logger", value=of), args=[], keywords=[]):
@@ -210,7 +210,7 @@ class _Search:
         return class_of(self._file, node) == _LOGGER
 
     def _is_fallback(self, node: ast.AST, replacement: str) -> bool:
-        """Tell whether an import or name is a fallback for another import or its replacement."""
+        """Return whether an import or name is a fallback for another import or its replacement."""
         is_import = isinstance(node, ast.Import | ast.ImportFrom)
         expected = _OF_IMPORT if is_import else {"AttributeError"}
         child = node
@@ -274,7 +274,7 @@ def _mentions(body: Sequence[ast.stmt], attribute: str) -> bool:
 
 
 def is_asked_for(module: PythonModule, node: ast.AST, name: str, replacement: str = "") -> bool:
-    """Tell whether a node is guarded by conditions on a version or a name.
+    """Return whether a node is guarded by conditions on a version or a name.
 
     Args:
         module: The file.
@@ -297,7 +297,7 @@ def is_asked_for(module: PythonModule, node: ast.AST, name: str, replacement: st
 
 
 def is_tried(module: PythonModule, call: ast.Call, keyword: str) -> bool:
-    """Tell whether code handles the case that a function rejects the arguments of a call.
+    """Return whether code handles the case that a function rejects the arguments of a call.
 
     It catches ``TypeError``, has a fallback, or checks the argument or a version first.
 
@@ -337,7 +337,7 @@ class _Asked(NamedTuple):
     """The last parts of the name and its replacement."""
 
     def is_behind(self, test: ast.expr) -> bool:
-        """Tell whether a condition, directly or through names, tests a version or a word.
+        """Return whether a condition, directly or through names, tests a version or a word.
 
         A version of Python, of ROS or of a package.
         """
@@ -347,7 +347,7 @@ class _Asked(NamedTuple):
         )
 
     def is_for_import(self, test: ast.expr) -> bool:
-        """Tell whether a condition tests whether an import from the package succeeded."""
+        """Return whether a condition tests whether an import from the package succeeded."""
         flags = filter(_is_flag, _CONSTANT.findall(self.module.text(test)))
         return any(map(self._is_of_import, flags))
 
@@ -373,12 +373,12 @@ class _Asked(NamedTuple):
         return False
 
     def _is_of_package(self, holder: ast.expr) -> bool:
-        """Tell whether an expression is a module or a class of the package of the name."""
+        """Return whether an expression is a module or a class of the package of the name."""
         roots = {name.partition(".")[0] for name in self.module.qualified_names(holder)}
         return roots == {self.name.partition(".")[0]}
 
     def _is_of_import(self, flag: str) -> bool:
-        """Tell whether a flag records that an import from the package succeeded."""
+        """Return whether a flag records that an import from the package succeeded."""
         setting = [node for node in self.module.walk(ast.Try) if flag in _assigned(node)]
         return not setting or any(
             item.root == self.name.partition(".")[0]
@@ -389,7 +389,7 @@ class _Asked(NamedTuple):
 
 
 def _is_flag(name: str) -> bool:
-    """Tell whether a constant is named like flags of successful imports."""
+    """Return whether a constant is named like flags of successful imports."""
     return name.endswith("_AVAILABLE") or name.lstrip("_").startswith(("HAS_", "HAVE_"))
 
 

@@ -106,7 +106,7 @@ class Creation:
         return None
 
     def _may_be_of_rclpy(self, func: ast.Attribute) -> bool:
-        """Tell whether a method of an unknown object may be that of an rclpy node."""
+        """Return whether a method of an unknown object may be that of an rclpy node."""
         if not self._file.uses_rclpy:
             return False
         class_ = self._file.evaluator.self_class(func.value)

@@ -144,7 +144,7 @@ class RclpyFile:
         return classes[node]
 
     def is_node_class(self, node: ast.expr) -> bool:
-        """Tell whether an expression is a node class of rclpy, or a factory of one."""
+        """Return whether an expression is a node class of rclpy, or a factory of one."""
         return not NODE_CLASSES.isdisjoint(self.module.qualified_names(node))
 
     def _new_node_class(self, node: ast.ClassDef) -> NodeClass | None:
@@ -209,7 +209,7 @@ class RclpyFile:
         return (file, bindings[0].value) if bindings[0].value is not None else None
 
     def is_own_module(self, module: str) -> bool:
-        """Tell whether a dotted name is another module of the package."""
+        """Return whether a dotted name is another module of the package."""
         return next(self._own.paths_of(module), None) is not None
 
     def owner_of(self, node: ast.expr) -> NodeDefinition | None:
@@ -250,7 +250,7 @@ class RclpyFile:
         )
 
     def defines(self, node: ast.ClassDef, method: str, depth: int = MAX_BASES) -> bool:
-        """Tell whether a class, or a base class in the package, defines a method."""
+        """Return whether a class, or a base class in the package, defines a method."""
         if method in self.module.index.bindings(node):
             return True
         for expression in node.bases if depth else ():
@@ -321,7 +321,7 @@ class RclpyFile:
         return f"{parts[0]}/{kinds[0]}/{parts[-1]}"
 
     def is_conditional(self, node: ast.AST) -> bool:
-        """Tell whether a node is under a condition or in a loop of its function."""
+        """Return whether a node is under a condition or in a loop of its function."""
         for parent in self.module.parents(node):
             if isinstance(parent, ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda):
                 return isinstance(parent, ast.Lambda)

@@ -39,7 +39,7 @@ _OF_NODES = re.compile(
 
 @fact
 def _uses_a_node(package: Package, path: str) -> bool:
-    """Tell whether a file calls methods of nodes."""
+    """Return whether a file calls methods of nodes."""
     return _OF_NODES.search(package.data(path)) is not None and "rospy" not in package.imports(path)
 
 

@@ -32,7 +32,7 @@ def log_calls(file: RclpyFile) -> Iterator[ast.Call]:
 
 
 def is_of_rclpy(file: RclpyFile, method: ast.expr) -> bool:
-    """Tell whether ``get_logger`` is that of rclpy, not one defined by a class of the file.
+    """Return whether ``get_logger`` is that of rclpy, not one defined by a class of the file.
 
     Args:
         file: The file.

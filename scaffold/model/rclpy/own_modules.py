@@ -20,7 +20,7 @@ class Modules(Protocol):
     """A source of the other modules of a package, such as a ``Package``."""
 
     def has(self, path: str) -> bool:
-        """Tell whether a file exists."""
+        """Return whether a file exists."""
 
     def module(self, path: str) -> PythonModule:
         """Return a parsed Python file; raises ViewError."""
@@ -50,7 +50,7 @@ class OwnModules:
                 yield path
 
     def is_of_neighbor(self, module: str) -> bool:
-        """Tell whether a dotted name is a module of another package of the workspace."""
+        """Return whether a dotted name is a module of another package of the workspace."""
         root = module.partition(".")[0]
         if not isinstance(self._modules, Package) or root == self._modules.name:
             return False

@@ -13,7 +13,7 @@ _ENDS = frozenset({"shutdown", "try_shutdown"})
 
 
 def only_while_stopping(module: PythonModule, node: ast.AST) -> bool:
-    """Tell whether code comes after ``rclpy.spin()`` in a program that runs until it is stopped.
+    """Return whether code comes after ``rclpy.spin()`` in a program that runs until it is stopped.
 
     A program that shuts rclpy down itself, in a callback, continues to work there; one whose
     constructor does so fails.

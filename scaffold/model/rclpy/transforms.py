@@ -72,5 +72,5 @@ def buffers_in(file: RclpyFile) -> Iterator[ast.Call]:
 
 
 def is_spun_by_listener(file: RclpyFile) -> bool:
-    """Tell whether a listener of the file has its own thread, or may have one."""
+    """Return whether a listener of the file has its own thread, or may have one."""
     return file.module.mentions("spin_thread")

@@ -68,7 +68,7 @@ class _Unmentioned(NamedTuple):
 
 
 def is_in_uncalled_function(package: Package, path: str, line: int) -> bool:
-    """Tell whether a line is in an uncalled function, unused class, or unused main guard.
+    """Return whether a line is in an uncalled function, unused class, or unused main guard.
 
     Those of programs, launch files and tests count. A library is used from elsewhere, but for what
     helps the programs of its package, or launch files; a class may be called by an unknown base.
@@ -153,7 +153,7 @@ def _is_launch_file(path: str) -> bool:
 
 
 def _looks_up_names(module: PythonModule) -> bool:
-    """Tell whether a file may look up a function or class by a name computed at run time."""
+    """Return whether a file may look up a function or class by a name computed at run time."""
     if not module.mentions(*_LOOKUPS):
         return False
     text = _TEST_OF_NAME.sub("", module.source.text)
@@ -161,7 +161,7 @@ def _looks_up_names(module: PythonModule) -> bool:
 
 
 def _may_be_computed(module: PythonModule, function: FunctionNode) -> bool:
-    """Tell whether getattr with a computed name may return a method, or a function of a module."""
+    """Return whether getattr with a computed name may return a method or a module's function."""
     if module.enclosing_class(function) is None and not module.mentions(*_MODULES):
         return False
     return _COMPUTED.search(module.source.text) is not None
@@ -200,13 +200,13 @@ def _has_known_bases(module: PythonModule, class_: ast.ClassDef) -> bool:
 
 
 def _is_startable(module: PythonModule) -> bool:
-    """Tell whether a module is a launch file, or may be a program."""
+    """Return whether a module is a launch file, or may be a program."""
     is_program = module.has_main_guard or "main" in module.functions
     return is_program or _is_launch_file(module.path)
 
 
 def is_unused_module(package: Package, path: str) -> bool:
-    """Tell whether no file mentions a module next to programs, and it is no program itself.
+    """Return whether no file mentions a module next to programs, and it is no program itself.
 
     Searches the text of files, without parsing them. A module with ``main()`` or a main guard may
     be started as a file, unless it is installed in a Python package without an entry point, where
@@ -236,7 +236,7 @@ def is_unused_module(package: Package, path: str) -> bool:
 
 
 def _is_only_importable(package: Package, path: str) -> bool:
-    """Tell whether setup.py installs a module in a Python package alone, not as a program."""
+    """Return whether setup.py installs a module in a Python package alone, not as a program."""
     if package.build_type != "ament_python" or not is_in_python_package(package, path):
         return False
     data = installed_data(package)
@@ -244,7 +244,7 @@ def _is_only_importable(package: Package, path: str) -> bool:
 
 
 def _helps_programs(package: Package, module: PythonModule) -> bool:
-    """Tell whether a module is there for launch files, or for programs of its own package."""
+    """Return whether a module is there for launch files, or for programs of its own package."""
     return not _LAUNCH.isdisjoint(module.imports_by_root) or _has_programs(package)
 
 
@@ -287,7 +287,7 @@ def _outermost_function(module: PythonModule, line: int) -> FunctionNode | None:
 
 
 def _is_decorated(module: PythonModule, function: FunctionNode) -> bool:
-    """Tell whether a function may be reached other than by its name; always so for a property.
+    """Return whether a function may be reached other than by its name; always so for a property.
 
     Tests ask for a fixture of their file by its name.
     """
@@ -298,7 +298,7 @@ def _is_decorated(module: PythonModule, function: FunctionNode) -> bool:
 
 
 def _is_called_by_name(module: PythonModule, function: FunctionNode) -> bool:
-    """Tell whether a function is not called implicitly by Python, rclpy, or an unknown base."""
+    """Return whether a function is not called implicitly by Python, rclpy, or an unknown base."""
     if function.name in _ENTRIES | _OF_FILES or function.name.startswith("__"):
         return False
     class_ = module.enclosing_class(function)
@@ -312,7 +312,7 @@ def _is_called_by_name(module: PythonModule, function: FunctionNode) -> bool:
 
 
 def _is_file_named_in(package: Package, module_path: str, stem: str) -> bool:
-    """Tell whether another file of a package may import or start a module."""
+    """Return whether another file of a package may import or start a module."""
     for path in package.files:
         if not path.endswith(_NAMING) or path == module_path:
             continue
@@ -329,7 +329,7 @@ def _is_file_named_in(package: Package, module_path: str, stem: str) -> bool:
 def _is_named_in(
     package: Package, module_path: str, names: tuple[str, ...], endings: tuple[str, ...]
 ) -> bool:
-    """Tell whether another module of a package mentions all of some names."""
+    """Return whether another module of a package mentions all of some names."""
     words = [name.encode("utf-8", "surrogateescape") for name in names]
     for path in package.files:
         if not path.endswith(endings) or path == module_path:
@@ -358,7 +358,7 @@ def _cpp(package: Package, path: str) -> bytes:
 
 
 def _has_names(text: str, names: tuple[str, ...]) -> bool:
-    """Tell whether a text has all of some names, and the last one not as its own function."""
+    """Return whether a text has all of some names, and the last one not as its own function."""
     own = len(re.findall(rf"\bdef\s+{re.escape(names[-1])}\b", text))
     return _named_in(text, *names) > 0 and _named_in(text, names[-1]) > own
 

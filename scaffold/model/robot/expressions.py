@@ -53,7 +53,7 @@ def tokens(text: str) -> Iterator[str]:
 
 
 def is_known(value: object) -> bool:
-    """Tell whether a value has no unknown parts."""
+    """Return whether a value has no unknown parts."""
     return not (isinstance(value, str) and UNKNOWN_MARK in value)
 
 

@@ -58,7 +58,7 @@ def robot_paths(package: Package) -> list[str]:
 
 
 def _is_of_browser(package: Package, path: str) -> bool:
-    """Tell whether a file is in a directory built by npm."""
+    """Return whether a file is in a directory built by npm."""
     parts = path.split("/")[:-1]
     return any(
         package.has("/".join((*parts[:depth], "package.json"))) for depth in range(len(parts) + 1)
@@ -95,7 +95,7 @@ def robot_file(package: Package, path: str) -> RobotFile | None:
 
 
 def _is_read_by_urdfdom(package: Package, path: str, error: ParseError) -> bool:
-    """Tell whether an error is outside of the top elements of a file that xacro does not read.
+    """Return whether an error is outside of the top elements of a file that xacro does not read.
 
     urdfdom reads the first ``<robot>`` at the top (tinyxml2) and ignores the rest; a surplus
     end tag ends the document. xacro rejects both.

@@ -90,12 +90,12 @@ def _robots(package: Package) -> Robots:
 
 
 def is_launched(package: Package, path: str) -> bool:
-    """Tell whether a launch file of a package mentions a file."""
+    """Return whether a launch file of a package mentions a file."""
     return _mentioned_by_launch(package, path.rpartition("/")[2])
 
 
 def is_argument_given(package: Package, name: str) -> bool:
-    """Tell whether a launch file of a package, or its configuration, may give xacro an argument."""
+    """Return whether a launch file of a package, or its configuration, may pass an argument."""
     return _mentioned_by_launch(package, name, (".yaml", ".yml"))
 
 
@@ -113,7 +113,7 @@ def _mentioned_by_launch(package: Package, word: str, others: tuple[str, ...] = 
 
 
 def _is_whole(expansion: Expansion) -> bool:
-    """Tell whether a file describes a robot by itself."""
+    """Return whether a file describes a robot by itself."""
     root = expansion.root
     if not expansion.file.is_xacro:
         return True
@@ -146,7 +146,7 @@ def named_files(package: Package) -> Iterator[NamedFile]:
 
 
 def _is_conditional(element: Element) -> bool:
-    """Tell whether an element is inside of a condition."""
+    """Return whether an element is inside of a condition."""
     above = element.parent
     while above is not None and above.tag not in _CONDITIONS:
         above = above.parent

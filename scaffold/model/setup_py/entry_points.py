@@ -112,7 +112,7 @@ def _is_dotted(name: str) -> bool:
 
 
 def _is_importable(module: str) -> bool:
-    """Tell whether an entry point can have a module, which is imported by a string.
+    """Return whether an entry point can have a module, which is imported by a string.
 
     Unlike in an ``import`` statement, parts of the name may start with a digit.
     """

@@ -45,7 +45,7 @@ class FindPackages(NamedTuple):
     location: Location
 
     def leaves_out(self, name: str) -> bool | Unknown:
-        """Tell whether the patterns exclude a package of this name."""
+        """Return whether the patterns exclude a package of this name."""
         if isinstance(self.include, Unknown) or isinstance(self.exclude, Unknown):
             return UNKNOWN
         is_taken = any(fnmatchcase(name, pattern) for pattern in self.include)

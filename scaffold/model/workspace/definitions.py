@@ -56,7 +56,7 @@ def definitions_for(
 
 
 def _is_of_another(prefix: str) -> bool:
-    """Tell whether a prefix is an installation of a distribution other than the target."""
+    """Return whether a prefix is an installation of a distribution other than the target."""
     name = os.path.basename(prefix.rstrip(os.sep))
     return name in distributions.NAMES and name != distributions.target().name
 

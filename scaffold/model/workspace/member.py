@@ -28,10 +28,10 @@ class Member(Protocol):
         """CMakeLists.txt; raises ViewError."""
 
     def has(self, path: str) -> bool:
-        """Tell whether a file exists."""
+        """Return whether a file exists."""
 
     def has_directory(self, path: str) -> bool:
-        """Tell whether a directory exists."""
+        """Return whether a directory exists."""
 
     def source(self, path: str) -> Source:
         """Return the decoded text of a file; raises ViewError."""

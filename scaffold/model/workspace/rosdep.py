@@ -37,7 +37,7 @@ class RosdepKeys:
         self._all: frozenset[str] | None = None
 
     def resolves(self, key: str) -> bool | None:
-        """Tell whether a key has a rule for any system; ``None`` if a source is damaged."""
+        """Return whether a key has a rule for any system; ``None`` if a source is damaged."""
         if key not in self._results:
             if any(_has_key(source, key) for source in self._sources):
                 self._results[key] = True
@@ -96,7 +96,7 @@ def _file_of(url: str) -> str:
 
 
 def _has_key(source: bytes, key: str) -> bool:
-    """Tell whether the bytes contain a key: a memoized string before a dictionary.
+    """Return whether the bytes contain a key: a memoized string before a dictionary.
 
     In protocol 2, which rosdep writes: ``X``, the length, the string, ``q`` or ``r`` with
     the memo index, ``}``.

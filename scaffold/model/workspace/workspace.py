@@ -138,7 +138,7 @@ class WorkspaceView(Generic[AnyMember]):
         self.__dict__.pop("interfaces", None)
 
     def is_hidden(self, package: AnyMember) -> bool:
-        """Tell whether another package of the workspace with the same name takes precedence."""
+        """Return whether another package of the workspace with the same name takes precedence."""
         return self._workspace.get(package.name) not in {None, package}
 
     @property

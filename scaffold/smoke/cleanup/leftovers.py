@@ -103,7 +103,7 @@ def remove_scratch(scratch: Path, mark: str) -> bool:
 
 
 def _is_scratch(path: Path, mark: str) -> bool:
-    """Tell whether a directory was created by the run with a mark, and by this user."""
+    """Return whether a directory was created by the run with a mark, and by this user."""
     if path.name != _PREFIX + mark or not path.is_absolute():
         return False
     try:

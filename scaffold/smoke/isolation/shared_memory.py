@@ -28,7 +28,7 @@ def segments() -> set[str]:
 
 
 def is_of_middleware(name: str) -> bool:
-    """Tell whether a segment is one of Fast DDS, several of which processes share."""
+    """Return whether a segment is one of Fast DDS, several of which processes share."""
     return _NAME.fullmatch(name) is not None
 
 

@@ -28,12 +28,12 @@ class Ending:
 
     @property
     def was_ignored(self) -> bool:
-        """Tell whether the first signal did not end it."""
+        """Return whether the first signal did not end it."""
         return len(self.sent) > 1
 
     @property
     def was_missed(self) -> bool:
-        """Tell whether it ignored a signal once, and then obeyed."""
+        """Return whether it ignored a signal once, and then obeyed."""
         return self.sent == (self.asked, self.asked)
 
     @property

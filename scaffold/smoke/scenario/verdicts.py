@@ -116,7 +116,7 @@ def _of_call(call: Call, answer: Answer | None) -> Iterator[Problem]:
 
 
 def _matches(expected: object, seen: object) -> bool:
-    """Tell whether a value is as expected; other fields are ignored."""
+    """Return whether a value is as expected; other fields are ignored."""
     if isinstance(expected, Mapping):
         return isinstance(seen, Mapping) and all(
             name in seen and _matches(value, seen[name]) for name, value in expected.items()

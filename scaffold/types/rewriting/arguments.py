@@ -223,7 +223,7 @@ def _functions(text: str) -> Iterator[_Function]:
 
 
 def _is_unique(text: str, function: _Function) -> bool:
-    """Tell whether the name of a function is unique."""
+    """Return whether the name of a function is unique."""
     name = function.called.removeprefix("self.")
     class_ = name.removesuffix("(")
     return sum(map(text.count, (f"def {name}", f"class {name}", f"class {class_}:"))) == 1

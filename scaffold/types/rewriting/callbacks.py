@@ -286,7 +286,7 @@ def _synchronized(segment: str) -> Iterator[tuple[str, tuple[str, ...]]]:
 
 
 def _is_of_goal(segment: str, end: int) -> bool:
-    """Tell whether the future before a place is that of ``send_goal_async``."""
+    """Return whether the future before a place is that of ``send_goal_async``."""
     if "def send_goal_async" in segment:
         return False
     before = segment[max(0, end - _MAX_LENGTH) : end].removesuffix(".").rstrip()

@@ -187,7 +187,7 @@ def _addition(text: str, start: int, end: int) -> tuple[int, str] | None:
 
 
 def _are_parameters(text: str, place: int, key: str, value: str) -> bool:
-    """Tell whether key and value are parameters of the function, so that any type is possible."""
+    """Return whether key and value are parameters of the function, so that any type is possible."""
     if not (key.isidentifier() and value.isidentifier()):
         return False
     signatures = _SIGNATURE.findall(text, 0, place)

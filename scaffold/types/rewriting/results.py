@@ -101,7 +101,7 @@ def returned(parameters: str, body: str) -> list[ast.expr | None]:
 
 
 def _has_other_scopes(body: str) -> bool:
-    """Tell whether a function is a generator, or has nested functions or classes."""
+    """Return whether a function is a generator, or has nested functions or classes."""
     if not any(word in body for word in ("def", "class", "yield")):
         return False
     return _OTHER_SCOPES.search(body) is not None

@@ -144,7 +144,7 @@ def _decorator(text: str, start: int) -> str | None:
 
 
 def _is_only_one(text: str, function: re.Match[str], count: Mapping[str, int]) -> bool:
-    """Tell whether no other class in the file has a method of this name."""
+    """Return whether no other class in the file has a method of this name."""
     name = function["name"]
     if not function["indent"] or count[name] == 1:
         return True
@@ -199,7 +199,7 @@ def _is_within(place: int, stretches: Sequence[tuple[int, int]]) -> bool:
 
 
 def _is_plain(value: str) -> bool:
-    """Tell whether an expression can be moved to another line, and has no type of its own."""
+    """Return whether an expression can be moved to another line, and has no type of its own."""
     if not value or _UNSUITED.search(value):
         return False
     return _ITSELF.search(value) is None or _CALL.match(value) is not None
@@ -247,7 +247,7 @@ class _Attributes:
         return values
 
     def is_of_one(self, name: str) -> bool:
-        """Tell whether all values of an attribute are created in the same way."""
+        """Return whether all values of an attribute are created in the same way."""
         values = self._values.get(name, set()) - {"None"}
         return len(values) <= 1 and "" not in values
 
@@ -278,7 +278,7 @@ def _callee(value: str) -> str:
 
 
 def _is_independent(value: str, names: set[str]) -> bool:
-    """Tell whether the type of an expression does not depend on some variables."""
+    """Return whether the type of an expression does not depend on some variables."""
     if names.isdisjoint(_WORD.findall(value)):
         return True
     called = _CALL.match(value)

@@ -49,7 +49,7 @@ def statement_around(text: str, start: int, end: int) -> int:
 
 
 def _is_in_docstring(text: str, at: int) -> bool:
-    """Tell whether a position is in a string of several lines, such as a usage example."""
+    """Return whether a position is in a string of several lines, such as a usage example."""
     return any(start < at < end for start, end in _docstrings(text))
 
 
@@ -121,13 +121,13 @@ def mentions(text: str, name: str, start: int = 0, end: int | None = None) -> It
 
 
 def _is_closed(before: str, after: str) -> bool:
-    """Tell whether the brackets that are open before a call are closed on its line."""
+    """Return whether the brackets that are open before a call are closed on its line."""
     opened = sum(map(before.count, "([{")) - sum(map(before.count, ")]}"))
     return opened <= 0 or opened <= sum(map(after.count, ")]}"))
 
 
 def _ends_statement(text: str, line: int) -> bool:
-    """Tell whether the statement before a line does not continue on it."""
+    """Return whether the statement before a line does not continue on it."""
     for _ in range(_LINES_BACK):
         if not line:
             return True

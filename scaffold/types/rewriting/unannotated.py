@@ -123,7 +123,7 @@ def _referred_to(index: ScopeIndex) -> set[str]:
 
 
 def _has_matching_factory(variable: ast.AnnAssign) -> bool:
-    """Tell whether the default of a dataclass field is created by the annotated class."""
+    """Return whether the default of a dataclass field is created by the annotated class."""
     match variable.value:
         case ast.Call(keywords=[ast.keyword(arg="default_factory", value=factory)]):
             return ast.unparse(factory) == ast.unparse(variable.annotation)
@@ -131,7 +131,7 @@ def _has_matching_factory(variable: ast.AnnAssign) -> bool:
 
 
 def _is_set_by_constructor(index: ScopeIndex, variable: ast.AnnAssign) -> bool:
-    """Tell whether a variable is a field that the constructor of a dataclass or tuple sets."""
+    """Return whether a variable is a field that the constructor of a dataclass or tuple sets."""
     class_ = index.parent(variable)
     if variable.value is not None or not isinstance(class_, ast.ClassDef):
         return False
@@ -158,7 +158,7 @@ def _constructor_arguments(
 
 
 def _is_other(value: ast.expr, annotation: ast.expr) -> bool:
-    """Tell whether a constant is not of the annotated class."""
+    """Return whether a constant is not of the annotated class."""
     match value, annotation:
         case ast.Constant(value=constant), ast.Name(id=name) if constant is not None:
             return name not in _ACCEPTING.get(type(constant), {type(constant).__name__})
@@ -166,7 +166,7 @@ def _is_other(value: ast.expr, annotation: ast.expr) -> bool:
 
 
 def _is_of_base(argument: ast.arg) -> bool:
-    """Tell whether the base class calls a method with an argument whose type this tool added.
+    """Return whether the base class calls a method with an argument whose type this tool added.
 
     No code in the file refers to such a method.
     """

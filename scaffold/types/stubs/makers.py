@@ -45,7 +45,7 @@ def generic_heads(text: str) -> Mapping[int, list[str]]:
 
 
 def _has_called_parameter(text: str) -> bool:
-    """Tell whether any parameter is called: a quick check that most files fail."""
+    """Return whether any parameter is called: a quick check that most files fail."""
     names = {name for head in _HEAD.findall(text) for name in _PARAMETERS.findall(head)}
     return not names.isdisjoint(_MAKING.findall(text))
 
@@ -56,7 +56,7 @@ def definitions() -> str:
 
 
 def _returns_call_of(name: str, function: re.Match[str], body: str) -> bool:
-    """Tell whether all values that a function returns are results of calling a parameter."""
+    """Return whether all values that a function returns are results of calling a parameter."""
     if re.search(rf"(?<![\w.]){name}[ \t]*(?::[^=\n]*)?=(?!=)|\b(?:for|as)[ \t]+{name}\b", body):
         return False
     values = results.returned(function["parameters"], body)

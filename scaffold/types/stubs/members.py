@@ -45,12 +45,12 @@ def own_members(package: Package, name: str) -> frozenset[str]:
 
 
 def has_call(package: Package, marked: str) -> bool:
-    """Tell whether instances of a class are callable."""
+    """Return whether instances of a class are callable."""
     return "__call__" in _all_names(package, marked)
 
 
 def is_kind_of(package: Package, marked: str, wanted: str) -> bool:
-    """Tell whether a class is the same as another one or derives from it."""
+    """Return whether a class is the same as another one or derives from it."""
     return marked == wanted or any(
         wanted in _resolved(tree, module, base)
         for node, module, tree in _with_bases(package, marked)

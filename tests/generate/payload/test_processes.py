@@ -69,7 +69,7 @@ def source(line: str, head: str, lines: Sequence[str], result: str) -> str:
 def run(
     received: Payload, published: Payload, process: Process, constant: str, lines: Sequence[str]
 ) -> bool:
-    """Tell whether all published messages pass the check of the generated test."""
+    """Return whether all published messages pass the check of the generated test."""
     names: dict[str, Any] = {"pytest": pytest}
     imports = [*received.imports, *published.imports, "import math"]
     exec("\n".join([*imports, *received.constants, *published.constants]), names)

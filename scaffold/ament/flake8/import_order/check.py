@@ -77,7 +77,7 @@ class _Style:
         return sorted(names, key=None if self.name in {"pycharm", "cryptography"} else fold)
 
     def is_same_section(self, before: Statement, statement: Statement) -> bool:
-        """Tell whether two statements belong together without a blank line."""
+        """Return whether two statements belong together without a blank line."""
         groups = {before.group, statement.group}
         if self.name == "cryptography" and statement.group in {THIRD_PARTY, OWN}:
             return before.root == statement.root
@@ -86,7 +86,7 @@ class _Style:
         return len(groups) == 1 or groups == {OWN, RELATIVE}
 
     def may_be_split(self, before: Statement, statement: Statement) -> bool:
-        """Tell whether a blank line is allowed within a section."""
+        """Return whether a blank line is allowed within a section."""
         return self.name == "edited" and statement.is_from and not before.is_from
 
 

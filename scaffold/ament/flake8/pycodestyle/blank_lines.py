@@ -106,7 +106,7 @@ class _State:
         return result
 
     def _is_one_liner(self, logical: LogicalLine) -> bool:
-        """Tell whether a definition is a one-liner, which needs no blank lines before it."""
+        """Return whether a definition is a one-liner, which needs no blank lines before it."""
         lines, indent, at = self.lines, logical.indent, logical.end_row - 1
         if at >= 1 and expand_indent(lines[at - 1]) > indent:
             return False

@@ -55,7 +55,7 @@ def _needs_blank(word: str, following: str) -> bool:
 
 
 def _has_type_parameters(logical: LogicalLine) -> bool:
-    """Tell whether defaults in square brackets are those of type parameters (PEP 696)."""
+    """Return whether defaults in square brackets are those of type parameters (PEP 696)."""
     return (
         linters.of_target().since("pycodestyle", 2, 12, 1)
         and re.match(r"(async\s+def|def|class|type)\s+\w+\[", logical.text) is not None

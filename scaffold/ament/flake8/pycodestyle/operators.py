@@ -135,7 +135,7 @@ class _Scan:
             braces.pop()
 
     def _is_tight(self, token: Token) -> bool:
-        """Tell whether a token follows a comma, semicolon or colon without a space."""
+        """Return whether a token follows a comma, semicolon or colon without a space."""
         row, column = token.end
         following = self.logical.lines[row - 1][column : column + 1]
         if following in (" ", "\t", "\xa0") or following in "\r\n":
@@ -191,7 +191,7 @@ class _Scan:
 
 
 def _is_operand(token: Token) -> bool:
-    """Tell whether the token is the left operand of an operator after it."""
+    """Return whether the token is the left operand of an operator after it."""
     if token.type == OP:
         return token.string in "}])"
     return token.string not in _KEYWORDS and token.string not in _SOFT_KEYWORDS

@@ -103,7 +103,7 @@ def _too_long(text: PythonText, most: int) -> Iterator[Finding]:
 
 
 def _is_excused(text: PythonText, number: int, line: str, most: int) -> bool:
-    """Tell whether the line is one long word, such as a URL, in a comment or a string."""
+    """Return whether the line is one long word, such as a URL, in a comment or a string."""
     words = line.split()
     if len(line) - len(words[-1]) >= most - 7:
         return False

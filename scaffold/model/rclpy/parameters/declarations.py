@@ -164,7 +164,7 @@ class Declarations:
         return constants
 
     def _is_changed(self, dictionary: ast.expr) -> bool:
-        """Tell whether entries are added to a dictionary, or removed."""
+        """Return whether entries are added to a dictionary, or removed."""
         module = self._module
         text = module.text(dictionary)
         return module.mentions(*(f"{text}.{name}(" for name in _CHANGING)) or any(

@@ -41,7 +41,7 @@ class Range(NamedTuple):
         return f"{self.low} to {self.high}{steps}"
 
     def allows(self, value: float) -> bool:
-        """Tell whether rclpy accepts a number; the ends are always valid."""
+        """Return whether rclpy accepts a number; the ends are always valid."""
         low, high = min(self.low, self.high), max(self.low, self.high)
         if self.type == "integer":
             on_step = not self.step or (value - low) % self.step == 0
@@ -198,7 +198,7 @@ def _record_use(
 
 
 def _leaves_unchanged(call: ast.Call) -> bool:
-    """Tell whether a call does not change the fields of its arguments."""
+    """Return whether a call does not change the fields of its arguments."""
     name = call.func.attr if isinstance(call.func, ast.Attribute) else ""
     name = call.func.id if isinstance(call.func, ast.Name) else name
     return name in _KEEPING or name[:1].isupper()

@@ -38,7 +38,7 @@ def divisors(file: RclpyFile) -> frozenset[str]:
 
 
 def _is_guarded(file: RclpyFile, node: ast.BinOp) -> bool:
-    """Tell whether a condition around a division tests the divisor."""
+    """Return whether a condition around a division tests the divisor."""
     text = file.module.text(node.right)
     tests = [
         parent.test

@@ -72,7 +72,7 @@ def _indexed_parameter(
 
 
 def is_of_node(file: RclpyFile, created: Entity) -> bool:
-    """Tell whether a method is called on a node, as known or by the name of the object."""
+    """Return whether a method is called on a node, as known or by the name of the object."""
     if created.owner is not None:
         return True
     func = file.method_of(created.call)
@@ -83,7 +83,7 @@ def is_of_node(file: RclpyFile, created: Entity) -> bool:
 
 
 def is_parameter_list(file: RclpyFile, node: ast.expr) -> bool:
-    """Tell whether an expression is certainly a list of rclpy parameters."""
+    """Return whether an expression is certainly a list of rclpy parameters."""
     made = file.evaluator.single_value(node)
     match made:
         case ast.Call(func=ast.Attribute(attr="get_parameters", value=receiver)):
@@ -93,7 +93,7 @@ def is_parameter_list(file: RclpyFile, node: ast.expr) -> bool:
 
 
 def is_listed_parameter(file: RclpyFile, node: ast.expr) -> bool:
-    """Tell whether an expression is an item of such a list: in a loop, or by index."""
+    """Return whether an expression is an item of such a list: in a loop, or by index."""
     if isinstance(node, ast.Subscript):
         is_number = type(file.evaluator.evaluate(node.slice)) is int
         return is_number and is_parameter_list(file, node.value)

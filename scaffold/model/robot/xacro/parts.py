@@ -88,7 +88,7 @@ class NamedFile(NamedTuple):
 
 
 def is_for_others(part: Part | None) -> bool:
-    """Tell whether an element or a parent is for readers other than urdfdom."""
+    """Return whether an element or a parent is for readers other than urdfdom."""
     while part is not None and part.tag not in NOT_URDF:
         part = part.holder
     return part is not None
