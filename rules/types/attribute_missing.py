@@ -66,6 +66,26 @@ _STATES = (
     "        for state in self.states.values():\n"
     "            print(state.{})\n"
 ).replace("].{}", "].pose")
+_HUB = (
+    "from rclpy.node import Node\nfrom sensor_msgs.msg import Imu, Range\n\n\n"
+    "class Hub(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('hub')\n"
+    "        table = {{'imu': (Imu, self.on_imu)}}\n"
+    "        self.kept = [\n"
+    "            self.create_subscription(kind, topic, callback, 10)\n"
+    "            for topic, (kind, callback) in table.items()]\n"
+    "        for number, row in enumerate([(Imu, 'tilt', self.on_tilt)]):\n"
+    "            self.create_subscription(row[0], row[1], row[2], number)\n"
+    "        for row in [{{'type': Range, 'callback': self.on_range}}]:\n"
+    "            self.create_subscription(row['type'], 'range', row['callback'], 10)\n"
+    "        for kind, name in [(Range, 'on_sonar')]:\n"
+    "            self.create_subscription(kind, 'sonar', getattr(self, name), 10)\n\n"
+    "    def on_imu(self, msg):\n        print(msg.{})\n\n"
+    "    def on_tilt(self, msg):\n        print(msg.{})\n\n"
+    "    def on_range(self, msg):\n        print(msg.{})\n\n"
+    "    def on_sonar(self, msg):\n        print(msg.{})\n"
+)
 _HOMING = (
     "from rclpy.node import Node\nfrom std_srvs.srv import Trigger\n\n\n"
     "class Homing(Node):\n"
@@ -678,6 +698,18 @@ class AttributeMissing(TypeRule):
                 + "\n    def __new__(cls):\n        return cls.KINDS['wheels']()\n",
                 "rover/drive.py": _DRIVE.format("restart"),
             },
+        ),
+        Example(
+            "fields of messages that callbacks in tables get",
+            {"hub.py": _HUB.format("linear_acceleration", "header", "range", "range")},
+        ),
+        Example(
+            "unknown fields of messages that callbacks in tables get",
+            {"hub.py": _HUB.format("gyro", "euler", "meters", "data")},
+            "20:15: sensor_msgs.msg.Imu has no 'gyro': AttributeError",
+            "23:15: sensor_msgs.msg.Imu has no 'euler': AttributeError",
+            "26:15: sensor_msgs.msg.Range has no 'meters': AttributeError",
+            "29:15: sensor_msgs.msg.Range has no 'data': AttributeError",
         ),
         Example(
             "unknown field of a message",

@@ -48,6 +48,25 @@ _TABLE = (
     "        for topic, callback in [('a', self.hear), ('b', self.log)]:\n"
     "            self.create_subscription(String, topic, callback, 10)\n\n"
 )
+_ROWS = (
+    "from rclpy.node import Node\nfrom std_msgs.msg import String\n\n\n"
+    "class Listener(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('listener')\n"
+    "        table = {{'a': (String, self.log), 'b': (String, self.hear)}}\n"
+    "        self.subscriptions_ = [\n"
+    "            self.create_subscription(kind, topic, callback, 10)\n"
+    "            for topic, (kind, callback) in table.items()]\n"
+    "        for row in [(String, 'c', self.end)]:\n"
+    "            self.create_subscription(row[0], row[1], row[2], 10)\n"
+    "        rows = [{{'topic': 'd', 'callback': self.stop}}]\n"
+    "        for number, row in enumerate(rows):\n"
+    "            self.create_subscription(String, row['topic'], row['callback'], number)\n\n"
+    "    def log(self, message):\n        pass\n\n"
+    "    def hear(self{0}):\n        pass\n\n"
+    "    def end(self{0}):\n        pass\n\n"
+    "    def stop(self{0}):\n        pass\n"
+)
 _ASKING = (
     "from rclpy.node import Node\nfrom std_srvs.srv import Trigger\n\n\n"
     "class Asking(Node):\n"
@@ -198,6 +217,20 @@ class CallbackArity(RclpyRule):
             "8:53: callback 'hear' takes 0 arguments, but a subscription passes the message: "
             "RuntimeError",
             "10:39: callback 'hear' takes 0 arguments, but a subscription passes the message: "
+            "RuntimeError",
+        ),
+        Example(
+            "rows of tables, by name, index and key",
+            {"listener.py": _ROWS.format(", message")},
+        ),
+        Example(
+            "rows of tables, by name, index and key, without a parameter",
+            {"listener.py": _ROWS.format("")},
+            "8:57: callback 'hear' takes 0 arguments, but a subscription passes the message: "
+            "RuntimeError",
+            "12:35: callback 'end' takes 0 arguments, but a subscription passes the message: "
+            "RuntimeError",
+            "14:44: callback 'stop' takes 0 arguments, but a subscription passes the message: "
             "RuntimeError",
         ),
         Example("the message", {"listener.py": _NODE.format(", message")}),

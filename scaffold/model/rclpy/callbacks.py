@@ -140,8 +140,11 @@ def alternatives(file: RclpyFile, callback: Callback) -> Sequence[Callback]:
 
 def _chosen_from(file: RclpyFile, node: ast.AST, depth: int = 0) -> Sequence[ast.expr]:
     """Return the alternatives of an expression; empty if unknown."""
-    if isinstance(node, ast.IfExp):
-        return [node.body, node.orelse]
+    match node:
+        case ast.IfExp(body=body, orelse=orelse):
+            return [body, orelse]
+        case ast.Subscript(value=ast.Name() as row, slice=ast.Constant(value=key)):
+            return entries(_chosen_from(file, row, depth), key)
     lookup = file.module.index.lookup(node.id, node) if isinstance(node, ast.Name) else None
     result: list[ast.expr] = []
     for binding in lookup[1] if lookup is not None and not depth else ():
@@ -154,21 +157,50 @@ def _chosen_from(file: RclpyFile, node: ast.AST, depth: int = 0) -> Sequence[ast
 
 def _column(file: RclpyFile, target: ast.AST) -> Sequence[ast.expr]:
     """Return the values of a loop variable in each row of a table."""
+    places: list[int] = []
     parent = file.module.parent(target)
-    at = (
-        parent.elts.index(target) if isinstance(parent, ast.Tuple) and target in parent.elts else -1
-    )
-    loop = file.module.parent(parent) if at >= 0 and parent is not None else parent
-    if not isinstance(loop, ast.For):
+    while isinstance(parent, ast.Tuple) and target in parent.elts:
+        places.insert(0, parent.elts.index(target))
+        target, parent = parent, file.module.parent(parent)
+    if not isinstance(parent, ast.For | ast.comprehension) or parent.target is not target:
         return ()
-    match loop.iter:
-        case ast.Call(func=ast.Attribute(value=table, attr="items" | "values" as part), args=[]):
-            values = file.evaluator.single_value(table) if part == "values" or at == 1 else None
+    iterated = parent.iter
+    match iterated, places:
+        case ast.Call(func=ast.Name(id="enumerate"), args=[table, *_]), [1, *places]:
+            iterated = table
+        case ast.Call(func=ast.Attribute(attr="items")), [0, *_]:
+            return ()
+        case ast.Call(func=ast.Attribute(attr="items")), [1, *places]:
+            pass
+    rows = _rows(file, iterated)
+    for place in places:
+        rows = entries(rows, place)
+    return rows
+
+
+def _rows(file: RclpyFile, iterated: ast.expr) -> Sequence[ast.expr]:
+    """Return the rows of a table, of a dictionary only its values."""
+    match iterated:
+        case ast.Call(func=ast.Attribute(value=table, attr="items" | "values"), args=[]):
+            values = file.evaluator.single_value(table)
             return values.values if isinstance(values, ast.Dict) else ()
-    rows = [item.node for item in file.evaluator.elements(loop.iter).items]
-    if at < 0:
-        return rows
-    return [row.elts[at] for row in rows if isinstance(row, ast.Tuple) and at < len(row.elts)]
+    return [item.node for item in file.evaluator.elements(iterated).items]
+
+
+def entries(rows: Sequence[ast.expr], key: object) -> Sequence[ast.expr]:
+    """Return the entry with an index or a key of each row that is a literal and has it."""
+    result: list[ast.expr] = []
+    for row in rows:
+        match row:
+            case ast.Tuple(elts=values) | ast.List(elts=values) if isinstance(key, int):
+                result += values[key : key + 1] if key >= 0 else ()
+            case ast.Dict(keys=keys, values=values):
+                result += [
+                    value
+                    for name, value in zip(keys, values, strict=True)
+                    if isinstance(name, ast.Constant) and name.value == key
+                ]
+    return result
 
 
 def numbers_taken(callback: Callback) -> range | None:

@@ -253,7 +253,7 @@ def _of_typed(
     place, callbacks = _CALLBACKS[function]
     type_ = arguments.get(str(place), "")
     if not _TYPE.fullmatch(type_):
-        if type_.isidentifier():
+        if type_.partition("[")[0].isidentifier():
             yield None
         return
     for keyword, position in callbacks.items():

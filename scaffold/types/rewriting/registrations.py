@@ -13,6 +13,8 @@ from scaffold.record import NamedTuple
 
 _MAX_ROWS = 60
 _FUNCTIONS = (ast.FunctionDef, ast.AsyncFunctionDef)
+_COMPREHENSIONS = (ast.ListComp, ast.SetComp, ast.GeneratorExp, ast.DictComp)
+_Loop = ast.For | ast.comprehension
 
 
 class Registration(NamedTuple):
@@ -40,7 +42,7 @@ class _Place(NamedTuple):
     node: ast.AST
     class_: ast.AST | None
     function: ast.AST | None
-    loops: Sequence[ast.For]
+    loops: Sequence[_Loop]
 
 
 def registrations(text: str, functions: Collection[str]) -> Iterator[Registration]:
@@ -91,6 +93,10 @@ def targets(value: ast.expr, count: int) -> Iterator[Target]:
             bound = len(value.args) - 1
             for target in targets(value.args[0], count) if bound >= 0 else ():
                 yield Target(target.name, [*[-1] * bound, *target.order])
+        case ast.Call(
+            func=ast.Name(id="getattr"), args=[ast.Name(id="self"), ast.Constant(value=str(name))]
+        ):
+            yield Target(name, range(count))
 
 
 def _number(value: ast.expr, names: Sequence[str]) -> int:
@@ -109,6 +115,8 @@ def _places(tree: ast.Module) -> Iterator[_Place]:
             function, loops = node, ()
         elif isinstance(node, ast.For):
             loops = (*loops, node)
+        elif isinstance(node, _COMPREHENSIONS):
+            loops = (*loops, *node.generators)
         pending += (_Place(child, class_, function, loops) for child in ast.iter_child_nodes(node))
 
 
@@ -126,7 +134,13 @@ def _rows(
     """Yield the values of the loop variables around a place, for each row."""
     rows: list[dict[str, ast.expr]] = [{}]
     for loop in place.loops:
-        bound = [_loop_values(loop.target, row) for row in _table(loop.iter, place, values)]
+        target, iterated = loop.target, loop.iter
+        match target, iterated:
+            case ast.Tuple(elts=[_, item]), ast.Call(
+                func=ast.Name(id="enumerate"), args=[table, *_]
+            ):
+                target, iterated = item, table
+        bound = [_loop_values(target, row) for row in _table(iterated, place, values)]
         rows = [{**row, **more} for row in rows for more in bound] or rows
         if len(rows) > _MAX_ROWS:
             return
@@ -178,6 +192,18 @@ def _loop_values(target: ast.expr, value: ast.expr) -> dict[str, ast.expr]:
     return result
 
 
+def _entry(row: ast.expr, key: object) -> ast.expr | None:
+    """Return the entry of a row of a table: ``row[0]`` or ``row['type']``."""
+    match row:
+        case ast.Tuple(elts=entries) | ast.List(elts=entries) if isinstance(key, int):
+            return entries[key] if key < len(entries) else None
+        case ast.Dict(keys=keys, values=entries):
+            for name, entry in zip(keys, entries, strict=True):
+                if isinstance(name, ast.Constant) and name.value == key:
+                    return entry
+    return None
+
+
 def _replaced(
     value: ast.expr,
     row: Mapping[str, ast.expr],
@@ -191,8 +217,11 @@ def _replaced(
         case ast.Name():
             stored = values.get(_key(place, value), [])
             return stored[0] if place.function is not None and len(stored) == 1 else value
-        case ast.Call(func=func, args=[first, *rest]):
-            return ast.Call(func, [_replaced(first, row, place, values), *rest], value.keywords)
+        case ast.Call(func=func, args=given):
+            replaced = [_replaced(item, row, place, values) for item in given]
+            return ast.Call(func, replaced, value.keywords)
+        case ast.Subscript(value=ast.Name(id=name), slice=ast.Constant(value=key)) if name in row:
+            return _entry(row[name], key) or value
         case ast.Lambda(args=parameters, body=ast.Call(func=ast.Name() as called) as body):
             called_ = _replaced(called, row, place, values)
             return ast.Lambda(parameters, ast.Call(called_, body.args, body.keywords))

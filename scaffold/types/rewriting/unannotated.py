@@ -105,7 +105,7 @@ def _name(node: ast.expr) -> str:
 
 
 def _referred_to(index: ScopeIndex) -> set[str]:
-    """Return the names of functions in tables, lambdas and the like.
+    """Return the names of functions in tables, lambdas and the like, also as strings.
 
     These keep annotations in quotes, which is how this tool annotates callbacks.
     """
@@ -119,6 +119,9 @@ def _referred_to(index: ScopeIndex) -> set[str]:
         for node in index.all_of(ast.Attribute)
         if isinstance(node.ctx, ast.Load) and id(node) not in callees
     }
+    plain = {node.id for node in index.all_of(ast.Name)}
+    by_name = index.all_of(ast.Constant) if "getattr" in plain else ()
+    names |= {node.value for node in by_name if isinstance(node.value, str)}
     return names | {node.id for node in index.all_of(ast.Name) if id(node) not in callees}
 
 
