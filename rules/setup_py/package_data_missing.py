@@ -70,6 +70,20 @@ class PackageDataMissing(Rule):
             },
         ),
         Example(
+            "looked for in the share directory first",
+            {
+                **_FILES,
+                "talker/text.py": "from pathlib import Path\n\n"
+                "from ament_index_python import get_package_share_path\n\ntry:\n"
+                "    PLACE = get_package_share_path('talker')\nexcept LookupError:\n"
+                "    PLACE = Path(__file__).parent\nWORDS = (PLACE / 'words.txt').read_text()\n"
+                "SOURCE = Path(__file__).parent / 'words.txt'\n",
+                "setup.py": _SETUP.format(
+                    "    data_files=[('share/talker', ['talker/words.txt'])],\n"
+                ),
+            },
+        ),
+        Example(
             "excluded",
             {**_FILES, "setup.py": _SETUP.format("")},
             "setup.py:5:14: talker/text.py:3 reads talker/words.txt, which is not installed; add "
@@ -119,8 +133,8 @@ class PackageDataMissing(Rule):
                 continue
             if any(matches(pattern, [file.path]) for pattern in patterns):
                 continue
-            if {file.path, file.location.path} <= as_data:
-                continue  # both are installed there, and the module is read from there
+            if file.path in as_data and _reads_there(package, file.location.path, as_data):
+                continue
             where, inside = file.location, file.path.removeprefix(f"{holder}/")
             message = (
                 f"{where.path}:{where.line} reads {file.path}, which is not installed; "
@@ -135,3 +149,11 @@ class PackageDataMissing(Rule):
         while directory and not package.has(f"{directory}/__init__.py"):
             directory = directory.rpartition("/")[0]
         return directory or None
+
+
+def _reads_there(package: Package, module: str, as_data: frozenset[str]) -> bool:
+    """Return whether a module is installed with data_files, or looks for the share directory.
+
+    A path beside the source file is a fallback then.
+    """
+    return module in as_data or b"get_package_share_" in package.data(module)

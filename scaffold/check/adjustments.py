@@ -293,10 +293,11 @@ def _is_of_platform(module: PythonModule, name: ast.expr) -> bool:
 def _is_harmless(package: Package, undefined: Diagnostic) -> bool:
     """Return whether an undefined name is not evaluated, or exists at run time.
 
-    Such as annotations, and modules that ``from .talk import *`` adds to their package.
+    Such as annotations, modules that ``from .talk import *`` adds to their package, and names that
+    ``globals().update(...)`` adds.
     """
     return any(
-        is_unevaluated(module, name) or _is_own_module(module, name)
+        is_unevaluated(module, name) or _is_own_module(module, name) or _adds_globals(module)
         for module, name in _names_at(package, undefined)
     )
 
@@ -306,6 +307,17 @@ def _is_own_module(module: PythonModule, name: ast.expr) -> bool:
         return False
     own = (item.module.partition(".")[0] for item in module.imports if item.level == 1)
     return name.id in own
+
+
+def _adds_globals(module: PythonModule) -> bool:
+    """Return whether a module sets global variables whose names are not in its text."""
+    if not module.mentions("globals()"):
+        return False
+    written = (
+        *(node.value for node in module.walk(ast.Attribute) if node.attr == "update"),
+        *(node.value for node in module.walk(ast.Subscript) if isinstance(node.ctx, ast.Store)),
+    )
+    return any(isinstance(node, ast.Call) and module.text(node) == "globals()" for node in written)
 
 
 def _names_at(package: Package, diagnostic: Diagnostic) -> Iterator[tuple[PythonModule, ast.expr]]:

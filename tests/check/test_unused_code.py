@@ -619,6 +619,21 @@ def test_assertion_of_an_undefined_false(package: Path, capsys: pytest.CaptureFi
     assert severities(capsys, "F821") == {"talker/talk.py": "warning", "talker/node.py": "error"}
 
 
+@pytest.mark.parametrize(
+    ("statement", "severity"),
+    [
+        ("globals().update({'word': 1})", "warning"),
+        ("globals()['word'] = 1", "warning"),
+        ("print(globals()['word'])", "error"),
+    ],
+)
+def test_name_added_to_globals(
+    package: Path, capsys: pytest.CaptureFixture[str], statement: str, severity: str
+) -> None:
+    write(package / "talker" / "node.py", f"{statement}\nprint(word)\n")
+    assert severities(capsys, "F821") == {"talker/node.py": severity}
+
+
 def test_uncalled_launch_helper(package: Path, capsys: pytest.CaptureFixture[str]) -> None:
     helper = LAUNCH.replace("generate_launch_description", "talk").replace("{}", "")
     write(package / "talker" / "parts.py", helper.replace("talk'", "nothing'"))
