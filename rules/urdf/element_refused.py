@@ -78,6 +78,10 @@ _COUNTS: Mapping[tuple[str, str], int] = {
     **{("inertia", name): 1 for name in ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")},
 }
 """The number of values in an attribute."""
+_READ = frozenset(
+    {"robot", "link", "joint", "material", "inertial", "visual", "collision", "geometry"}
+)
+"""Elements whose children urdfdom reads; it skips all others."""
 
 
 class ElementRefused(Rule):
@@ -192,6 +196,16 @@ class ElementRefused(Rule):
             },
         ),
         Example(
+            "invalid numbers in an element that urdfdom skips",
+            {
+                "robot.urdf": _ROBOT_VALUES.format(
+                    'sphere radius="0.1"', "continuous", "0 0 0"
+                ).replace(
+                    "    <visual>", '    <collission><origin xyz="x"/></collission>\n    <visual>'
+                )
+            },
+        ),
+        Example(
             "misspelled joint type, joint type of Gazebo",
             {
                 "a.urdf": _ROBOT_VALUES.format('sphere radius="0.1"', "continous", "0 0 0"),
@@ -287,7 +301,7 @@ class ElementRefused(Rule):
                 )
                 yield self.report(part, message)
             for name, value in part.attributes.items():
-                count = _COUNTS.get((part.tag, name))
+                count = _COUNTS.get((part.tag, name)) if _is_read(part) else None
                 if count and is_known(value) and not _has_numbers(value, count):
                     numbers = "a number" if count == 1 else f"{count} numbers with spaces between"
                     message = (
@@ -311,6 +325,14 @@ def _is_urdf(part: Part) -> bool:
     while holder is not None and holder.tag != "link":
         holder = holder.holder
     return holder is not None
+
+
+def _is_read(part: Part) -> bool:
+    """Return whether urdfdom reads a part, as it knows the elements around it."""
+    holder = part.holder
+    while holder is not None and holder.tag in _READ:
+        holder = holder.holder
+    return holder is None
 
 
 def _missing(element: Element) -> list[str]:

@@ -62,6 +62,17 @@ class ParameterDeclaredWrongly(RclpyRule):
     examples = (
         Example("a descriptor", {"talker.py": _NODE.format("'rate'", _TEXT, f", {_TEXT}")}),
         Example(
+            "names out of a list",
+            {
+                "talker.py": "from rclpy.node import Node\n"
+                "from rclpy.parameter import Parameter\n\n"
+                "NAMES = ['a', 'b', 'c', 'd']\n\n\nclass Talker(Node):\n"
+                "    def __init__(self):\n        super().__init__('talker')\n"
+                "        types = [(name, Parameter.Type.DOUBLE) for name in NAMES]\n"
+                "        self.declare_parameters('', types)\n"
+            },
+        ),
+        Example(
             "a str for the descriptor; four values",
             {"talker.py": _NODE.format("'rate'", "'Hz'", f", {_TEXT}, True")},
             "8:45: expected a ParameterDescriptor, not 'Hz': TypeError",
@@ -142,6 +153,10 @@ class ParameterDeclaredWrongly(RclpyRule):
             yield self.report(file.module.location(node), problem)
 
 
+_VALUES = 3
+"""Of a parameter: name, default and descriptor."""
+
+
 def _problems(file: RclpyFile, parameter: Parameter) -> Iterator[tuple[ast.expr, str]]:
     name = file.evaluator.evaluate(parameter.name_node)
     if (
@@ -152,7 +167,7 @@ def _problems(file: RclpyFile, parameter: Parameter) -> Iterator[tuple[ast.expr,
         yield parameter.name_node, f"the parameter name must be a str, not {name!r}: TypeError"
         return
     entry = file.module.parent(parameter.name_node) if parameter.name_node is not None else None
-    if isinstance(entry, ast.Tuple | ast.List) and len(entry.elts) > 3:  # noqa: PLR2004  see Fix
+    if isinstance(entry, ast.Tuple | ast.List) and _is_listed(file, entry):
         count = len(entry.elts)
         yield (
             entry,
@@ -162,6 +177,12 @@ def _problems(file: RclpyFile, parameter: Parameter) -> Iterator[tuple[ast.expr,
         problem = _descriptor_problem(file, parameter, parameter.descriptor_node)
         if problem:
             yield parameter.descriptor_node, problem
+
+
+def _is_listed(file: RclpyFile, entry: ast.Tuple | ast.List) -> bool:
+    """Return whether a list of parameters has an entry with too many values."""
+    is_entry = isinstance(file.module.parent(entry), ast.List | ast.Tuple)
+    return is_entry and len(entry.elts) > _VALUES
 
 
 def _descriptor_problem(file: RclpyFile, parameter: Parameter, node: ast.expr) -> str:
