@@ -612,6 +612,16 @@ class AttributeMissing(TypeRule):
             },
         ),
         Example(
+            "class with a decorator that may add attributes",
+            {
+                "package.xml": "<package><name>rover</name></package>\n",
+                "rover/__init__.py": "",
+                "rover/odometry.py": "from dataclasses_json import dataclass_json\n\n\n"
+                "@dataclass_json\n# with from_json() and to_json()\n" + _ODOMETRY,
+                "rover/drive.py": _DRIVE.format("restart"),
+            },
+        ),
+        Example(
             "mock instead of a node in a test",
             {
                 "package.xml": "<package><name>rover</name></package>\n",

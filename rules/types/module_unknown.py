@@ -75,6 +75,10 @@ class ModuleUnknown(TypeRule):
     is_removal = True
     kinds = frozenset({"import-not-found"})
     examples = (
+        Example(
+            "module of an extension module",
+            {"talk.py": "from rclpy._rclpy_pybind11.service_introspection import *\n"},
+        ),
         Example("existing module", {"talker.py": _NODE.format("std_msgs.msg")}),
         Example(
             "optional import with except ImportError",
@@ -194,8 +198,8 @@ class ModuleUnknown(TypeRule):
         if module in later or any(name.startswith(f"{module}.") for name in later):
             return self._of_later_python(finding, module)
         above, _, last = module.rpartition(".")
-        if last.startswith("_"):
-            return None  # an extension module
+        if "._" in module:
+            return None  # an extension module, or one inside of it
         if re.fullmatch(r"\w+\.(msg|srv|action)\.[A-Z]\w*", module):
             message = (
                 f"{last!r} is a class, not a module: ModuleNotFoundError; "

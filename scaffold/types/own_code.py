@@ -40,6 +40,9 @@ _CHANGING = re.compile(
 _LENDING = re.compile(rb"import[ (]*\*|\b(?:__getattr__|__import__|import_module|globals|exec)\b")
 """Matches code that defines names of a module dynamically or takes those of another one."""
 _NAME = re.compile(rb"\b[A-Za-z_]\w*")
+_DECORATOR = re.compile(rb"[ \t]*@(?:\w+\.)*(\w+)")
+_DECORATORS = frozenset({b"dataclass", b"final", b"total_ordering"})
+"""Decorators of classes that add no other attributes."""
 
 
 def is_about_own(item: TyDiagnostic, sources: Iterable[Source]) -> bool:
@@ -53,6 +56,8 @@ def is_about_own(item: TyDiagnostic, sources: Iterable[Source]) -> bool:
     files = [item.data for item in sources if item.path]
     defining = [data for data in files if _definition(name).search(data)]
     if not defining or any(_CHANGING.search(data) for data in _with_bases(name, files)):
+        return False
+    if item.kind == "missing-attribute" and any(_is_decorated(name, data) for data in defining):
         return False
     return item.kind in _CALLS or len(defining) == 1  # otherwise the object may be of another class
 
@@ -88,6 +93,18 @@ def own_name(item: TyDiagnostic) -> bytes:
     else:
         return b""
     return matched[1].partition(".")[0].encode() if matched is not None else b""
+
+
+def _is_decorated(name: bytes, data: bytes) -> bool:
+    """Return whether a decorator of a class may add attributes, such as ``@dataclass_json``."""
+    for matched in _definition(name).finditer(data):
+        for line in reversed(data[: matched.start()].splitlines()):
+            decorator = _DECORATOR.match(line)
+            if decorator is not None and decorator[1] not in _DECORATORS:
+                return True
+            if decorator is None and not line.lstrip().startswith(b"#"):
+                break
+    return False
 
 
 def _definition(name: bytes) -> re.Pattern[bytes]:
