@@ -98,6 +98,19 @@ _HOMING = (
     "        answer = {}\n"
     "        print(answer.{})\n"
 )
+_THRUSTERS = (
+    "from rclpy.node import Node\nfrom std_msgs.msg import Float64\n\n\n"
+    "class Thrusters(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('thrusters')\n"
+    "        self.outputs = [0] * 8\n"
+    "        for i in range(8):\n"
+    "            self.outputs[i] = {}\n\n"
+    "    def stop(self):\n"
+    "        self.outputs[0].publish(Float64())\n"
+    "        for output in self.outputs:\n"
+    "            output.publish(Float64())\n"
+)
 _ODOMETRY = "class Odometry:\n    def reset(self):\n        self.x = 0.0\n"
 _DRIVE = (
     "from rclpy.node import Node\nfrom std_srvs.srv import Trigger\n\n"
@@ -756,6 +769,16 @@ class AttributeMissing(TypeRule):
                 "        self.output = node.create_publisher(String, 'talk', 10)\n\n"
                 "    def talk(self):\n        self.output.publish(String())\n"
             },
+        ),
+        Example(
+            "publishers in place of numbers that only reserve space",
+            {"thrusters.py": _THRUSTERS.format("self.create_publisher(Float64, f'thrust_{i}', 1)")},
+        ),
+        Example(
+            "element of a list of numbers",
+            {"thrusters.py": _THRUSTERS.format("1")},
+            "13:9: an int has no 'publish': AttributeError",
+            "15:13: an int has no 'publish': AttributeError",
         ),
         Example(
             "existing field of a message in a dictionary of dataclasses",

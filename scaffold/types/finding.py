@@ -287,7 +287,8 @@ class TypeFinding:
         if any(origins.has_default(self.module, part) for part in parts):
             return True
         if self.kind == "missing-attribute":
-            return False  # only reported if no object of them has it
+            # otherwise only reported if no object of them has it
+            return origins.is_placeholder(self.module, node)
         assigned = self.module.enclosing(node, ast.Assign)
         if assigned is not None and "to unpack" in self.message:
             return origins.is_unpacked_of_several(self.module, assigned.value)

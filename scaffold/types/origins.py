@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator, Sequence
 from collections.abc import Set as AbstractSet
+from typing import TypeGuard
 
 from scaffold.model.python.given_arguments import arguments_for, parameter_of
 from scaffold.model.python.module import PythonModule
@@ -66,6 +67,23 @@ def has_default(module: PythonModule, node: ast.AST) -> bool:
     return any(
         not stored.isdisjoint(module.index.bindings(class_))
         for class_ in (module.walk(ast.ClassDef) if stored else ())
+    )
+
+
+def is_placeholder(module: PythonModule, node: ast.AST) -> bool:
+    """Return whether a reported value only reserves space in a container, such as ``[0] * 8``.
+
+    The type checker does not notice that a statement replaces the elements by other objects.
+    """
+    containers = (origin for origin in _origins(module, node) if _is_container(origin))
+    return any(
+        any(isinstance(value, ast.Constant) for value in _initial_values(module, container))
+        and any(
+            not isinstance(value, ast.Constant)
+            for mention in _mentions(module, container)
+            for value in _set_by_index(module, mention)
+        )
+        for container in containers
     )
 
 
@@ -145,32 +163,42 @@ def _assigned(module: PythonModule, name: ast.Name) -> Iterator[ast.expr]:
             yield statement.value
 
 
+def _is_container(node: ast.AST) -> TypeGuard[ast.Name | ast.Attribute]:
+    """Return whether a node is a variable or an attribute, which may hold a container."""
+    return isinstance(node, ast.Name | ast.Attribute)
+
+
 def _contents_of(module: PythonModule, container: ast.expr) -> set[str]:
     """Return the sources of the values added to a variable or an attribute of ``self``."""
+    if not _is_container(container):
+        return set()
+    mentions = _mentions(module, container)
+    return {source for mention in mentions for source in _put_into(module, mention)}
+
+
+def _mentions(
+    module: PythonModule, container: ast.Name | ast.Attribute
+) -> Iterator[ast.Name | ast.Attribute]:
+    """Yield the uses of a variable or an attribute in the file, by its name."""
+    if isinstance(container, ast.Name):
+        yield from module.index.names(container.id)
+        return
     text = module.text(container)
-    sources: set[str] = set()
-    if not isinstance(container, ast.Name | ast.Attribute):
-        return sources
-    for name in module.index.names(text) if isinstance(container, ast.Name) else ():
-        sources |= _put_into(module, name)
-    for attribute in module.index.attributes(text.rpartition(".")[2]):
+    for attribute in module.index.attributes(container.attr):
         if module.text(attribute) == text:
-            sources |= _put_into(module, attribute)
-    return sources
+            yield attribute
 
 
 def _put_into(module: PythonModule, container: ast.expr) -> set[str]:
     """Return the sources of the values that a statement adds to a container."""
     parent = module.parent(container)
     above = module.parent(parent) if parent is not None else None
-    values: Sequence[ast.expr] = ()
+    values = _set_by_index(module, container)
     match parent, above:
-        case ast.Subscript(), ast.Assign(value=value):
-            values = [value] if parent in above.targets else ()
         case ast.Attribute(attr=name), ast.Call(args=arguments) if name in _PUTTING:
             values = arguments[-1:]
-        case ast.Assign(value=ast.Dict(values=items) | ast.List(elts=items)), _:
-            values = items
+        case ast.Assign(value=value), _:
+            values = _elements(value)
     sources: set[str] = set()
     for value in values:
         if isinstance(value, ast.Subscript):
@@ -178,6 +206,41 @@ def _put_into(module: PythonModule, container: ast.expr) -> set[str]:
         elif not is_none_literal(value):
             sources.add(_source(module, value))
     return sources
+
+
+def _set_by_index(module: PythonModule, container: ast.expr) -> Sequence[ast.expr]:
+    """Return the value of ``container[...] = value``, if this is the container."""
+    match parent := module.parent(container):
+        case ast.Subscript(value=of) if of is container:
+            above = module.parent(parent)
+            if isinstance(above, ast.Assign) and parent in above.targets:
+                return [above.value]
+    return ()
+
+
+def _initial_values(
+    module: PythonModule, container: ast.Name | ast.Attribute
+) -> Iterator[ast.expr]:
+    """Yield the elements of the displays that are assigned to a variable or an attribute."""
+    for mention in _mentions(module, container):
+        match module.parent(mention):
+            case ast.Assign(value=value) | ast.AnnAssign(value=ast.expr() as value):
+                if mention is not value:
+                    yield from _elements(value)
+
+
+def _elements(value: ast.expr) -> Sequence[ast.expr]:
+    """Return the elements of a list or the values of a dictionary, as far as they are written."""
+    match value:
+        case ast.Dict(values=elements) | ast.List(elts=elements):
+            return elements
+        case ast.BinOp(left=ast.List(elts=elements), op=ast.Mult()):
+            return elements
+        case ast.BinOp(op=ast.Mult(), right=ast.List(elts=elements)):
+            return elements
+        case ast.ListComp(elt=element) | ast.DictComp(value=element):
+            return [element]
+    return ()
 
 
 def _entry(module: PythonModule, entry: ast.Subscript) -> ast.expr | None:
