@@ -6,10 +6,13 @@ import ast
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
+from scaffold.api import fact
 from scaffold.api.python import is_none_literal
-from scaffold.api.rclpy import PARAMETER, class_of
+from scaffold.api.rclpy import FIELDS, PARAMETER, class_of
 
 if TYPE_CHECKING:
+    from scaffold.api import Package
+    from scaffold.api.python import FunctionNode, PythonModule
     from scaffold.api.rclpy import Entity, RclpyFile
 
 _BUILTINS = frozenset(
@@ -26,19 +29,56 @@ _POSITIONS = {
     "create_timer": (0,),
 }
 """The arguments of node methods that are names and numbers."""
+_PARAMETERS = frozenset({PARAMETER, "rclpy.Parameter"})
+_OF_OBJECT = frozenset({"get_parameter_value", "to_parameter_msg"})
+"""The methods of a Parameter."""
 _MAX_USES = 200
 """The maximum number of uses of a name, as they are scanned for each stored object."""
 
 
-def objects_used(file: RclpyFile) -> Iterator[tuple[Entity, ast.AST]]:
+def objects_used(package: Package, file: RclpyFile) -> Iterator[tuple[Entity, ast.AST]]:
     """Yield the calls that pass a Parameter instead of its value, and the first such place."""
     for item in _objects(file):
-        use = _use_as_value(file, item.call)
+        use = _use_as_value(package, file, item.call)
         if use is not None:
             yield item, use
 
 
-def _use_as_value(file: RclpyFile, call: ast.Call) -> ast.AST | None:
+def fields_read(file: RclpyFile, parameter: object) -> Sequence[str]:
+    """Return the fields of ``get_parameter_value()`` that are read of a parameter, if only these.
+
+    Args:
+        file: The file.
+        parameter: The name of the parameter.
+    """
+    fields = set()
+    for read in file.parameter_reads:
+        if read.name == parameter:
+            fields |= {_field_read(file, use) for use in _objects_of(file, read.call)}
+    return sorted(fields) if "" not in fields else ()
+
+
+def _objects_of(file: RclpyFile, call: ast.Call) -> Sequence[ast.AST]:
+    """Return the call, or the uses of the variable or the attribute that holds its result."""
+    if not isinstance(file.module.parent(call), ast.Assign):
+        return [call]
+    attribute, variable = file.stored_in(call)
+    uses = _uses(file, call, variable, attribute)
+    return [use for use in uses if isinstance(use.ctx, ast.Load)] or [call]
+
+
+def _field_read(file: RclpyFile, parameter: ast.AST) -> str:
+    """Return the field in ``parameter.get_parameter_value().field``; empty for other uses."""
+    method = file.module.parent(parameter)
+    called = file.module.parent(method) if method is not None else None
+    field = file.module.parent(called) if called is not None else None
+    match method, called, field:
+        case ast.Attribute(attr="get_parameter_value"), ast.Call(), ast.Attribute(attr=name):
+            return name if name in FIELDS else ""
+    return ""
+
+
+def _use_as_value(package: Package, file: RclpyFile, call: ast.Call) -> ast.AST | None:
     """Return a place where the object returned by a call is used as a value."""
     if _stands_for_value(file, call):
         return call
@@ -52,7 +92,42 @@ def _use_as_value(file: RclpyFile, call: ast.Call) -> ast.AST | None:
     read = [use for use in uses if isinstance(use.ctx, ast.Load)]
     if any(isinstance(file.module.parent(use), ast.Attribute) for use in read):
         return None
+    if any(_is_passed_as_object(package, file, use) for use in read):
+        return None
     return next((use for use in read if _stands_for_value(file, use)), None)
+
+
+def _is_passed_as_object(package: Package, file: RclpyFile, use: ast.expr) -> bool:
+    """Return whether an object is passed to a function of the package that takes a Parameter."""
+    call = file.module.parent(use)
+    if not isinstance(call, ast.Call) or use not in call.args:
+        return False
+    name = getattr(call.func, "attr", None) or getattr(call.func, "id", None)
+    return name in _functions_of_objects(package)
+
+
+@fact
+def _functions_of_objects(package: Package) -> frozenset[str]:
+    """Return the names of the functions of a package that take a Parameter, not its value."""
+    return frozenset(
+        function.name
+        for module in package.modules(mentioning=["arameter"])
+        for function in module.function_nodes
+        if any(_is_object(module, function, argument) for argument in function.args.args)
+    )
+
+
+def _is_object(module: PythonModule, function: FunctionNode, argument: ast.arg) -> bool:
+    """Return whether an argument is annotated as a Parameter, or its methods are called."""
+    annotation = argument.annotation
+    if annotation is not None and module.qualified_name(annotation) in _PARAMETERS:
+        return True
+    return any(
+        item.attr in _OF_OBJECT
+        and isinstance(item.value, ast.Name)
+        and item.value.id == argument.arg
+        for item in module.below(function, ast.Attribute)
+    )
 
 
 def _uses(

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, RclpyRule, Report
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, RclpyRule, Report
 from scaffold.api.python import is_handled
 from scaffold.api.rclpy import FIELDS, PARAMETER, RclpyFile, class_of
 
@@ -20,6 +20,21 @@ _NODE = (
     "        rate = self.get_parameter('rate'){}\n"
     "        self.create_timer(1.0 / rate, self.tick)\n\n"
     "    def tick(self):\n        pass\n"
+)
+_NODE_PASSING = (
+    "from rclpy.node import Node\n\nfrom .settings import Settings\n\n\n"
+    "class Talker(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('talker')\n"
+    "        settings = Settings()\n"
+    "        for name in ('rate', 'topic'):\n"
+    "            self.declare_parameter(name, '')\n"
+    "            parameter = self.get_parameter(name)\n"
+    "            self.get_logger().info(f'set {parameter}')\n"
+    "            settings.put(parameter)\n"
+    "        mode = self.declare_parameter('mode', 'fast')\n"
+    "        self.get_logger().info(f'keep {mode}')\n"
+    "        settings.keep(mode)\n"
 )
 _OTHERS = (
     "from rclpy.node import Node\nfrom std_msgs.msg import String\n\n\n"
@@ -77,6 +92,42 @@ class ParameterObjectUsed(RclpyRule):
             fixed={"talker.py": _NODE.format(".value")},
         ),
         Example(
+            "an object that is logged and passed to a function that takes a Parameter",
+            {
+                "talker.py": _NODE_PASSING,
+                "settings.py": "from rclpy.parameter import Parameter\n\n\n"
+                "class Settings:\n"
+                "    def put(self, parameter: Parameter):\n"
+                "        self.names = [parameter.name]\n\n"
+                "    def keep(self, parameter):\n"
+                "        self.value = parameter.get_parameter_value()\n",
+            },
+        ),
+        Example(
+            "an object that is logged and passed to a function that takes a value",
+            {
+                "talker.py": _NODE_PASSING,
+                "settings.py": "class Settings:\n"
+                "    def put(self, value):\n        self.value = value\n\n"
+                "    def keep(self, value):\n        self.value = value\n",
+            },
+            Report(
+                "talker.py:12:25",
+                "this is the Parameter object (used in line 13), not its value; append .value",
+                fix="Append .value",
+            ),
+            Report(
+                "talker.py:15:16",
+                "this is the Parameter object (used in line 16), not its value; append .value",
+                fix="Append .value",
+            ),
+            fixed={
+                "talker.py": _NODE_PASSING.replace("er(name)", "er(name).value").replace(
+                    "'fast')", "'fast').value"
+                )
+            },
+        ),
+        Example(
             "a condition, a comparison, a name",
             {"talker.py": _OTHERS.format("", "", "")},
             Report(
@@ -127,13 +178,13 @@ class ParameterObjectUsed(RclpyRule):
         ),
     )
 
-    def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
-        yield from self._check_object(file)
+    def check_in(self, package: Package, file: RclpyFile) -> Iterator[Diagnostic]:
+        yield from self._check_object(package, file)
         yield from self._check_call(file)
         yield from self._check_field(file)
 
-    def _check_object(self, file: RclpyFile) -> Iterator[Diagnostic]:
-        for read, use in objects_used(file):
+    def _check_object(self, package: Package, file: RclpyFile) -> Iterator[Diagnostic]:
+        for read, use in objects_used(package, file):
             _, end = file.module.span(read.call)
             fix = Fix("Append .value", (Edit(file.module.path, end, end, ".value"),))
             line = file.module.location(use).line
