@@ -11,11 +11,20 @@ from scaffold.api.parameters import parameter_files
 from scaffold.api.python import PythonModule, is_handled, joined_names
 from scaffold.api.rclpy import PARAMETER, Parameter, RclpyFile, class_of, is_of_node
 
+from ._values import fields_read
+
 _TYPES = "rcl_interfaces.msg.ParameterType.PARAMETER_"
 _TYPE = "expected Parameter.Type.{}"
 _CLASSES = {"bool": "BOOL", "float": "DOUBLE", "int": "INTEGER", "str": "STRING"}
 _PATHS = frozenset({"pathlib.Path", "pathlib.Path.cwd", "pathlib.Path.home"})
 """The calls that return a Path."""
+_EMPTY = {
+    "bool_value": "False",
+    "integer_value": "0",
+    "double_value": "0.0",
+    "string_value": "''",
+}
+"""The fields of ParameterValue that are no arrays, as they are in a new message."""
 _NO_DEFAULT = "parameters without a default"
 _NODE = (
     "from rcl_interfaces.msg import ParameterDescriptor, ParameterType\n"
@@ -66,7 +75,7 @@ class ParameterDefaultUnusable(RclpyRule):
     name = "parameter-default-unusable"
     other_severities = {
         Severity.WARNING: "the parameter has no default, and a file of the package sets it, or the "
-        "code only tests whether it is true"
+        "code only tests whether it is true or reads a field of ``get_parameter_value()``"
     }
     examples = (
         Example("a default", {"talker.py": _NODE.format("1.0", "description='Hz'", "'slow'")}),
@@ -154,6 +163,27 @@ class ParameterDefaultUnusable(RclpyRule):
             Report(
                 "8:32",
                 "parameter 'dry_run' has no default: its value is None until it is set",
+                severity=Severity.WARNING,
+            ),
+        ),
+        Example(
+            "a parameter of which only a field of its message is read",
+            {
+                "talker.py": _PLAIN.format("'step'")
+                + "        step = self.get_parameter('step').get_parameter_value().integer_value\n"
+                "        self.declare_parameter('topic')\n"
+                "        topic = self.get_parameter('topic')\n"
+                "        self.topic = topic.get_parameter_value().string_value\n"
+                "        self.step = step + 1\n"
+            },
+            Report(
+                "7:32",
+                "parameter 'step' has no default: its integer_value is 0 until it is set",
+                severity=Severity.WARNING,
+            ),
+            Report(
+                "9:32",
+                "parameter 'topic' has no default: its string_value is '' until it is set",
                 severity=Severity.WARNING,
             ),
         ),
@@ -264,10 +294,13 @@ class ParameterDefaultUnusable(RclpyRule):
                 )
         for parameter in file.parameters:
             yield from self._check_commas(file, parameter)
-            problem = _missing_problem(parameter)
+            fields = () if parameter.default_node else fields_read(file, parameter.name)
+            problem = _missing_problem(parameter, fields)
             if problem:
                 is_harmless = parameter.default_node is None and (
-                    parameter.name in _set_names(package) or _is_only_tested(file, parameter)
+                    len(fields) > 0
+                    or parameter.name in _set_names(package)
+                    or _is_only_tested(file, parameter)
                 )
                 yield self.report(
                     parameter.name_location,
@@ -394,13 +427,15 @@ def _type_problem(parameter: Parameter) -> str:
     return f"parameter {name} needs a default or a Parameter.Type: ValueError"
 
 
-def _missing_problem(parameter: Parameter) -> str:
+def _missing_problem(parameter: Parameter, fields: Sequence[str]) -> str:
     """Return the message for a declaration that rclpy accepts without a usable default."""
     is_typed = parameter.declared_type is not None or parameter.argument("descriptor") is not None
     if is_typed or not isinstance(parameter.name, str) or parameter.has_unknown_arguments:
         return ""
     if parameter.default_node is None:
-        return f"parameter {parameter.name!r} has no default: its value is None until it is set"
+        values = " and ".join(f"its {field} is {_EMPTY.get(field, '[]')}" for field in fields)
+        values = values or "its value is None"
+        return f"parameter {parameter.name!r} has no default: {values} until it is set"
     if parameter.default in ([], ()):
         return (
             f"parameter {parameter.name!r} becomes a byte array: the default is an empty list; "
