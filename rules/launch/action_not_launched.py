@@ -79,6 +79,15 @@ class ActionNotLaunched(LaunchRule):
             "8:5: Node is not in the LaunchDescription: it is never launched",
         ),
         Example(
+            "a decorator that may give the arguments",
+            {
+                "launch/a.launch.py": _LAUNCH.format("rate", *_RIGHT[1:]).replace(
+                    "\n\n\ndef",
+                    "\n\nfrom .utilities import with_arguments\n\n\n@with_arguments('rate')\ndef",
+                )
+            },
+        ),
+        Example(
             "an action that only a variable holds",
             {
                 "launch/a.launch.py": _LAUNCH.format(
@@ -152,7 +161,7 @@ class ActionNotLaunched(LaunchRule):
 
     def _check_returned(self, launch: LaunchFile) -> Iterator[Diagnostic]:
         function = launch.function
-        if function is not None:
+        if function is not None and not function.node.decorator_list:
             arguments = function.node.args
             given = [*arguments.posonlyargs, *arguments.args]
             if len(given) > len(arguments.defaults):
