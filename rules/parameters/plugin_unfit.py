@@ -4,8 +4,19 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from contextlib import suppress
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, closest_name
+from scaffold.api import (
+    Diagnostic,
+    Edit,
+    Example,
+    Fix,
+    Package,
+    Report,
+    Rule,
+    ViewError,
+    closest_name,
+)
 from scaffold.api.distributions import target
 from scaffold.api.formats import Scalar
 from scaffold.api.formats import Sequence as YamlSequence
@@ -83,6 +94,21 @@ class PluginUnfit(Rule):
             fixed={"config/planner.yaml": _PLANNER.format(_NAVFN.format("::"))},
         ),
         Example(
+            "a plugin that a package of the workspace has under this name",
+            {
+                "package.xml": "<package><name>bringup</name></package>\n",
+                "config/planner.yaml": _PLANNER.format(_NAVFN.format("/")),
+            },
+            neighbors={
+                "planner": {
+                    "package.xml": "<package><name>planner</name></package>\n",
+                    "plugins.xml": '<library path="planner">\n'
+                    f'  <class name="{_NAVFN.format("/")}" type="{_NAVFN.format("::")}"\n'
+                    '    base_class_type="nav2_core::GlobalPlanner"/>\n</library>\n',
+                }
+            },
+        ),
+        Example(
             "a section with the name of a costmap once",
             {"config/nav2.yaml": "local_costmap:\n  ros__parameters:\n    width: 3\n"},
             "1:1: this section is ignored: the node is /local_costmap/local_costmap; write "
@@ -107,17 +133,21 @@ class PluginUnfit(Rule):
                 )
                 yield self.report(section.key, message)
             elif section.name in _SERVERS:
-                yield from self._check_names(section)
+                yield from self._check_names(package, section)
                 if [other.name for other in sections].count(section.name) == 1:
                     yield from self._check_lists(package, section)
 
-    def _check_names(self, section: Section) -> Iterator[Diagnostic]:
+    def _check_names(self, package: Package, section: Section) -> Iterator[Diagnostic]:
         for entry in section.entries:
             value = entry.value
             is_plugin = isinstance(value, Scalar) and entry.name.endswith(".plugin")
             if not is_plugin or not target().fact("nav2.has_colons_in_plugins"):
                 continue
-            if isinstance(value, Scalar) and _OF_NAV2.fullmatch(value.text):
+            if (
+                isinstance(value, Scalar)
+                and _OF_NAV2.fullmatch(value.text)
+                and not _is_declared(package, value.text)
+            ):
                 new = value.text.replace("/", "::")
                 at = value.end - int(not value.is_plain) - len(value.text.rpartition("/")[2]) - 1
                 fix = Fix("Replace '/' with '::'", (Edit(value.location.path, at, at + 1, "::"),))
@@ -158,6 +188,19 @@ def _is_costmap(section: Section) -> bool:
     """Return whether a section is for the node of a costmap, whose namespace is its name."""
     *_, above, _ = ["", *section.node.split("/")]
     return above == section.name or "*" in section.node
+
+
+def _is_declared(package: Package, plugin: str) -> bool:
+    """Return whether a package of the workspace declares a plugin under a name."""
+    names = (f"'{plugin}'".encode(), f'"{plugin}"'.encode())
+    for other in package.workspace:
+        for path in other.files:
+            if path.endswith(".xml"):
+                with suppress(ViewError):
+                    data = other.data(path)
+                    if b"base_class_type" in data and any(name in data for name in names):
+                        return True
+    return False
 
 
 def _listed(entry: Entry) -> Iterator[tuple[str, Scalar]]:
