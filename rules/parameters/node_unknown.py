@@ -38,6 +38,13 @@ _LAUNCH = (
     "        Node(package='eyes', executable='eye', name='camera', parameters=[params]),\n    ])\n"
 )
 _CONTROL = "controller_manager"
+_CREATED = (
+    (_CONTROL, ""),
+    ("nav2_bt_navigator", "bt_navigator_"),
+    ("nav2_controller", "local_costmap"),
+    ("nav2_planner", "global_costmap"),
+)
+"""Packages whose node creates others, with the beginnings of their names: controllers, costmaps."""
 _MANIFEST = '<package format="3"><name>demo</name></package>\n'
 
 
@@ -110,6 +117,37 @@ class NodeUnknown(Rule):
                 "package.xml": _MANIFEST,
                 "launch/a.launch.py": _LAUNCH.replace("eyes", _CONTROL),
                 "config/demo.yaml": _FILE.format("arm_controller"),
+            },
+        ),
+        Example(
+            "a costmap, which the planner server creates",
+            {
+                "package.xml": _MANIFEST,
+                "launch/a.launch.py": _LAUNCH.replace("eyes", "nav2_planner"),
+                "config/demo.yaml": _FILE.format("/global_costmap/global_costmap"),
+            },
+        ),
+        Example(
+            "the only node that gets the file is not launched",
+            {
+                "package.xml": _MANIFEST,
+                "launch/a.launch.py": _LAUNCH.replace(
+                    "    return LaunchDescription([\n        Node(", "    camera = Node("
+                ).replace(",\n    ])", "\n    return LaunchDescription([])  # camera"),
+                "config/demo.yaml": _FILE.format("eye"),
+            },
+        ),
+        Example(
+            "a node that gets a changed copy of the file",
+            {
+                "package.xml": _MANIFEST,
+                "launch/a.launch.py": _LAUNCH.replace(
+                    "    ])",
+                    "        Node(package='eyes', executable='eye', name='eye',\n"
+                    "             parameters=[RewrittenYaml(source_file=params,"
+                    " param_rewrites={})]),\n    ])",
+                ).replace("\n\n\n", "\nfrom nav2_common.launch import RewrittenYaml\n\n\n", 1),
+                "config/demo.yaml": _FILE.format("eye"),
             },
         ),
         Example(
@@ -204,11 +242,9 @@ class NodeUnknown(Rule):
         everywhere = node_names(package)
         owners = [node.owner(package) for node in use.nodes]
         codes = {owner.node_name for owner in owners if owner is not None}
-        in_one_process = any(node.package == _CONTROL for node in use.nodes)
         for section in file.sections:
             name = section.name
-            # The controller manager creates more nodes, named after its controllers.
-            if section.is_pattern or name in names or (in_one_process and name != _CONTROL):
+            if section.is_pattern or name in names or _may_be_created(use.nodes, name):
                 continue
             alike = names_alike(file, names, name)
             is_renamed = name not in everywhere or name in codes
@@ -248,10 +284,8 @@ class NodeUnknown(Rule):
             nodes = use_of(package, file.path).nodes
             if any(not isinstance(node.name(package), str) for node in nodes):
                 continue
-            in_one_process = any(node.package == _CONTROL for node in nodes)
             for section in file.sections:
-                # The controller manager names the nodes that it creates after its controllers.
-                if section.is_pattern or (in_one_process and section.name != _CONTROL):
+                if section.is_pattern or _may_be_created(nodes, section.name):
                     continue
                 other = _other_node(package, section, nodes)
                 if other is not None:
@@ -264,6 +298,15 @@ class NodeUnknown(Rule):
                         f"{name!r}"
                     )
                     yield self.report(section.key, message)
+
+
+def _may_be_created(nodes: list[StartedNode], name: str) -> bool:
+    """Return whether one of the nodes may create another node with a name in its process."""
+    packages = {node.package for node in nodes}
+    return any(
+        package in packages and name != package and name.startswith(beginning)
+        for package, beginning in _CREATED
+    )
 
 
 def _renamed(package: Package, file: ParameterFile, name: str) -> list[str]:

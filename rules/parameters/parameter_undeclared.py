@@ -22,9 +22,9 @@ from scaffold.api.launch import (
     GivenParameter,
     StartedNode,
     is_loaded,
+    is_only_loaded,
     nodes_for,
     started_nodes,
-    use_of,
 )
 from scaffold.api.parameters import (
     Declared,
@@ -238,7 +238,7 @@ class ParameterUndeclared(Rule):
                 declarations = [declared_by(owner, package) for owner in owners]
                 if not declarations or not all(node.complete for node in declarations):
                     continue
-                if not use_of(package, file.path).nodes and is_loaded(package, file.path, owners):
+                if is_only_loaded(package, file.path, owners):
                     continue
                 for entry in section.entries:
                     is_declared = any(node.has(entry.name) for node in declarations)

@@ -7,8 +7,9 @@ from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
 from scaffold.api.formats import Scalar, Sequence
-from scaffold.api.launch import nodes_for
+from scaffold.api.launch import is_only_loaded, nodes_for
 from scaffold.api.parameters import (
+    ParameterFile,
     declared_by,
     mixed,
     parameter_files,
@@ -97,6 +98,14 @@ class ValueRefused(Rule):
             },
         ),
         Example(
+            "a list with several types in a file that only other code reads",
+            {
+                "launch/a.launch.py": "import yaml\n\n"
+                "settings = yaml.safe_load(open('config/a.yaml'))\n",
+                "config/a.yaml": _FILE_LISTS.format("[1, 0.5]"),
+            },
+        ),
+        Example(
             "an empty list, and a node that handles it",
             {
                 "talker.py": _NODE.format("get_parameter_or('names')"),
@@ -127,28 +136,28 @@ class ValueRefused(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        yield from self._check_values(package)
-        yield from self._check_lists(package)
+        for file in parameter_files(package):
+            findings = [*self._check_values(file), *self._check_lists(file)]
+            if findings and not is_only_loaded(package, file.path):
+                yield from findings
         yield from self._check_empty(package)
 
-    def _check_values(self, package: Package) -> Iterator[Diagnostic]:
-        for file in parameter_files(package):
-            for refused in file.refused:
-                yield self.report(refused.location, refused.message)
+    def _check_values(self, file: ParameterFile) -> Iterator[Diagnostic]:
+        for refused in file.refused:
+            yield self.report(refused.location, refused.message)
 
-    def _check_lists(self, package: Package) -> Iterator[Diagnostic]:
-        for file in parameter_files(package):
-            for section in file.sections:
-                for entry in section.entries:
-                    mixture = mixed(entry.value)
-                    if mixture is None or not isinstance(entry.value, Sequence):
-                        continue
-                    first, kind, other, other_kind = mixture
-                    message = (
-                        f"list {entry.name!r} mixes {kind} ({first.text}) and {other_kind} "
-                        f"({other.text}): rcl rejects the file; use one type"
-                    )
-                    yield self.report(other, message, self._fix(file.path, entry.value))
+    def _check_lists(self, file: ParameterFile) -> Iterator[Diagnostic]:
+        for section in file.sections:
+            for entry in section.entries:
+                mixture = mixed(entry.value)
+                if mixture is None or not isinstance(entry.value, Sequence):
+                    continue
+                first, kind, other, other_kind = mixture
+                message = (
+                    f"list {entry.name!r} mixes {kind} ({first.text}) and {other_kind} "
+                    f"({other.text}): rcl rejects the file; use one type"
+                )
+                yield self.report(other, message, self._fix(file.path, entry.value))
 
     def _fix(self, path: str, value: Sequence) -> Fix | None:
         scalars = [item for item in value.items if isinstance(item, Scalar)]

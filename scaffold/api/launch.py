@@ -43,6 +43,7 @@ from scaffold.model.launch.nodes import (
 )
 from scaffold.model.launch.parameter_files import (
     is_loaded,
+    is_only_loaded,
     names_alike,
     node_names,
     nodes_for,
@@ -112,6 +113,7 @@ __all__ = [
     "is_named",
     "is_named_elsewhere",
     "is_of_unread_argument",
+    "is_only_loaded",
     "is_reversed",
     "is_unread",
     "launch_files",

@@ -69,8 +69,8 @@ class StartedNode(NamedTuple):
     parameter_files: tuple[tuple[str, bool], ...]
     """The parameter files of the own package, relative to its share directory.
 
-    The default of a launch argument counts too. With whether the launch file gives it to a file
-    that it includes, too.
+    The default of a launch argument counts too. With whether the launch file gives it to others,
+    too: to a file that it includes, or as the source of a copy.
     """
     parameters: tuple[GivenParameter, ...]
     """The single parameters."""
@@ -328,13 +328,18 @@ def _file_of(launch: LaunchFile, node: ast.expr) -> str | Unknown:
 
 
 def _is_handed_on(launch: LaunchFile, expression: ast.expr) -> bool:
-    """Return whether a launch file also passes a parameter file to an included file."""
+    """Return whether a launch file passes a parameter file to more than the node.
+
+    To an included file, or as ``source_file`` to RewrittenYaml, which makes a copy for nodes.
+    """
     text = launch.module.text(expression)
-    return any(
-        text in launch.module.text(given)
+    included = [
+        call.given["launch_arguments"]
         for call in launch.find("IncludeLaunchDescription")
-        if (given := call.given.get("launch_arguments")) is not None
-    )
+        if "launch_arguments" in call.given
+    ]
+    sources = [word.value for word in launch.module.walk(ast.keyword) if word.arg == "source_file"]
+    return any(text in launch.module.text(given) for given in (*included, *sources))
 
 
 def _is_listed(launch: LaunchFile, call: ast.Call) -> bool:

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from scaffold.model.facts import fact
 from scaffold.model.install.share import share_of
 from scaffold.model.launch.nodes import StartedNode, consumers, started_nodes
+from scaffold.model.launch.unlaunched import is_in_unlaunched_action
 from scaffold.model.package import mentions
 from scaffold.model.parameters.declared import Declared, declared_by, own_nodes
 from scaffold.record import NamedTuple
@@ -68,11 +69,17 @@ def _use_of(package: Package, path: str) -> FileUse:
     passed = False
     for node in consumers(package):
         for named, is_handed_on in node.parameter_files:
-            if installed.get(named, named) == path:
+            if installed.get(named, named) == path and not _is_unlaunched(package, node):
                 result.append(node)
                 passed = passed or is_handed_on
     launch_files = {node.launch for node in result}
     return FileUse(result, not passed and not _is_mentioned(package, path, launch_files))
+
+
+def _is_unlaunched(package: Package, node: StartedNode) -> bool:
+    """Return whether no LaunchDescription gets a node."""
+    at = node.location
+    return is_in_unlaunched_action(package, node.launch, at.line, at.column)
 
 
 def nodes_for(package: Package, path: str, section: Section) -> list[KnownNode]:
@@ -124,6 +131,14 @@ def is_loaded(package: Package, path: str, owners: Sequence[KnownNode] = (), key
         for other in package.workspace
         for code in _code_loading_yaml(other)
     )
+
+
+def is_only_loaded(package: Package, path: str, owners: Sequence[KnownNode] = ()) -> bool:
+    """Return whether code loads a parameter file as YAML, and no launch file passes it to a node.
+
+    Then rcl never reads it. See `is_loaded` for the arguments.
+    """
+    return not use_of(package, path).nodes and is_loaded(package, path, owners)
 
 
 def _has(package: Package, code: str, key: str) -> bool:
