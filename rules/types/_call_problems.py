@@ -19,6 +19,8 @@ from scaffold.api.types import (
     short_name,
 )
 
+from ._kept_callbacks import kept_callback_problem
+
 _CALLEE = rf"(?:[a-z]+ )*`(?P<callee>(?:{MARKED}|[^\W\d]\w*)(?:\.\w+)?)`"
 _OF_ROS1 = "queue_size"
 """The names of the depth argument of publishers and subscriptions in ROS 1."""
@@ -37,6 +39,7 @@ def call_problem(finding: TypeFinding) -> str:
         or _unknown(finding)
         or _repeated(finding)
         or _of_no_overload(finding)
+        or kept_callback_problem(finding)
     )
 
 

@@ -33,6 +33,37 @@ _TALKER = (
     "    def start(self):\n"
     "        self.talker = self.create_publisher(String, 'talk', {}=10)\n"
 )
+_BUTTON = (
+    "from std_msgs.msg import Bool\n\n\n"
+    "class Button:\n"
+    "    def __init__(self, node, on_press, on_release=None, on_hold=None, is_long=True):\n"
+    "        self.on_press = on_press\n"
+    "        self.on_release = on_release\n"
+    "        self.on_hold = on_hold\n"
+    "        self.is_long = is_long\n"
+    "        node.create_subscription(Bool, 'button', self.hear, 10)\n\n"
+    "    def hear(self, msg):\n"
+    "        if msg.data:\n"
+    "            self.on_press(msg.data)\n"
+    "        elif self.on_release is not None:\n"
+    "            self.on_release()\n"
+    "        if self.is_long:\n"
+    "            self.on_hold(msg.data)\n"
+    "        else:\n"
+    "            self.on_hold()\n"
+)
+_PANEL = (
+    "import rclpy\nfrom rclpy.node import Node\n\nfrom rover.button import Button\n\n\n"
+    "class Panel(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('panel')\n"
+    "        self.start = Button(self, self.on_start)\n"
+    "        self.stop = Button(self, print, self.on_stop, on_hold=self.on_hold, is_long=False)\n\n"
+    "    def on_start(self{}):\n        pass\n\n"
+    "    def on_stop(self{}):\n        pass\n\n"
+    "    def on_hold(self):\n        pass\n\n\n"
+    "def main():\n    rclpy.init()\n    rclpy.spin(Panel())\n"
+)
 _LOG = (
     "from rclpy.node import Node\nfrom sensor_msgs.msg import BatteryState\n\n\n"
     "class Battery(Node):\n"
@@ -206,6 +237,28 @@ class ArgumentsUnfit(TypeRule):
                 "rover/arm.py": "from geometry_msgs.msg import Point\n\n"
                 "from .servo import Servo\n\nplace = Point()\nservo = Servo(angle=360)\n",
             },
+        ),
+        Example(
+            "callbacks that an object keeps, one of them depending on another attribute",
+            {
+                "package.xml": "<package><name>rover</name></package>\n",
+                "rover/__init__.py": "",
+                "rover/button.py": _BUTTON,
+                "rover/panel.py": _PANEL.format(", data", ""),
+            },
+        ),
+        Example(
+            "callbacks that an object keeps, without and with too many parameters",
+            {
+                "package.xml": "<package><name>rover</name></package>\n",
+                "rover/__init__.py": "",
+                "rover/button.py": _BUTTON,
+                "rover/panel.py": _PANEL.format("", ", why"),
+            },
+            "rover/button.py:14:27: self.on_press() passes 1 argument, but 'on_start' from line "
+            "10 of rover/panel.py takes 0: TypeError",
+            "rover/button.py:16:13: self.on_release() passes 0 arguments, but 'on_stop' from line "
+            "11 of rover/panel.py takes 1: TypeError",
         ),
         Example(
             "missing argument",

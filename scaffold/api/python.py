@@ -9,7 +9,7 @@ from scaffold.model.contents.python_facts import (
     paths_importing,
     rospack_lookups,
 )
-from scaffold.model.python.given_arguments import arguments_for
+from scaffold.model.python.given_arguments import arguments_for, given_argument
 from scaffold.model.python.guards import (
     caught_around,
     conditions_on,
@@ -51,6 +51,7 @@ __all__ = [
     "caught_around",
     "conditions_on",
     "exports_of",
+    "given_argument",
     "imports_by_path",
     "is_generator",
     "is_guarded_by",

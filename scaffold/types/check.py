@@ -41,6 +41,7 @@ _NAMELESS = re.compile(
     rf"Object of type `(?:str|int|float|bool|bytes|CoroutineType\[.*\]|{_CONTAINER})`"
     r" has no attribute `\w+`"
     r"|Too many positional arguments: expected \d+, got \d+"
+    r"|No arguments? provided for required parameters? (?:`\w+`(?:, )?)+"
     r"|(?:Not enough|Too many) values to unpack: Expected \d+.*"
     r"|(?:Object of type|Cannot subscript object of type) `(?:int|float|bool)`"
     r"(?: is not (?:callable|iterable)| with no .*)"

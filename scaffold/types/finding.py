@@ -17,7 +17,7 @@ from scaffold.model.python.handlers import is_tested_to_fail, last_names
 from scaffold.model.python.module import PythonModule
 from scaffold.source import Location
 from scaffold.types import origins
-from scaffold.types.rewriting.passed import first_call
+from scaffold.types.rewriting.passed import calls_from_modules
 from scaffold.types.ros1 import is_for_ros1
 from scaffold.types.stubs.marks import MARKED, full_name, short_name
 from scaffold.types.ty import TyDiagnostic
@@ -122,8 +122,12 @@ class TypeFinding:
         if lines:
             return node.id, f"line {min(lines)}"
         called = origins.called_as(self.module, node)
-        place = first_call(self.package, self.path, called) if called else None
+        place = next(self.calls_from_modules(called), None) if called else None
         return (node.id, f"line {place[1]} of {place[0]}") if place else None
+
+    def calls_from_modules(self, function: str) -> Iterator[tuple[str, int]]:
+        """Yield the file and line of each call of a function of this file by other modules."""
+        return calls_from_modules(self.package, self.path, function)
 
     def arguments_for(self, name: ast.Name) -> Sequence[ast.expr]:
         """Return the arguments that calls in the file pass for a parameter."""

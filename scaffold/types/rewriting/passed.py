@@ -169,16 +169,15 @@ def module_of(package: Package, path: str) -> str:
     return ".".join(parts) if is_module else ""
 
 
-def first_call(package: Package, path: str, function: str) -> tuple[str, int] | None:
-    """Return the file and line where another module calls a function of a module."""
+def calls_from_modules(package: Package, path: str, function: str) -> Iterator[tuple[str, int]]:
+    """Yield the file and line of each call of a function of a module by other modules."""
     called = f"{module_of(package, path)}.{function}"
     for other in callers(package, path):
         data = package.data(other)
         text = data.decode()
         for place in places(text, own_names(data, module_of(package, other))):
             if place.function == called:
-                return other, text.count("\n", 0, place.start) + 1
-    return None
+                yield other, text.count("\n", 0, place.start) + 1
 
 
 @fact
