@@ -72,6 +72,8 @@ def known_owner(
             types = MessageTypes.of(finding.package, finding.path)
             is_replaced = is_replaced or types.field_type_of(node.value) is not None  # see MS023
         return None if is_replaced else (with_article(container[1]), frozenset())
+    if owner in _PLAIN and _may_be_of_enum(finding.package, node):
+        return None
     return _plain(node, owner) or _of_ros(finding, node, owner)
 
 
@@ -80,6 +82,27 @@ def _is_set_elsewhere(package: Package, node: ast.expr) -> bool:
     return isinstance(node, ast.Attribute) and any(
         _sets(package, path, node.attr, r"(?<!\bself)") for path in package.python_files
     )
+
+
+def _may_be_of_enum(package: Package, node: ast.Attribute) -> bool:
+    """Return whether a value is of a class with a base, which may be an enum of a library.
+
+    The type checker sees the plain value if it does not find the base.
+    """
+    match node:
+        case ast.Attribute(attr="name" | "value", value=ast.Attribute(value=ast.Name(id=name))):
+            return any(
+                _has_base(other, path, name)
+                for other in package.workspace
+                for path in other.python_files
+            )
+    return False
+
+
+@fact
+def _has_base(package: Package, path: str, class_: str) -> bool:
+    pattern = rf"class {class_}\((?!\s*(?:object\b|\)))"
+    return re.search(pattern.encode(), package.data(path)) is not None
 
 
 def _plain(node: ast.Attribute, owner: str) -> tuple[str, frozenset[str]] | None:

@@ -111,6 +111,11 @@ _THRUSTERS = (
     "        for output in self.outputs:\n"
     "            output.publish(Float64())\n"
 )
+_MODES = (
+    "from rclpy.node import Node\nfrom robots.modes import StrEnum\n\n\n"
+    "class Mode{}:\n    IDLE = 'idle'\n\n\n"
+    "def show(node: Node):\n    node.get_logger().info(Mode.IDLE.value)\n"
+)
 _ODOMETRY = "class Odometry:\n    def reset(self):\n        self.x = 0.0\n"
 _DRIVE = (
     "from rclpy.node import Node\nfrom std_srvs.srv import Trigger\n\n"
@@ -779,6 +784,22 @@ class AttributeMissing(TypeRule):
             {"thrusters.py": _THRUSTERS.format("1")},
             "13:9: an int has no 'publish': AttributeError",
             "15:13: an int has no 'publish': AttributeError",
+        ),
+        Example(
+            "value of an enum of a library that is not installed",
+            {"modes.py": _MODES.format("(StrEnum)")},
+        ),
+        Example(
+            "value of a constant",
+            {"modes.py": _MODES.format("")},
+            "10:28: a str has no 'value': AttributeError",
+        ),
+        Example(
+            "method of a recording",
+            {
+                "play.py": "from rosbag2_py import SequentialReader\n\n"
+                "reader = SequentialReader()\nreader.open_uri('recording')\nreader.close()\n"
+            },
         ),
         Example(
             "existing field of a message in a dictionary of dataclasses",
