@@ -153,6 +153,15 @@ class SpunWrongly(RclpyRule):
             "15:16: executor is never spun: the callbacks of its nodes never run",
         ),
         Example(
+            "an executor that is not spun, while a thread spins its node",
+            {
+                "talker.py": "from threading import Thread\n\n"
+                + _NODE_EXECUTORS.format(
+                    _ADD + "    Thread(target=rclpy.spin, args=(node,)).start()\n"
+                )
+            },
+        ),
+        Example(
             "an executor that is not spun, while one of its nodes is",
             {
                 "talker.py": _NODE_EXECUTORS.format(
@@ -238,7 +247,7 @@ class SpunWrongly(RclpyRule):
                 spin = used["spin"] if "spin" in used else next(iter(used.values()))
                 message = "executor without nodes: no callback ever runs; call add_node() first"
                 yield self.report(file.module.location(spin), message)
-            elif "add_node" in used and not is_spun and not file.spin_calls:
+            elif "add_node" in used and not is_spun and not _spins(file):
                 message = "executor is never spun: the callbacks of its nodes never run"
                 is_needed = needs_spin(file) or not file.classes
                 severity = Severity.ERROR if is_needed else Severity.WARNING
@@ -288,6 +297,11 @@ def _spinning_threads(file: RclpyFile) -> Iterator[tuple[ast.Call, str]]:
             continue
         if isinstance(args, ast.Tuple | ast.List) and len(args.elts) == 1:
             yield call, file.module.text(args.elts[0])
+
+
+def _spins(file: RclpyFile) -> bool:
+    """Return whether a file spins a node, here or in a thread."""
+    return bool(file.spin_calls) or any(_spinning_threads(file))
 
 
 def _share_scope(file: RclpyFile, thread: ast.Call, call: ast.Call) -> bool:
@@ -362,7 +376,7 @@ def _left_out(file: RclpyFile, made: ast.Call) -> list[str]:
         and isinstance(call.args[0], ast.Name)
         and file.module.enclosing_function(call) is function
     ]
-    spun: set[str] = set()
+    spun = {name for _, name in _spinning_threads(file)}
     for spin in file.spin_calls:
         node = spin.call.args[0] if spin.call.args else None
         is_plain = isinstance(node, ast.Name) and not spin.call.keywords
