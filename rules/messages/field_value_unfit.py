@@ -10,6 +10,10 @@ from scaffold.api.distributions import target
 from scaffold.api.messages import MessageTypes, TypeMismatches, rclpy_time
 from scaffold.api.python import PythonModule
 
+_TEST = (
+    "from geometry_msgs.msg import Wrench\n\nfrom arm import talker, total\n\n\n"
+    "def test_force():\n    wrench = Wrench()\n    wrench.force.x = 3\n    {}\n"
+)
 _CODE = (
     "from rclpy.node import Node\n"
     "from sensor_msgs.msg import Imu, Temperature\nfrom std_msgs.msg import Bool, String, UInt8\n"
@@ -76,7 +80,8 @@ class FieldValueUnfit(MessageRule):
     name = "field-value-unfit"
     other_severities = {
         Severity.WARNING: "the value is another message with the same fields or the int 0 in a "
-        "float field, which are sent correctly, or the line is in a branch that never runs",
+        "float field, which are sent correctly, or an int in a float field in a test that sends "
+        "nothing, or the line is in a branch that never runs",
     }
     examples = (
         Example("values of the correct types", {"talker.py": _CODE.format(*_RIGHT)}),
@@ -253,6 +258,20 @@ class FieldValueUnfit(MessageRule):
             "np.zeros((3, 3)) is two-dimensional; append .flatten()",
         ),
         Example(
+            "int in a float field, in a test that sends nothing and in one that publishes",
+            {
+                "test/test_force.py": _TEST.format("assert total(wrench) == 3.0"),
+                "test/test_talker.py": _TEST.format("talker.publisher.publish(wrench)"),
+            },
+            Report(
+                "test/test_force.py:8:22",
+                "'x' of geometry_msgs/msg/Vector3 is float64, but 3 is an int",
+                severity=Severity.WARNING,
+            ),
+            "test/test_talker.py:8:22: 'x' of geometry_msgs/msg/Vector3 is float64, but 3 is an "
+            "int: subscribers get another number; write float(...)",
+        ),
+        Example(
             "int 0 in a float field, None in a branch that never runs",
             {
                 "planner.py": "from geometry_msgs.msg import Twist\n"
@@ -357,7 +376,9 @@ class FieldValueUnfit(MessageRule):
                 field = f"{item.field.name!r} of {item.owner.name}"
                 message = f"{field} is {item.field.type}, but {problem}"
                 is_harmless = (
-                    misfits.is_alike(item) or misfits.is_zero(item) or misfits.is_unreachable(item)
+                    misfits.is_alike(item)
+                    or misfits.is_harmless_int(item)
+                    or misfits.is_unreachable(item)
                 )
                 severity = Severity.WARNING if is_harmless else Severity.ERROR
                 message += "" if is_harmless else _effect(item.field.type.name, problem)
