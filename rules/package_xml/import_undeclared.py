@@ -62,10 +62,9 @@ class ImportUndeclared(Rule):
     code = "PX020"
     name = "import-undeclared"
     other_severities = {
-        Severity.WARNING: "it is installed with `ros2 launch` and only imported by launch files, "
-        "only scripts in the share directory import it, requirements.txt or pyproject.toml lists "
-        "it, an unknown dependency may bring it, it is installed to build the workspace, or it is "
-        "torch, which is often installed with pip",
+        Severity.WARNING: "only scripts in the share directory import it, or it may be installed "
+        "anyway: with `ros2 launch` for launch files, with pip (torch, or listed in "
+        "requirements.txt or pyproject.toml), to build the workspace, or by an unknown dependency",
     }
     examples = (
         Example(
