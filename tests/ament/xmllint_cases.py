@@ -107,6 +107,13 @@ CASES: Mapping[str, tuple[Example, ...]] = {
             },
         ),
         Example(
+            "a version of XML that only xmllint refuses, where no linter runs",
+            {
+                "package.xml": "<package/>\n",
+                "launch/talker.launch.xml": '<?xml version="1.0."?>\n<launch/>\n',
+            },
+        ),
+        Example(
             "a file, and a linter, that the package excludes",
             {
                 "package.xml": "<package>\n"
