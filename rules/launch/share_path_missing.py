@@ -191,6 +191,16 @@ class SharePathMissing(Rule):
             },
         ),
         Example(
+            "a path that is only printed",
+            {
+                **_FILES,
+                "launch/a.launch.py": _LAUNCH.format("'config', 'talker.yaml'").replace(
+                    "    return",
+                    "    print(os.path.join(share, 'config', 'lights.yaml'))\n    return",
+                ),
+            },
+        ),
+        Example(
             "a path that is read while the launch file is loaded",
             {
                 **_FILES,

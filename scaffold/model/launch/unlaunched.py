@@ -47,7 +47,7 @@ def is_never_used(
     seen: frozenset[ast.Name] = frozenset(),
     ignored: frozenset[ast.AST] = frozenset(),
 ) -> bool:
-    """Return whether a path or an action is only stored in a variable that is never read.
+    """Return whether a path or an action is only printed, or stored in a variable never read.
 
     The variable is a local one, or one of a launch file that no module can import. Classes of
     launch access files when executed, functions may do so immediately.
@@ -59,6 +59,8 @@ def is_never_used(
         ignored: The actions that do not count as a use.
     """
     if not ignored.isdisjoint(launch.module.parents(node)):
+        return True
+    if _is_printed(launch, node):
         return True
     target = _variable_with(launch, node)
     if target is None:
@@ -87,6 +89,17 @@ def _reads(launch: LaunchFile, target: ast.Name) -> list[ast.Name] | None:
         return None
     reads = [use for use in index.uses_of(target) if isinstance(use.ctx, ast.Load)]
     return _reached(launch, target, reads)
+
+
+def _is_printed(launch: LaunchFile, node: ast.AST) -> bool:
+    """Return whether a value is an argument of ``print()``, perhaps in a format string."""
+    for parent in launch.module.parents(node):
+        if not isinstance(parent, ast.FormattedValue | ast.JoinedStr):
+            match parent:
+                case ast.Call(func=ast.Name(id="print")):
+                    return True
+            return False
+    return False
 
 
 def _variable_with(launch: LaunchFile, node: ast.AST) -> ast.Name | None:
