@@ -213,6 +213,15 @@ class PackageUndeclared(Rule):
             },
         ),
         Example(
+            "after a return",
+            {
+                "package.xml": _MANIFEST.format("  <exec_depend>launch_ros</exec_depend>\n"),
+                "launch/a.launch.py": _LAUNCH.replace(
+                    "    return", "    return LaunchDescription([])\n    return"
+                ),
+            },
+        ),
+        Example(
             "a package of a driver",
             {
                 "package.xml": _MANIFEST.format("  <exec_depend>launch_ros</exec_depend>\n"),

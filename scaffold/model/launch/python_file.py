@@ -227,9 +227,15 @@ class LaunchFile:
         return words[:2], items[0].node if items else None
 
     def is_optional(self, node: ast.AST) -> bool:
-        """Return whether an expression is evaluated under a Python condition, or may fail."""
+        """Return whether an expression may fail, or is evaluated only under a Python condition.
+
+        Or never, after a ``return``.
+        """
         kinds = (ast.If, ast.IfExp, ast.Try, ast.match_case)
-        return any(isinstance(parent, kinds) for parent in self.module.parents(node))
+        return any(
+            isinstance(parent, kinds) or parent in self.module.passed_over
+            for parent in self.module.parents(node)
+        )
 
     @cached_property
     def share_paths(self) -> Sequence[SharePath]:
