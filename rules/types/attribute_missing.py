@@ -117,6 +117,19 @@ _MODES = (
     "def show(node: Node):\n    node.get_logger().info(Mode.IDLE.value)\n"
 )
 _ODOMETRY = "class Odometry:\n    def reset(self):\n        self.x = 0.0\n"
+_WHEELS = (
+    "from .odometry import Odometry\n\n\n"
+    "class Wheels(Odometry):\n    def {}(self):\n        self.reset()\n"
+)
+_RESTART = (
+    "from rclpy.node import Node\n\nfrom .odometry import Odometry\n"
+    "from .wheels import Wheels\n\n\n"
+    "class Drive(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('drive')\n"
+    "        self.connect(Wheels, self.on_start)\n\n"
+    "    def on_start(self, odometry: Odometry):\n        odometry.restart()\n"
+)
 _DRIVE = (
     "from rclpy.node import Node\nfrom std_srvs.srv import Trigger\n\n"
     "from .odometry import Odometry\n\n\n"
@@ -800,6 +813,31 @@ class AttributeMissing(TypeRule):
                 "play.py": "from rosbag2_py import SequentialReader\n\n"
                 "reader = SequentialReader()\nreader.open_uri('recording')\nreader.close()\n"
             },
+        ),
+        Example(
+            "method of all derived classes of an annotated base that nothing creates",
+            {
+                "package.xml": "<package><name>rover</name></package>\n",
+                "rover/__init__.py": "",
+                "rover/odometry.py": _ODOMETRY,
+                "rover/wheels.py": _WHEELS.format("restart"),
+                "rover/drive.py": _RESTART,
+            },
+        ),
+        Example(
+            "method that neither an annotated base nor its derived class has",
+            {
+                "package.xml": "<package><name>rover</name></package>\n",
+                "rover/__init__.py": "",
+                "rover/odometry.py": _ODOMETRY,
+                "rover/wheels.py": _WHEELS.format("stop"),
+                "rover/drive.py": _RESTART,
+            },
+            Report(
+                "rover/drive.py:13:9",
+                "Odometry has no 'restart': AttributeError; did you mean 'reset'?",
+                unsafe_fix="Replace with 'reset'",
+            ),
         ),
         Example(
             "existing field of a message in a dictionary of dataclasses",

@@ -16,7 +16,7 @@ from scaffold.types.ty import TyDiagnostic
 
 CALLEE = r"[^\W\d]\w*(?:\.\w+)?"
 _OWNER = re.compile(
-    r"(?:Object of type|Class) `([^\W\d]\w*)` has no attribute `\w+`", re.IGNORECASE
+    r"(?:Object of type|Class) `([^\W\d]\w*)` has no attribute `(\w+)`", re.IGNORECASE
 )
 # linear: the text before the name has no backquote
 _CALL = re.compile(rf"[^`]*(?:`\w+`[^`]*)*? (?:[a-z]+ )*`({CALLEE})`(?:: expected .*)?")
@@ -57,7 +57,9 @@ def is_about_own(item: TyDiagnostic, sources: Iterable[Source]) -> bool:
     defining = [data for data in files if _definition(name).search(data)]
     if not defining or any(_CHANGING.search(data) for data in _with_bases(name, files)):
         return False
-    if item.kind == "missing-attribute" and any(_is_decorated(name, data) for data in defining):
+    if item.kind == "missing-attribute" and (
+        any(_is_decorated(name, data) for data in defining) or _is_of_derived(item, name, files)
+    ):
         return False
     return item.kind in _CALLS or len(defining) == 1  # otherwise the object may be of another class
 
@@ -105,6 +107,22 @@ def _is_decorated(name: bytes, data: bytes) -> bool:
             if decorator is None and not line.lstrip().startswith(b"#"):
                 break
     return False
+
+
+def _is_of_derived(item: TyDiagnostic, class_: bytes, files: Sequence[bytes]) -> bool:
+    """Return whether every derived class has an attribute, and nothing creates the base itself."""
+    matched = _OWNER.fullmatch(item.message)
+    if matched is None:
+        return False
+    derived = re.compile(rb"^[ \t]*class \w+\([^()]*\b%b\b[^()]*\)" % class_, re.MULTILINE)
+    made = re.compile(rb"(?<!class )\b%b\(" % class_)
+    attribute = re.compile(rb"\b(?:def |self\.)%b\b" % matched[2].encode())
+    with_derived = [data for data in files if derived.search(data)]
+    return (
+        bool(with_derived)
+        and all(attribute.search(data) for data in with_derived)
+        and not any(made.search(data) for data in files)
+    )
 
 
 def _definition(name: bytes) -> re.Pattern[bytes]:
