@@ -72,6 +72,11 @@ class ConditionUnusable(LaunchRule):
             },
         ),
         Example(
+            "a default that makes no expression",
+            {"launch/a.launch.py": _LAUNCH.format("1", "PythonExpression([use, ' or'])")},
+            "12:65: with the defaults this is '1 or', which is not a Python expression",
+        ),
+        Example(
             "another spelling of true",
             {
                 "launch/a.launch.py": _LAUNCH.format(

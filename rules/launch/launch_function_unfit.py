@@ -83,6 +83,17 @@ class LaunchFunctionUnfit(LaunchRule):
             "10:55: set_up takes 'a', which args=[...] does not give: TypeError",
         ),
         Example(
+            "too many arguments; an unknown one",
+            {
+                "launch/a.launch.py": _LAUNCH.format("context", ", args=[1, 2]"),
+                "launch/b.launch.py": _LAUNCH.format("context", ", kwargs={'speed': 2}"),
+            },
+            "launch/a.launch.py:10:55: set_up is given context and 2 more, and takes 1 in all: "
+            "TypeError",
+            "launch/b.launch.py:10:55: set_up takes no 'speed', which kwargs={...} gives: "
+            "TypeError",
+        ),
+        Example(
             "a string instead of a list of arguments",
             _launch("context, a", ", args='fast'"),
             "10:55: set_up gets the string as single characters; args=... must be a list",

@@ -91,6 +91,23 @@ class SubstitutionUsedAsText(LaunchRule):
             "launch runs",
         ),
         Example(
+            "formatted and joined by Python, and a key of a dictionary",
+            {
+                "launch/a.launch.py": _LAUNCH.format(
+                    "'{}.a'.format(name)", "'/'.join(['a', name])"
+                ),
+                "launch/b.launch.py": _LAUNCH.format("{'a': 'b'}[name]", "name.perform()"),
+            },
+            "launch/a.launch.py:10:26: LaunchConfiguration has no value yet in format(): it is "
+            "evaluated when the launch runs",
+            "launch/a.launch.py:12:89: LaunchConfiguration has no value yet in join(): it is "
+            "evaluated when the launch runs",
+            "launch/b.launch.py:10:23: LaunchConfiguration has no value yet as a key: it is "
+            "evaluated when the launch runs",
+            "launch/b.launch.py:12:74: LaunchConfiguration has no value yet without a context: it "
+            "is evaluated when the launch runs",
+        ),
+        Example(
             "its value compared",
             {"launch/a.launch.py": _LAUNCH_TRUTH.format("use == 'true'", "false")},
         ),

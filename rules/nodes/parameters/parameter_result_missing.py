@@ -67,6 +67,29 @@ class ParameterResultMissing(RclpyRule):
             "rejected",
         ),
         Example(
+            "a return without a value; the class",
+            {
+                "early.py": _NODE.format(
+                    "parameters", "        if not parameters:\n            return\n" + _RIGHT
+                ),
+                "late.py": _NODE.format("parameters", "        return SetParametersResult\n"),
+            },
+            "early.py:12:13: returns nothing, not a SetParametersResult: every change is rejected",
+            "late.py:11:9: returns the class SetParametersResult; instantiate it with "
+            "successful=True",
+        ),
+        Example(
+            "a result, and nothing, instead of the list of a pre-set callback",
+            {
+                "early.py": _NODE.replace("add_on_set", "add_pre_set").format("parameters", _RIGHT),
+                "late.py": _NODE.replace("add_on_set", "add_pre_set").format(
+                    "parameters", "        return None\n"
+                ),
+            },
+            "early.py:11:9: returns a SetParametersResult, not the list of parameters: TypeError",
+            "late.py:11:9: returns nothing, not the list of parameters to set: TypeError",
+        ),
+        Example(
             "a bool that a method returns",
             {
                 "talker.py": _NODE.format(
