@@ -410,7 +410,7 @@ def _used_early(file: RclpyFile, node: NodeClass) -> Iterator[tuple[ast.Attribut
     bound = file.module.index.bindings(node.node)
     reported: set[str] = set()
     first_lines: dict[str, int] = {}
-    if node.constructor is None or not is_read_in_full(node):
+    if node.constructor is None or not is_read_in_full(node) or file.module.mentions("setattr("):
         return
     for used in file.module.below(node.constructor, ast.Attribute):
         if not isinstance(used.ctx, ast.Load):
