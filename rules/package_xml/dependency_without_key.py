@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Effect, Example, Fix, Package, Report, Rule, ViewError
 from scaffold.api.catalog import keys_of_module, module_of_key
+from scaffold.api.python import paths_importing
 
 from ._debian import key_of_debian
 
@@ -118,6 +119,15 @@ class DependencyWithoutKey(Rule):
             },
         ),
         Example(
+            "the name of a Python library, in a C++ package",
+            {
+                "package.xml": "<package>\n  <depend>serial</depend>\n</package>\n",
+                "CMakeLists.txt": "project(talker)\nfind_package(libserial REQUIRED)\n",
+            },
+            "package.xml:2:11: 'serial' is not a rosdep key: rosdep stops; the key of the Python "
+            "library is 'python3-serial'",
+        ),
+        Example(
             "OpenCV, for C++ that finds its dependencies automatically",
             {
                 "package.xml": "<package>\n  <depend>OpenCV</depend>\n</package>\n",
@@ -169,10 +179,12 @@ class DependencyWithoutKey(Rule):
             if _is_found_by_cmake(package, dependency.name):
                 continue
             key = _key(package, module)
-            message = f"{dependency.name!r} is not a rosdep key: rosdep stops; the key is {key!r}"
+            message = f"{dependency.name!r} is not a rosdep key: rosdep stops; the key"
             edit = Edit("package.xml", *dependency.element.text_span, key)
-            fix = Fix(f"Replace with {key}", (edit,))
-            yield self.report(dependency, message, fix, cause=f"dependency {key}")
+            fix: Fix | None = Fix(f"Replace with {key}", (edit,))
+            if key.startswith("python3-") and _is_of_cpp(package, module):
+                message, fix = f"{message} of the Python library", None
+            yield self.report(dependency, f"{message} is {key!r}", fix, cause=f"dependency {key}")
 
 
 def _problem(name: str) -> str:
@@ -214,3 +226,8 @@ def _key(package: Package, module: str) -> str:
     except ViewError:
         is_found = False
     return "libopencv-dev" if is_found and module == "cv2" else keys[0]
+
+
+def _is_of_cpp(package: Package, module: str) -> bool:
+    """Return whether a package with C++ imports no such module, and may mean a C++ library."""
+    return package.has("CMakeLists.txt") and not any(paths_importing(package, module))
