@@ -84,7 +84,8 @@ def _parameter_stored(
     stores = [
         use
         for use in module.index.attributes(name)
-        if not isinstance(use.ctx, ast.Load) and module.enclosing_class(use) is class_
+        if not isinstance(use.ctx, ast.Load)
+        and (module.enclosing_class(use) is class_ or module.text(use.value) != "self")
     ]
     match module.parent(stores[0]) if len(stores) == 1 else None:
         case ast.Assign(targets=[_], value=ast.Name() as value):
