@@ -54,6 +54,16 @@ class MarkerNotShown(MessageRule):
             {"show.py": _NODE.format("number", "a", "marker.ns = 'a'")},
         ),
         Example(
+            "empty marker of a test",
+            {
+                "test/test_show.py": "import pytest\n"
+                "from visualization_msgs.msg import Marker\n\n\n"
+                "def test_show(publisher):\n"
+                "    marker = Marker()\n"
+                "    publisher.publish(marker)\n"
+            },
+        ),
+        Example(
             "namespace and id set in one assignment",
             {
                 "show.py": _NODE.format("number", "a", "pass").replace(
@@ -179,6 +189,8 @@ class MarkerNotShown(MessageRule):
     )
 
     def check_file(self, types: MessageTypes) -> Iterator[Diagnostic]:
+        if types.module.in_tests:
+            return  # RViz shows no marker of a test
         for assignment in types.module.walk(ast.Assign):
             match assignment:
                 case ast.Assign(targets=[ast.Name() as name], value=ast.Call(args=[]) as made):

@@ -682,7 +682,7 @@ def requests(draw: st.DrawFn, kind: str) -> dict[str, Any]:
     """Return a strategy for answers with up to three parts, the first of a given kind."""
     base = {item.name: item for item in TEMPLATES["package"].questions}
     result: dict[str, Any] = {"package": draw(answers_to(base["package"]))}
-    for name in base.keys() - {"package", "add", "extras", "node_kind"}:
+    for name in sorted(base.keys() - {"package", "add", "extras", "node_kind"}):
         if draw(st.booleans()):
             result[name] = draw(answers_to(base[name]))
     if TEMPLATES[kind].build_types:
