@@ -143,6 +143,15 @@ class TopicNameDiffers(Rule):
             "b.py:8:42: no publisher for '~/chatter': a.py:8 publishes 'chatter', and ~ expands "
             "to the node name",
         ),
+        Example(
+            "filter of a topic with a private one of the same name",
+            {
+                "a.py": _NODE.format(
+                    "publisher(String, '~/chatter', 10)\n"
+                    "        self.create_subscription(String, 'chatter', print, 10)"
+                )
+            },
+        ),
         Example("same service name", {"nodes.py": _NODE_SERVICES.format("report")}),
         Example(
             "misspelled service name",
@@ -233,8 +242,10 @@ class TopicNameDiffers(Rule):
                 continue
             for topic in awaited if is_sent else sent:
                 other = topic.subscriptions[0] if is_sent else topic.publishers[0]
+                # A filter of a topic publishes the result as a private one of the same name.
+                is_filter = other.location.path == private.location.path
                 is_same = topic.is_plain and _is_same_but_private(other, private)
-                if is_same and not is_remapped(package, other):
+                if is_same and not is_filter and not is_remapped(package, other):
                     subscription, publisher = (other, private) if is_sent else (private, other)
                     place = f"{publisher.location.path}:{publisher.location.line}"
                     message = (

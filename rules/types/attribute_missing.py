@@ -66,6 +66,16 @@ _STATES = (
     "        for state in self.states.values():\n"
     "            print(state.{})\n"
 ).replace("].{}", "].pose")
+_MEMORY = (
+    "from std_msgs.msg import String\n\n\n"
+    "class Memory:\n"
+    "    topic = String()\n\n"
+    "    def keep(self, value, weight):\n"
+    "        if value is None:\n"
+    "            return None\n"
+    "        updated = 0.5 * {}\n"
+    "        return updated.astype(weight)\n"
+)
 _HUB = (
     "from rclpy.node import Node\nfrom sensor_msgs.msg import Imu, Range\n\n\n"
     "class Hub(Node):\n"
@@ -848,6 +858,15 @@ class AttributeMissing(TypeRule):
             {"keep.py": _STATES.format("pose.pose")},
             "21:19: geometry_msgs.msg.Pose has no 'pose': AttributeError; it has orientation, "
             "position",
+        ),
+        Example(
+            "product with a value that may be an array",
+            {"keep.py": _MEMORY.format("value")},
+        ),
+        Example(
+            "product of floats",
+            {"keep.py": _MEMORY.format("float(value)")},
+            "11:16: a float has no 'astype': AttributeError",
         ),
         Example(
             "coroutine that is not awaited",

@@ -17,6 +17,7 @@ from scaffold.model.python.handlers import is_tested_to_fail, last_names
 from scaffold.model.python.module import PythonModule
 from scaffold.source import Location
 from scaffold.types import origins
+from scaffold.types.arithmetic import may_be_of_library
 from scaffold.types.rewriting.passed import calls_from_modules
 from scaffold.types.ros1 import is_for_ros1
 from scaffold.types.stubs.marks import MARKED, full_name, short_name
@@ -288,7 +289,10 @@ class TypeFinding:
     def _is_of_several(self, node: ast.AST) -> bool:
         """Return whether the called or used object may be another one than the reported one."""
         parts = [node.left, node.right] if isinstance(node, ast.BinOp) else [node]
-        if any(origins.has_default(self.module, part) for part in parts):
+        if any(
+            origins.has_default(self.module, part) or may_be_of_library(self.module, part)
+            for part in parts
+        ):
             return True
         if self.kind == "missing-attribute":
             # otherwise only reported if no object of them has it
