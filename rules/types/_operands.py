@@ -39,8 +39,9 @@ def _is_sure(file: RclpyFile, node: ast.expr, depth: int) -> bool:
     match node:
         case ast.Constant() | ast.JoinedStr() | ast.List() | ast.Tuple() | ast.Dict():
             return True
-        case ast.Attribute(value=owner):
-            return not any(isinstance(part, ast.Subscript) for part in ast.walk(owner))
+        case ast.Attribute(value=owner, attr=name):
+            stored = [store.value for store in file.evaluator.stores(name)]
+            return not any(isinstance(part, ast.Subscript) for part in (*ast.walk(owner), *stored))
         case ast.Name():
             value = file.evaluator.single_value(node)
             return depth > 0 and value is not node and _is_sure(file, value, depth - 1)

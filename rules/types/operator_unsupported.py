@@ -199,6 +199,23 @@ class OperatorUnsupported(TypeRule):
             "10:37: '+' does not work on a tuple and a list: TypeError",
         ),
         Example(
+            "a number of a table with numbers and strings, kept in an attribute",
+            {
+                "flight.py": "import rclpy\nfrom rclpy.node import Node\n\n"
+                "STEPS = [{'mode': 'up', 't': 10}, {'mode': 'up', 'x': 0.0, 't': 5}]\n\n\n"
+                "class Flight(Node):\n"
+                "    def __init__(self):\n"
+                "        super().__init__('flight')\n"
+                "        self.index = 0\n"
+                "        self.left = STEPS[0]['t']\n\n"
+                "    def tick(self):\n"
+                "        if self.left == 0:\n"
+                "            self.index += 1\n"
+                "            self.left = STEPS[self.index]['t']\n"
+                "        self.left -= 1\n"
+            },
+        ),
+        Example(
             "Path in an instance attribute whose class attribute is a str",
             {
                 "builder.py": "from pathlib import Path\n\n"
