@@ -71,6 +71,16 @@ class TransformSentOnce(RclpyRule):
             },
         ),
         Example(
+            "sent by a method that others call",
+            {
+                "mount.py": _NODE.format("").replace(
+                    "        self.broadcaster.send",
+                    "        MOVED.subscribe(self.send)\n        self.send()\n\n"
+                    "    def send(self):\n        self.broadcaster.send",
+                )
+            },
+        ),
+        Example(
             "one frame sent once, another by a timer",
             {"base.py": _TWO_FRAMES.format("'base_link'")},
             "13:9: the transform of 'laser' is sent once, by the constructor: later subscribers "
@@ -101,13 +111,13 @@ class TransformSentOnce(RclpyRule):
             call
             for func in file.module.index.attributes("sendTransform")
             if isinstance(call := file.module.parent(func), ast.Call)
-            and call.func is func
+            and _is_called(file, func)
             and _is_broadcaster(file, func.value)
         ]
         if not calls or file.module.in_tests:
             return
         phases = phases_of(file)
-        alone = phases.constructing - phases.running
+        alone = phases.constructing - phases.running - _given_away(file, phases.constructing)
         sent_once = [call for call in calls if file.function_of(call) in alone]
         again = [call for call in calls if call not in sent_once]
         for call in sent_once:
@@ -121,6 +131,22 @@ class TransformSentOnce(RclpyRule):
                     "constructor: later subscribers never get it; use StaticTransformBroadcaster"
                 )
                 yield self.report(file.module.location(call), message)
+
+
+def _given_away(file: RclpyFile, functions: frozenset[ast.AST]) -> set[ast.AST]:
+    """Return those of some functions that others may call later, and what these call."""
+    result: set[ast.AST] = set()
+    for function in functions:
+        name = getattr(function, "name", "")
+        uses = (*file.module.index.attributes(name), *file.module.index.names(name))
+        if any(isinstance(use.ctx, ast.Load) and not _is_called(file, use) for use in uses):
+            result.update(file.reached(function))
+    return result
+
+
+def _is_called(file: RclpyFile, function: ast.expr) -> bool:
+    call = file.module.parent(function)
+    return isinstance(call, ast.Call) and call.func is function
 
 
 def _frame(file: RclpyFile, call: ast.Call) -> str | None:
