@@ -13,7 +13,7 @@ from scaffold.api.rclpy import FIELDS, PARAMETER, class_of
 if TYPE_CHECKING:
     from scaffold.api import Package
     from scaffold.api.python import FunctionNode, PythonModule
-    from scaffold.api.rclpy import Entity, RclpyFile
+    from scaffold.api.rclpy import Entity, ParameterRead, RclpyFile
 
 _BUILTINS = frozenset(
     {"abs", "bool", "dict", "enumerate", "float", "int", "len", "list", "max", "min", "open"}
@@ -152,11 +152,20 @@ def _uses(
 def _objects(file: RclpyFile) -> Iterator[Entity]:
     """Yield the calls that return a Parameter."""
     for read in file.parameter_reads:
-        if read.owner is not None and read.method in {"get_parameter", "get_parameter_or"}:
+        is_object = read.method == "get_parameter" or (
+            read.method == "get_parameter_or" and not _may_return_alternative(file, read)
+        )
+        if read.owner is not None and is_object:
             yield read
     for parameter in file.parameters:
         if parameter.owner is not None and "name" in parameter.arguments:
             yield parameter
+
+
+def _may_return_alternative(file: RclpyFile, read: ParameterRead) -> bool:
+    """Return whether ``get_parameter_or(name, value)`` of an undeclared parameter returns a value."""
+    alternatives = [*read.call.args[1:], *(word.value for word in read.call.keywords)]
+    return bool(alternatives) and read.name not in {other.name for other in file.parameters}
 
 
 def _stands_for_value(file: RclpyFile, node: ast.AST) -> bool:

@@ -92,6 +92,14 @@ class ParameterObjectUsed(RclpyRule):
             fixed={"talker.py": _NODE.format(".value")},
         ),
         Example(
+            "the alternative to a parameter that is not declared",
+            {
+                "talker.py": _NODE.format("")
+                .replace("get_parameter('rate')", "get_parameter_or('rate', 2.0)")
+                .replace("declare_parameter('rate'", "declare_parameter('other'")
+            },
+        ),
+        Example(
             "an object that is logged and passed to a function that takes a Parameter",
             {
                 "talker.py": _NODE_PASSING,
