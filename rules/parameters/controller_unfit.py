@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import suppress
 
 from scaffold.api import (
     Diagnostic,
@@ -39,6 +38,7 @@ from scaffold.api.parameters import (
 from scaffold.api.robot import is_known, robot_file, robot_paths, robots
 
 from ._controllers import replacement
+from ._started import is_named_in_code
 
 _MANAGER = "controller_manager"
 _SPAWNER = "spawner"
@@ -68,6 +68,8 @@ _OTHER_SOURCE = frozenset(
     {"-p", "--param-file", "-t", "--controller-type", "--controller-ros-args"}
 )
 """The options of the spawner that may specify the type."""
+_UNUSED = Severity.WARNING
+"""The severity of a mistake in the configuration of a controller that nothing starts."""
 _LOAD = ["ros2", "control", "load_controller"]
 _FILE = (
     "controller_manager:\n  ros__parameters:\n    update_rate: {}\n"
@@ -112,10 +114,6 @@ def _files(
         "package.xml": "<package><name>base</name></package>\n",
         "urdf/base.urdf": _ROBOT,
     }
-
-
-_STARTING = (".py", ".xml", ".yaml", ".yml", ".sh", ".cpp", ".hpp", ".xacro")
-"""Ends of the names of files that may start a controller."""
 
 
 class ControllerUnfit(Rule):
@@ -223,6 +221,25 @@ class ControllerUnfit(Rule):
             "controller manager: it is not loaded; known: base_controller",
         ),
         Example(
+            "the controller of joint states of ROS 1, which nothing starts any more",
+            {
+                **_files(type_="joint_state_controller/JointStateController\n    other: 1"),
+                "launch/robot.launch.py": _LAUNCH.format("controllers.yaml", "'arm'", "arm")
+                + "    # Node(executable='spawner', arguments=['base_controller'])\n",
+            },
+            Report(
+                "config/controllers.yaml:5:13",
+                "Jazzy has no controller "
+                "'joint_state_controller/JointStateController': loading fails; use "
+                "'joint_state_broadcaster/JointStateBroadcaster'",
+                severity=Severity.WARNING,
+            ),
+            "launch/robot.launch.py:13:25: no file sets the type of 'arm' for the controller "
+            "manager: it is not loaded; known: base_controller",
+            "launch/robot.launch.py:15:29: no file sets the type of 'arm' for the controller "
+            "manager: it is not loaded; known: base_controller",
+        ),
+        Example(
             "types given in another way, and unknown names",
             {
                 **_files(words="'arm', '-p', '/etc/arm.yaml'"),
@@ -276,7 +293,9 @@ class ControllerUnfit(Rule):
                         f"{target().title} has no controller {entry.value.text!r}: loading fails; "
                         f"use {instead!r}"
                     )
-                    yield self.report(entry.value.location, message)
+                    controller = entry.name.removesuffix(_TYPE)
+                    severity = None if _is_started(package, controller) else _UNUSED
+                    yield self.report(entry.value.location, message, severity=severity)
 
     def _check_nested(
         self, files: Sequence[ParameterFile], manager: Section, types: Mapping[str, Entry]
@@ -340,8 +359,7 @@ class ControllerUnfit(Rule):
                     closest = closest_name(package, item.text, joints, 0.6)
                     hint = f"; did you mean {closest!r}?" if closest else ""
                     message = f"the robot has no joint {item.text!r}: the controller fails{hint}"
-                    is_started = _is_named_elsewhere(package, controller, file.path)
-                    severity = None if is_started else Severity.WARNING
+                    severity = None if is_named_in_code(package, controller) else _UNUSED
                     yield self.report(item.location, message, severity=severity)
 
     def _check_spawned(self, package: Package, types: Mapping[str, Entry]) -> Iterator[Diagnostic]:
@@ -360,15 +378,11 @@ class ControllerUnfit(Rule):
                 yield self.report(word.location, message)
 
 
-def _is_named_elsewhere(package: Package, controller: str, path: str) -> bool:
-    """Return whether another file of the workspace names a controller, perhaps to start it."""
-    for other in package.workspace:
-        for place in other.files:
-            if place.endswith(_STARTING) and (other is not package or place != path):
-                with suppress(ViewError):
-                    if controller.encode() in other.data(place):
-                        return True
-    return False
+def _is_started(package: Package, controller: str) -> bool:
+    """Return whether a controller may be started, perhaps under a name that is not known."""
+    spawned = [word.text for _, word in _words(package)]
+    is_known = bool(spawned) and not any(UNSAID in word for word in spawned)
+    return not is_known or is_named_in_code(package, controller)
 
 
 def _text_of(entry: Entry) -> str:
@@ -377,13 +391,17 @@ def _text_of(entry: Entry) -> str:
 
 def _spawned(package: Package) -> Iterator[tuple[str, Word]]:
     """Yield the controllers that launch files load, with the launch file."""
+    return ((path, word) for path, word in _words(package) if UNSAID not in word.text)
+
+
+def _words(package: Package) -> Iterator[tuple[str, Word]]:
+    """Yield the names of controllers, or what they are put together from."""
     for line in (*command_lines(package, _SPAWNER), *_loaded(package)):
         words = [word.text for word in line.words]
         if not _OTHER_SOURCE.isdisjoint(words):
             continue
         for before, word in zip(["", *words], line.words, strict=False):
-            is_name = not word.text.startswith("-") and before not in _WITH_VALUE
-            if is_name and UNSAID not in word.text:
+            if not word.text.startswith("-") and before not in _WITH_VALUE:
                 yield line.location.path, word
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import suppress
 
 from scaffold.api import (
@@ -14,6 +14,7 @@ from scaffold.api import (
     Package,
     Report,
     Rule,
+    Severity,
     ViewError,
     closest_name,
 )
@@ -22,8 +23,41 @@ from scaffold.api.formats import Scalar
 from scaffold.api.formats import Sequence as YamlSequence
 from scaffold.api.parameters import Entry, Section, parameter_files
 
-_OF_NAV2 = re.compile(r"nav2_\w+/\w+")
-"""Matches the names of plugins up to Iron."""
+from ._started import is_server_started
+
+_OF_NAV2 = re.compile(r"(nav2_\w+)(?:/|::)(\w+)")
+"""Matches names of plugins in packages of Nav2."""
+_CLASSES: Mapping[str, tuple[str, ...]] = {
+    "nav2_behaviors": ("AssistedTeleop", "BackUp", "DriveOnHeading", "Spin", "Wait"),
+    "nav2_bt_navigator": ("NavigateThroughPosesNavigator", "NavigateToPoseNavigator"),
+    "nav2_constrained_smoother": ("ConstrainedSmoother",),
+    "nav2_controller": (
+        *("PoseProgressChecker", "SimpleGoalChecker", "SimpleProgressChecker"),
+        "StoppedGoalChecker",
+    ),
+    "nav2_costmap_2d": (
+        *("BinaryFilter", "DenoiseLayer", "InflationLayer", "KeepoutFilter", "ObstacleLayer"),
+        *("RangeSensorLayer", "SpeedFilter", "StaticLayer", "VoxelLayer"),
+    ),
+    "nav2_graceful_controller": ("GracefulController",),
+    "nav2_mppi_controller": ("MPPIController",),
+    "nav2_navfn_planner": ("NavfnPlanner",),
+    "nav2_regulated_pure_pursuit_controller": ("RegulatedPurePursuitController",),
+    "nav2_rotation_shim_controller": ("RotationShimController",),
+    "nav2_smac_planner": ("SmacPlanner2D", "SmacPlannerHybrid", "SmacPlannerLattice"),
+    "nav2_smoother": ("SavitzkyGolaySmoother", "SimpleSmoother"),
+    "nav2_theta_star_planner": ("ThetaStarPlanner",),
+    "nav2_waypoint_follower": ("InputAtWaypoint", "PhotoAtWaypoint", "WaitAtWaypoint"),
+}
+"""The classes of Nav2's plugins, by package."""
+_PACKAGES = frozenset({*_CLASSES, "nav2_recoveries"})
+"""The packages of Nav2 that have or had plugins."""
+_PLUGINS: Mapping[str, str] = {
+    **{name: f"{package}::{name}" for package, names in _CLASSES.items() for name in names},
+    "NonPersistentVoxelLayer": "nav2_costmap_2d/NonPersistentVoxelLayer",
+    "SpatioTemporalVoxelLayer": "spatio_temporal_voxel_layer/SpatioTemporalVoxelLayer",
+}
+"""The names of plugins of released packages by class; other packages also use '/'."""
 _SERVERS = frozenset(
     {"behavior_server", "controller_server", "global_costmap", "local_costmap", "planner_server"}
     | {"smoother_server", "waypoint_follower"}
@@ -68,6 +102,9 @@ class PluginUnfit(Rule):
 
     code = "PF011"
     name = "plugin-unfit"
+    other_severities = {
+        Severity.WARNING: "the launch files of the workspace only start the localization of Nav2"
+    }
     examples = (
         Example(
             "configured plugins",
@@ -92,6 +129,33 @@ class PluginUnfit(Rule):
                 fix="Replace '/' with '::'",
             ),
             fixed={"config/planner.yaml": _PLANNER.format(_NAVFN.format("::"))},
+        ),
+        Example(
+            "a plugin with an old name, and a launch file that does not start the server",
+            {
+                "config/planner.yaml": _PLANNER.format("nav2_recoveries/Spin"),
+                "launch/map.launch.xml": '<include file="$(find-pkg-share nav2_bringup)/launch/'
+                'localization_launch.py"/>\n',
+            },
+            Report(
+                "config/planner.yaml:5:15",
+                "Jazzy has no plugin 'nav2_recoveries/Spin': the server fails; write "
+                "'nav2_behaviors::Spin'",
+                severity=Severity.WARNING,
+            ),
+        ),
+        Example(
+            "plugins of other packages, with names of their own",
+            {
+                "config/planner.yaml": _PLANNER.format("nav2_costmap_2d/NonPersistentVoxelLayer"),
+                "config/other.yaml": _PLANNER.format("nav2_straightline_planner/StraightLine"),
+            },
+        ),
+        Example(
+            "a plugin of another package with the wrong package",
+            {"config/planner.yaml": _PLANNER.format("nav2_costmap_2d/SpatioTemporalVoxelLayer")},
+            "5:15: Jazzy has no plugin 'nav2_costmap_2d/SpatioTemporalVoxelLayer': the server "
+            "fails; write 'spatio_temporal_voxel_layer/SpatioTemporalVoxelLayer'",
         ),
         Example(
             "a plugin that a package of the workspace has under this name",
@@ -133,26 +197,31 @@ class PluginUnfit(Rule):
                 )
                 yield self.report(section.key, message)
             elif section.name in _SERVERS:
-                yield from self._check_names(package, section)
-                if [other.name for other in sections].count(section.name) == 1:
-                    yield from self._check_lists(package, section)
+                is_only_one = [other.name for other in sections].count(section.name) == 1
+                findings = [
+                    *self._check_names(package, section),
+                    *(self._check_lists(package, section) if is_only_one else ()),
+                ]
+                is_started = not findings or is_server_started(package, section.name)
+                severity = None if is_started else Severity.WARNING
+                yield from (item._replace(severity=severity or item.severity) for item in findings)
 
     def _check_names(self, package: Package, section: Section) -> Iterator[Diagnostic]:
+        if not target().fact("nav2.has_colons_in_plugins"):
+            return
         for entry in section.entries:
             value = entry.value
             is_plugin = isinstance(value, Scalar) and entry.name.endswith(".plugin")
-            if not is_plugin or not target().fact("nav2.has_colons_in_plugins"):
+            if not isinstance(value, Scalar) or not is_plugin:
                 continue
-            if (
-                isinstance(value, Scalar)
-                and _OF_NAV2.fullmatch(value.text)
-                and not _is_declared(package, value.text)
-            ):
-                new = value.text.replace("/", "::")
-                at = value.end - int(not value.is_plain) - len(value.text.rpartition("/")[2]) - 1
-                fix = Fix("Replace '/' with '::'", (Edit(value.location.path, at, at + 1, "::"),))
-                message = f"{target().title} has no plugin {value.text!r}: the server fails"
-                yield self.report(value, f"{message}; write {new!r}", fix)
+            old = _OF_NAV2.fullmatch(value.text)
+            is_known = old is not None and old[1] in _PACKAGES
+            new = _PLUGINS.get(old[2], value.text) if old and is_known else value.text
+            if new == value.text or _is_declared(package, value.text):
+                continue
+            message = f"{target().title} has no plugin {value.text!r}: the server fails"
+            fix = _fix(value) if new == value.text.replace("/", "::") else None
+            yield self.report(value, f"{message}; write {new!r}", fix)
 
     def _check_lists(self, package: Package, section: Section) -> Iterator[Diagnostic]:
         names = {entry.name for entry in section.entries}
@@ -182,6 +251,11 @@ class PluginUnfit(Rule):
                     what = "sensor is ignored" if is_sources else "server fails"
                     missing = f"no section {name!r}" if is_sources else f"no {name}.plugin"
                     yield self.report(item.location, f"{missing} here: the {what}{hint}")
+
+
+def _fix(value: Scalar) -> Fix:
+    at = value.end - int(not value.is_plain) - len(value.text.rpartition("/")[2]) - 1
+    return Fix("Replace '/' with '::'", (Edit(value.location.path, at, at + 1, "::"),))
 
 
 def _is_costmap(section: Section) -> bool:

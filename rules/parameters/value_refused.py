@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import ast
+import re
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, Severity
 from scaffold.api.formats import Scalar, Sequence
-from scaffold.api.launch import is_only_loaded, nodes_for
+from scaffold.api.launch import is_only_loaded, nodes_for, use_of
 from scaffold.api.parameters import (
     ParameterFile,
     declared_by,
@@ -18,6 +19,8 @@ from scaffold.api.parameters import (
 )
 from scaffold.api.python import conditions_on, is_handled, values_asked
 from scaffold.api.rclpy import NodeClass, NodeDefinition, ParameterRead
+
+from ._started import is_of_nav2
 
 _FILE = "talker:\n  ros__parameters:\n    rate: {}\n"
 _FILE_LISTS = "talker:\n  ros__parameters:\n    gains: {}\n"
@@ -30,6 +33,12 @@ _NODE = (
 _FILE_EMPTY = "talker:\n  ros__parameters:\n    names: {}\n"
 _ASKING = frozenset({"NOT_SET", "get_parameter_or", "has_parameter", "type_"})
 """Methods and attributes that tell whether a parameter has a value."""
+
+
+_REWRITTEN = re.compile("^'[^']*' (?:has no value|is the alias)")
+"""Matches what RewrittenYaml of Nav2 replaces with a value."""
+_SERVERS = frozenset({"amcl", "controller_server", "local_costmap", "map_server"})
+"""Nodes of Nav2, whose parameter files have a section for them."""
 
 
 class ValueRefused(Rule):
@@ -50,18 +59,43 @@ class ValueRefused(Rule):
 
     code = "PF007"
     name = "value-refused"
+    other_severities = {
+        Severity.WARNING: "only Nav2 reads the file, which writes a copy with other values"
+    }
     examples = (
-        Example("values", {"a.yaml": _FILE.format("[1.0, 2.0]"), "b.yaml": _FILE.format("''")}),
         Example(
-            "no value; an alias; a nested list",
+            "values, and a list in a list, which is read as that list",
+            {
+                "a.yaml": _FILE.format("[1.0, 2.0]"),
+                "b.yaml": _FILE.format("''"),
+                "c.yaml": _FILE.format("[[-1.48, 1.48]]"),
+            },
+        ),
+        Example(
+            "no value; an alias; nested lists",
             {
                 "a.yaml": _FILE.format(""),
                 "b.yaml": _FILE.format("&rate 2.0\n    more: *rate"),
                 "c.yaml": _FILE.format("[[1.0, 2.0], [3.0]]"),
+                "d.yaml": _FILE.format("[1.0, [2.0, 3.0]]"),
             },
             "a.yaml:3:5: 'rate' has no value: rcl rejects the file; write '' for an empty string",
             "b.yaml:4:11: 'more' is the alias *rate: rcl rejects the file; write the value",
             "c.yaml:3:12: 'rate' is a list of lists: rcl rejects the file; flatten it",
+            "d.yaml:3:17: 'rate' mixes values and a list: rcl reads only some of them; flatten it",
+        ),
+        Example(
+            "no value in a file for Nav2, which writes a copy of it, with null",
+            {
+                "nav2.yaml": _FILE.format("").replace("talker", "amcl"),
+                "launch/nav2.launch.xml": '<include file="$(find-pkg-share nav2_bringup)/launch/'
+                'bringup_launch.py"/>\n',
+            },
+            Report(
+                "nav2.yaml:3:5",
+                "'rate' has no value: rcl rejects the file; write '' for an empty string",
+                severity=Severity.WARNING,
+            ),
         ),
         Example(
             "no node name; no parameters",
@@ -137,14 +171,17 @@ class ValueRefused(Rule):
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         for file in parameter_files(package):
-            findings = [*self._check_values(file), *self._check_lists(file)]
+            findings = [*self._check_values(package, file), *self._check_lists(file)]
             if findings and not is_only_loaded(package, file.path):
                 yield from findings
         yield from self._check_empty(package)
 
-    def _check_values(self, file: ParameterFile) -> Iterator[Diagnostic]:
+    def _check_values(self, package: Package, file: ParameterFile) -> Iterator[Diagnostic]:
         for refused in file.refused:
-            yield self.report(refused.location, refused.message)
+            # Nav2 reads the file as YAML and writes a copy, with null for a missing value.
+            is_rewritten = bool(_REWRITTEN.search(refused.message)) and _is_of_nav2(package, file)
+            severity = Severity.WARNING if is_rewritten else None
+            yield self.report(refused.location, refused.message, severity=severity)
 
     def _check_lists(self, file: ParameterFile) -> Iterator[Diagnostic]:
         for section in file.sections:
@@ -187,6 +224,12 @@ class ValueRefused(Rule):
                         )
                         yield self.report(entry.value, message)
                         break
+
+
+def _is_of_nav2(package: Package, file: ParameterFile) -> bool:
+    """Return whether only launch files of Nav2 read a parameter file."""
+    is_about = any(section.name in _SERVERS for section in file.sections)
+    return is_about and is_of_nav2(package) and not use_of(package, file.path).nodes
 
 
 def _read(owner: NodeDefinition, name: str) -> ParameterRead | None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from scaffold.formats import xml_reader
 from scaffold.formats import yaml as yaml_tree
+from scaffold.formats.hash_comments import without_comments
 from scaffold.formats.xml import Attribute, Element
 from scaffold.formats.yaml import Mapping, Scalar, Sequence, YamlNode
 
@@ -14,6 +15,7 @@ __all__ = [
     "Scalar",
     "Sequence",
     "YamlNode",
+    "without_comments",
     "xml_reader",
     "yaml_tree",
 ]

@@ -213,7 +213,7 @@ def _entries(mapping: Mapping, prefix: str) -> Iterator[Entry]:
 
 
 def _refused(name: str, key: Scalar, value: YamlNode) -> Iterator[Refused]:
-    """Yield values that rcl rejects: null, aliases, nested lists."""
+    """Yield values that rcl rejects: null, aliases, several nested lists."""
     for item in value.items if isinstance(value, Sequence) else (value,):
         if is_empty(item):
             at = key.location if item is value else item.location
@@ -225,11 +225,14 @@ def _refused(name: str, key: Scalar, value: YamlNode) -> Iterator[Refused]:
                 item.location,
                 f"{name!r} is the alias *{item.name}: rcl rejects the file; write the value",
             )
-        elif isinstance(item, Sequence) and item is not value:
-            yield Refused(
-                item.location, f"{name!r} is a list of lists: rcl rejects the file; flatten it"
-            )
-            return
+    inner = value.items if isinstance(value, Sequence) else ()
+    lists = [item for item in inner if isinstance(item, Sequence)]
+    if len(lists) > 1:
+        message = f"{name!r} is a list of lists: rcl rejects the file; flatten it"
+        yield Refused(lists[0].location, message)
+    elif lists and len(inner) > 1:  # a single list in a list is read as that list
+        message = f"{name!r} mixes values and a list: rcl reads only some of them; flatten it"
+        yield Refused(lists[0].location, message)
 
 
 # -- types

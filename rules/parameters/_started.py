@@ -1,0 +1,49 @@
+"""Whether files of the workspace start what a parameter file configures, going by their text."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import suppress
+
+from scaffold.api import Package, ViewError
+from scaffold.api.formats import without_comments
+from scaffold.api.parameters import parameter_paths
+
+_STARTING = (".py", ".xml", ".launch", ".yaml", ".yml", ".sh", ".cpp", ".hpp", ".xacro")
+"""Ends of the names of files that may start a controller."""
+_LAUNCHING = (".py", ".xml", ".launch", ".yaml", ".yml", ".sh", ".md", ".rst")
+"""Ends of the names of files that start Nav2, or tell people how to."""
+_NAV2 = (b"nav2_bringup", b"RewrittenYaml")
+_WITHOUT_SERVERS = b"localization_launch"
+_WITH_SERVERS = (b"navigation_launch", b"bringup_launch", b"simulation_launch")
+"""The launch files of Nav2 that start the servers."""
+
+
+def is_named_in_code(package: Package, controller: str) -> bool:
+    """Return whether code of the workspace names a controller, perhaps to start it."""
+    return any(_texts_with(package, controller.encode(), _STARTING))
+
+
+def is_server_started(package: Package, server: str) -> bool:
+    """Return whether a server of Nav2 may be started: unless the workspace only localizes."""
+    words = (server.encode(), *_WITH_SERVERS)
+    return not any(_texts_with(package, _WITHOUT_SERVERS, _LAUNCHING)) or any(
+        data for word in words for data in _texts_with(package, word, _LAUNCHING)
+    )
+
+
+def is_of_nav2(package: Package) -> bool:
+    """Return whether the workspace starts Nav2, whose launch files rewrite parameter files."""
+    return any(data for word in _NAV2 for data in _texts_with(package, word, _LAUNCHING))
+
+
+def _texts_with(package: Package, word: bytes, endings: tuple[str, ...]) -> Iterator[bytes]:
+    """Yield the files with a word outside of comments, except parameter files."""
+    for other in package.workspace:
+        configured = parameter_paths(other)
+        for path in other.files:
+            if path.endswith(endings) and path not in configured:
+                with suppress(ViewError):
+                    data = other.data(path)
+                    if word in data and word in without_comments(data):
+                        yield data
