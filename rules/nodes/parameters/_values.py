@@ -163,7 +163,7 @@ def _objects(file: RclpyFile) -> Iterator[Entity]:
 
 
 def _may_return_alternative(file: RclpyFile, read: ParameterRead) -> bool:
-    """Return whether ``get_parameter_or(name, value)`` of an undeclared parameter returns a value."""
+    """Return whether ``get_parameter_or(name, value)`` returns its second argument."""
     alternatives = [*read.call.args[1:], *(word.value for word in read.call.keywords)]
     return bool(alternatives) and read.name not in {other.name for other in file.parameters}
 
