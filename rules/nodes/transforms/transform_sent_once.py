@@ -137,9 +137,11 @@ def _given_away(file: RclpyFile, functions: frozenset[ast.AST]) -> set[ast.AST]:
     """Return those of some functions that others may call later, and what these call."""
     result: set[ast.AST] = set()
     for function in functions:
-        name = getattr(function, "name", "")
-        uses = (*file.module.index.attributes(name), *file.module.index.names(name))
-        if any(isinstance(use.ctx, ast.Load) and not _is_called(file, use) for use in uses):
+        name = function.name if isinstance(function, ast.FunctionDef) else ""
+        uses: list[ast.Attribute | ast.Name] = [*file.module.index.attributes(name)]
+        uses += file.module.index.names(name)
+        is_kept = any(isinstance(x.ctx, ast.Load) and not _is_called(file, x) for x in uses)
+        if isinstance(function, ast.FunctionDef) and is_kept:
             result.update(file.reached(function))
     return result
 
