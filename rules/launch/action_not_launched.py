@@ -14,6 +14,7 @@ from scaffold.api.launch import (
     Entity,
     LaunchFile,
     entities,
+    is_never_used,
     is_unread,
 )
 
@@ -56,7 +57,9 @@ class ActionNotLaunched(LaunchRule):
 
     code = "LF042"
     name = "action-not-launched"
-    other_severities = {Severity.WARNING: "a variable holds the action"}
+    other_severities = {
+        Severity.WARNING: "a variable holds the action, or its handler is not launched either"
+    }
     examples = (
         Example("complete", {"launch/a.launch.py": _LAUNCH.format(*_RIGHT)}),
         Example(
@@ -153,6 +156,21 @@ class ActionNotLaunched(LaunchRule):
             "8:13: a handler watches first, which is not in the LaunchDescription: it is never "
             "launched",
         ),
+        Example(
+            "watched by a handler that is not launched either",
+            {
+                "launch/a.launch.py": _LAUNCH_ONCE.format("").replace(
+                    "[RegisterEventHandler(handler)]", "[second]"
+                )
+            },
+            Report(
+                "8:13",
+                "a handler watches first, which is not in the LaunchDescription: it is "
+                "never launched",
+                severity=Severity.WARNING,
+            ),
+            "10:59: second is launched twice: here, and in the LaunchDescription",
+        ),
     )
 
     def check_file(self, launch: LaunchFile) -> Iterator[Diagnostic]:
@@ -206,7 +224,9 @@ class ActionNotLaunched(LaunchRule):
                     f"a handler watches {name}, which is not in the LaunchDescription: it "
                     "is never launched"
                 )
-                yield self.report(launch.location(made), message)
+                is_unused = all(is_never_used(launch, load) for load in loads)
+                severity = Severity.WARNING if is_unused else None
+                yield self.report(launch.location(made), message, severity=severity)
 
 
 def _is_only_stored(launch: LaunchFile, call: ast.Call) -> bool:

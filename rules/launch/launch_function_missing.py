@@ -52,7 +52,9 @@ class LaunchFunctionMissing(LaunchRule):
 
     code = "LF002"
     name = "launch-function-missing"
-    other_severities = {Severity.WARNING: "it returns a LaunchDescription on other paths"}
+    other_severities = {
+        Severity.WARNING: "it returns a LaunchDescription on other paths, or unless something fails"
+    }
     examples = (
         Example("defined", {"launch/a.launch.py": _LAUNCH.format(FUNCTION)}),
         Example(
@@ -92,6 +94,20 @@ class LaunchFunctionMissing(LaunchRule):
                 fix="Return the launch description",
             ),
             fixed={"launch/a.launch.py": _LAUNCH_RESULT + "    return LaunchDescription([node])\n"},
+        ),
+        Example(
+            "nothing returned if a file cannot be read",
+            {
+                "launch/a.launch.py": _LAUNCH_RESULT
+                + "    try:\n        words = open('words.txt').read()\n"
+                "    except OSError:\n        return None\n"
+                "    return LaunchDescription([node, words])\n"
+            },
+            Report(
+                "10:9",
+                "generate_launch_description returns None, not a LaunchDescription",
+                severity=Severity.WARNING,
+            ),
         ),
         Example(
             "a list returned; a description on one path only",
@@ -152,7 +168,8 @@ class LaunchFunctionMissing(LaunchRule):
             wrong = _wrong_result(launch, item.value)
             if wrong:
                 message = f"generate_launch_description returns {wrong}, not a LaunchDescription"
-                yield self.report(launch.location(item), message)
+                severity = Severity.WARNING if _is_after_failure(launch, item) else None
+                yield self.report(launch.location(item), message, severity=severity)
         if not may_end(node):
             return
         last = node.body[-1]
@@ -171,6 +188,11 @@ class LaunchFunctionMissing(LaunchRule):
             message = f"generate_launch_description returns None{some}, not a LaunchDescription"
             severity = Severity.WARNING if statements else None
             yield self.report(at, message, severity=severity)
+
+
+def _is_after_failure(launch: LaunchFile, statement: ast.AST) -> bool:
+    """Return whether a statement handles an exception, so that the launch stops anyway."""
+    return any(isinstance(parent, ast.ExceptHandler) for parent in launch.module.parents(statement))
 
 
 @fact

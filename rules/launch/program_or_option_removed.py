@@ -2,9 +2,22 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
+from contextlib import suppress
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Location, Package, Report, Rule, Severity
+from scaffold.api import (
+    Diagnostic,
+    Edit,
+    Example,
+    Fix,
+    Location,
+    Package,
+    Report,
+    Rule,
+    Severity,
+    ViewError,
+)
 from scaffold.api.distributions import of_kind
 from scaffold.api.launch import (
     CommandLine,
@@ -36,6 +49,8 @@ _OF_SPAWN_ENTITY = {
     "-unpause": "omit it",
 }
 """Options of gazebo_ros, with their replacements."""
+_ROBOT = rb"<(?:robot|model)\b[^>]*\bname=[\"']%b[\"']"
+_DESCRIPTIONS = (".urdf", ".xacro", ".sdf")
 
 
 _LAUNCH_DEPRECATED = (
@@ -70,9 +85,24 @@ class ProgramOrOptionRemoved(Rule):
     is_fixed_for_all = True
     since = "0.2"
     is_deprecation = True
-    other_severities = {Severity.INFO: "the executable is only removed in a later distribution"}
+    other_severities = {
+        Severity.INFO: "the executable is only removed in a later distribution",
+        Severity.WARNING: "the robot has the name that an ignored option gives it",
+    }
     examples = (
         Example("a robot with a name", {"launch/a.launch.py": _CREATE.format("-name")}),
+        Example(
+            "the name of the robot, which it has anyway",
+            {
+                "launch/a.launch.py": _CREATE.format("-entity"),
+                "urdf/rover.urdf": '<robot name="rover">\n  <link name="base"/>\n</robot>\n',
+            },
+            Report(
+                "launch/a.launch.py:8:56",
+                "-entity is an option of spawn_entity.py: ros_gz_sim create ignores it; use -name",
+                severity=Severity.WARNING,
+            ),
+        ),
         Example(
             "an option of spawn_entity.py",
             {"launch/a.launch.py": _CREATE.format("-entity")},
@@ -166,11 +196,18 @@ class ProgramOrOptionRemoved(Rule):
         yield from self._check_programs(package)
         yield from self._check_options(package)
         for line in command_lines(package, "create"):
-            for word in line.words:
+            for word, value in zip(line.words, [*line.words[1:], None], strict=True):
                 replacement = _OF_SPAWN_ENTITY.get(word.text)
-                if replacement is not None:
-                    message = f"{word.text} is an option of spawn_entity.py: ros_gz_sim create "
-                    yield self.report(word.location, f"{message}ignores it; {replacement}")
+                if replacement is None:
+                    continue
+                is_same = (
+                    word.text == "-entity" and value is not None and _is_robot(package, value.text)
+                )
+                message = f"{word.text} is an option of spawn_entity.py: ros_gz_sim create "
+                severity = Severity.WARNING if is_same else Severity.ERROR
+                yield self.report(
+                    word.location, f"{message}ignores it; {replacement}", severity=severity
+                )
 
     def _check_options(self, package: Package) -> Iterator[Diagnostic]:
         removed = {
@@ -205,6 +242,18 @@ class ProgramOrOptionRemoved(Rule):
                 f"{change.instead(change.use)} ({change.source})"
             )
             yield self.report(location, message, severity=severity)
+
+
+def _is_robot(package: Package, name: str) -> bool:
+    """Return whether a description of the workspace has a name, which Gazebo uses by default."""
+    named = re.compile(_ROBOT % re.escape(name).encode())
+    for other in package.workspace:
+        for path in other.files:
+            if path.endswith(_DESCRIPTIONS):
+                with suppress(ViewError):
+                    if named.search(other.data(path)):
+                        return True
+    return False
 
 
 def _edit(package: Package, line: CommandLine, word: Word, old: str, new: str) -> Edit | None:

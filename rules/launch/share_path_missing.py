@@ -4,8 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity, ViewError
 from scaffold.api.launch import (
+    LaunchFile,
+    NamedPath,
+    has_similar_file,
+    is_given_as_parameters,
     is_left_to_the_user,
     is_of_unread_argument,
     missing_in,
@@ -63,8 +67,8 @@ class SharePathMissing(Rule):
     code = "LF015"
     name = "share-path-missing"
     other_severities = {
-        Severity.WARNING: "its directory contains only a README or .gitkeep; or it is the default "
-        "of a launch argument that nothing reads"
+        Severity.WARNING: "its directory contains only a README or .gitkeep; it is the default of "
+        "a launch argument that nothing reads; or it is a parameter file that does not exist"
     }
     examples = (
         Example(
@@ -211,7 +215,7 @@ class SharePathMissing(Rule):
                 ),
             },
             "launch/a.launch.py:10:12: share/talker/config/lights.yaml does not exist: talker has "
-            "no such file; did you mean config/talker.yaml?",
+            "no such file",
         ),
         Example(
             "a file that the node writes",
@@ -246,6 +250,28 @@ class SharePathMissing(Rule):
                 .replace("[os.path", "[{'database_path': os.path")
                 .replace("')])", "')}])"),
             },
+        ),
+        Example(
+            "a parameter file that does not exist, nor one with a similar name; with substitutions",
+            {
+                **_FILES,
+                "launch/a.launch.py": _LAUNCH.format("'config', 'lights.yaml'"),
+                "launch/b.launch.py": _LAUNCH.format("'config', 'lights.yaml'")
+                .replace("parameters=[", "parameters=[ParameterFile(")
+                .replace("yaml')]", "yaml'), allow_substs=True)]")
+                .replace(
+                    "Node\n",
+                    "Node\nfrom launch_ros.parameter_descriptions import ParameterFile\n",
+                    1,
+                ),
+            },
+            Report(
+                "launch/a.launch.py:12:26",
+                "share/talker/config/lights.yaml does not exist: talker has no such file",
+                severity=Severity.WARNING,
+            ),
+            "launch/b.launch.py:13:40: share/talker/config/lights.yaml does not exist: talker has "
+            "no such file",
         ),
         Example(
             "a multi-line string, in a directory that is not installed",
@@ -298,6 +324,22 @@ class SharePathMissing(Rule):
                 message = f"share/{path.package}/{path.path} does not exist: {why}"
                 is_harmless = is_left_to_the_user(package, path)
                 is_harmless = is_harmless or is_of_unread_argument(package, path.location)
+                is_harmless = is_harmless or _is_only_warned_of(package, path)
                 severity = Severity.WARNING if is_harmless else Severity.ERROR
                 cause = missing_in(package, path)
                 yield self.report(path.location, message, severity=severity, cause=cause)
+
+
+def _is_only_warned_of(package: Package, named: NamedPath) -> bool:
+    """Return whether a path is a parameter file that was never there, without which a node starts.
+
+    If a file is not installed, or has another name, the node runs without the values that it has.
+    """
+    try:
+        return (
+            named.location.path.endswith(".py")
+            and not has_similar_file(package, named)
+            and is_given_as_parameters(LaunchFile.of(package, named.location.path), named.location)
+        )
+    except ViewError:
+        return False

@@ -144,6 +144,7 @@ class SetupFileMissing(Rule):
             path
             for path in package.files
             if path.startswith(f"{directory}/") and path.endswith((".py", ".yaml", ".xml"))
+            if not path.endswith("__init__.py")
         ]
         if not directory or "*" in directory or not beside or pattern.filtered:
             return None

@@ -63,13 +63,15 @@ from scaffold.model.launch.remappings import (
 )
 from scaffold.model.launch.share_paths import (
     NamedPath,
+    has_similar_file,
+    is_given_as_parameters,
     is_left_to_the_user,
     missing_in,
     paths_of,
     why_missing,
 )
 from scaffold.model.launch.signatures import ACTIONS, signature
-from scaffold.model.launch.unlaunched import is_unread
+from scaffold.model.launch.unlaunched import is_never_used, is_unread
 from scaffold.model.launch.unread_arguments import is_of_unread_argument, unread_arguments
 
 __all__ = [
@@ -106,12 +108,15 @@ __all__ = [
     "function_of",
     "given_arguments",
     "has_name",
+    "has_similar_file",
     "included",
+    "is_given_as_parameters",
     "is_known",
     "is_left_to_the_user",
     "is_loaded",
     "is_named",
     "is_named_elsewhere",
+    "is_never_used",
     "is_of_unread_argument",
     "is_only_loaded",
     "is_reversed",

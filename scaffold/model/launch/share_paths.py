@@ -7,7 +7,7 @@ import posixpath
 import re
 from collections.abc import Callable, Iterator
 from contextlib import suppress
-from difflib import get_close_matches
+from difflib import SequenceMatcher, get_close_matches
 from typing import TYPE_CHECKING
 
 from scaffold.model.discovery.gitignore import is_untracked
@@ -16,7 +16,7 @@ from scaffold.model.install.share import share_of
 from scaffold.model.launch.files import DATA_DIRECTORIES
 from scaffold.model.launch.markup_file import markup_files
 from scaffold.model.launch.python_file import LaunchFile, SharePath, launch_paths
-from scaffold.model.launch.unlaunched import is_never_used
+from scaffold.model.launch.unlaunched import covers, is_never_used
 from scaffold.model.package import mentions
 from scaffold.record import NamedTuple
 from scaffold.source import ViewError
@@ -48,6 +48,14 @@ _PLACEHOLDER = re.compile(r"(?i:readme[^/]*|\.(?:git)?(?:keep|ignore)|\.placehol
 
 _OPTIONS = re.compile(r"\s-")
 """Matches the start of options after a file."""
+
+
+_SIMILAR = 0.8
+"""How similar the names of two files are if one is surely meant."""
+_HINTED = 0.5
+"""How similar they are if one may be meant."""
+_PATHS = frozenset({"PathJoinSubstitution", "TextSubstitution"})
+"""Substitutions that are paths."""
 
 
 class NamedPath(NamedTuple):
@@ -246,6 +254,53 @@ def why_missing(package: Package, named: NamedPath) -> str | None:
     return _reason(owner, named.path, share.files)
 
 
+def has_similar_file(package: Package, named: NamedPath) -> bool:
+    """Return whether the package of a missing file has one with this name or a similar one."""
+    owner = package if named.package == package.name else package.workspace.get(named.package)
+    return owner is None or any(_ratio(file, named.path) >= _SIMILAR for file in owner.files)
+
+
+def _ratio(path: str, other: str) -> float:
+    """Return how similar the names of two files are, without their endings."""
+    first, second = (posixpath.splitext(_name(item)) for item in (path, other))
+    if first[1] != second[1]:
+        return 0.0
+    matcher = SequenceMatcher(None, first[0], second[0])
+    return matcher.ratio() if matcher.quick_ratio() >= _HINTED else 0.0
+
+
+def is_given_as_parameters(launch: LaunchFile, at: Location) -> bool:
+    """Return whether a path is only in ``Node(parameters=[...])``, as it is.
+
+    Then launch_ros warns if the file does not exist, and starts the node.
+    """
+    return any(
+        _is_given(launch, path.node)
+        for path in launch.share_paths
+        if covers(path.node, at.line, at.column)
+    )
+
+
+def _is_given(launch: LaunchFile, node: ast.AST) -> bool:
+    for parent in launch.module.parents(node):
+        match parent:
+            case ast.keyword(arg="parameters"):
+                return True
+            case ast.Assign(targets=[ast.Name() as variable]):
+                index = launch.module.index
+                uses = [use for use in index.uses_of(variable) if use is not variable]
+                return bool(uses) and all(_is_given(launch, use) for use in uses)
+            case ast.Call():
+                call = launch.call_of(parent)
+                if call is None or call.kind not in _PATHS:
+                    return False
+            case ast.List() | ast.Tuple() | ast.Starred() | ast.BinOp():
+                pass
+            case _:
+                return False
+    return False
+
+
 def _before_field(path: str) -> Callable[[str], bool]:
     """Return a function that tells whether a file matches a path before ``{}``."""
     start = path.partition("{")[0]
@@ -286,7 +341,9 @@ def _reason(owner: Package, path: str, files: dict[str, str]) -> str | None:
         return None  # generated from a template
     if is_untracked(owner, path) or path.endswith(_DATABASES):
         return None  # created on each machine, a database when opened
-    closest = get_close_matches(path, files, 1, 0.6)
+    closest = [
+        file for file in get_close_matches(path, files, 1, 0.6) if _ratio(file, path) >= _HINTED
+    ]
     hint = f"; did you mean {closest[0]}?" if closest else ""
     return f"{owner.name} has no such file{hint}"
 
