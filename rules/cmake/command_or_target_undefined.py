@@ -6,9 +6,9 @@ from collections.abc import Iterator
 from difflib import get_close_matches
 
 from scaffold.api import Diagnostic, Effect, Example, Package, Rule, closest_name
-from scaffold.api.cmake import CMakeLists, has_unknown_commands, uses_ament
+from scaffold.api.cmake import BUILT_IN, OF_AMENT, CMakeLists, has_unknown_commands, uses_ament
 
-from ._targets import BUILT_IN, OF_AMENT, TAKING_TARGETS, defined_targets, targets_named_once
+from ._targets import TAKING_TARGETS, defined_targets, targets_named_once
 
 _OF_ROS1 = {
     "add_action_files": "rosidl_generate_interfaces",

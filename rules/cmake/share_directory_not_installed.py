@@ -67,6 +67,26 @@ class ShareDirectoryNotInstalled(Rule):
             "at run time",
         ),
         Example(
+            "after a command of an unknown package, which may install it",
+            {
+                "CMakeLists.txt": _LISTS.format(
+                    "find_package(can_bus REQUIRED)\ngenerate_buses(front)\n"
+                ),
+                "launch/talk.launch.py": _LAUNCH,
+            },
+        ),
+        Example(
+            "not installed, after a module of CMake and a command of Jazzy",
+            {
+                "CMakeLists.txt": _LISTS.format(
+                    "include(GNUInstallDirs)\nfind_package(nav2_common REQUIRED)\nnav2_package()\n"
+                ),
+                "launch/talk.launch.py": _LAUNCH,
+            },
+            "CMakeLists.txt:6:1: launch/ is not installed, so launch/talk.launch.py is not found "
+            "at run time",
+        ),
+        Example(
             "a file of that name in this package and in another one",
             {
                 "package.xml": "<package><name>talker</name></package>\n",

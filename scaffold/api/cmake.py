@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from scaffold.model.cmake.known_commands import BUILT_IN, OF_AMENT
 from scaffold.model.cmake.lists import CMakeLists, FoundPackage, Install, InstallItem
 from scaffold.model.cmake.parser import Argument, Command
 from scaffold.model.cmake.rosidl import Generation
@@ -26,6 +27,8 @@ from scaffold.model.contents.interface_files import (
 )
 
 __all__ = [
+    "BUILT_IN",
+    "OF_AMENT",
     "PACKAGE_COMMANDS",
     "Argument",
     "CMakeLists",

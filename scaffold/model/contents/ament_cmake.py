@@ -8,6 +8,7 @@ import re
 from typing import TYPE_CHECKING
 
 from scaffold.model.cmake.distribution_branches import lines_not_run
+from scaffold.model.cmake.known_commands import MODULES, is_known
 from scaffold.model.cmake.lists import CMakeLists
 from scaffold.record import NamedTuple
 from scaffold.source import ViewError
@@ -58,18 +59,25 @@ def is_built_for_ros1(package: Package) -> bool:
 
 
 def has_unknown_commands(package: Package) -> bool:
-    """Return whether commands of other packages may do anything, such as call ament_package."""
+    """Return whether commands of other packages may do anything, such as install any file."""
     cmake = package.cmake
     own = {command.arguments[0].value.lower() for command in _definitions(cmake)}
-    if cmake.find("include", "add_subdirectory"):
-        return True
-    return any(
-        command.name.endswith("_package") and command.name not in _SAFE and command.name not in own
-        for command in cmake.commands
-    )
+    return any(_is_unknown(command) for command in cmake.commands if command.name not in own)
 
 
-_SAFE = frozenset({"find_package", "ament_package", "ament_python_install_package"})
+def _is_unknown(command: Command) -> bool:
+    name = command.name
+    if name == "include":
+        return ",".join(command.values).lower() not in MODULES
+    if name.endswith("_package"):
+        return name not in _SAFE
+    return name == "add_subdirectory" or not is_known(name)
+
+
+_SAFE = frozenset(
+    {"find_package", "ament_package", "ament_python_install_package"}
+    | {"moveit_package", "nav2_package"}
+)
 
 
 def _definitions(cmake: CMakeLists) -> list[Command]:
