@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
 from scaffold.api.catalog import OTHER_NAMES, ROS1_PACKAGES, is_released
-from scaffold.api.distributions import target
+from scaffold.api.distributions import removed_package, target
 from scaffold.api.launch import Reference, exists, meant_package, package_uses
 from scaffold.api.manifest import declared, declaring, is_installed_to_build
 
@@ -17,8 +17,6 @@ _LAUNCH = (
     "        Node(package='talker', executable='talk'),\n"
     "        Node(package='rviz2', executable='rviz2'),\n    ])\n"
 )
-_LAST_WITH_CLASSIC = "Humble"
-"""The last distribution with Gazebo Classic, and with the old names of the new Gazebo."""
 _MANIFEST = '<package format="3">\n  <name>talker</name>\n{}</package>\n'
 
 
@@ -247,7 +245,7 @@ class PackageUndeclared(Rule):
                 "launch/b.launch.py": _LAUNCH.replace("rviz2", "gazebo_ros"),
             },
             "launch/b.launch.py:8:22: starts a node of 'gazebo_ros', which Jazzy does not have; "
-            "use ros_gz",
+            "use ros_gz, as Gazebo Classic has ended",
         ),
         Example(
             "Gazebo Classic, which Humble has",
@@ -289,7 +287,7 @@ class PackageUndeclared(Rule):
             seen.add(use.name)
             if replacement:
                 message = f"{_usage(use)} {use.name!r}, which {target().title} does not have"
-                yield self.report(use.location, f"{message}; use {replacement}")
+                yield self.report(use.location, f"{message}; {replacement}")
                 continue
             is_near = package.workspace.get(use.name) is not None or use.name.startswith("ros2")
             is_near = is_near or dependencies.may_use(package, use.name)
@@ -315,10 +313,12 @@ class PackageUndeclared(Rule):
 
 
 def _replacement(name: str) -> str:
-    """Return what replaces a package of ROS 1, or of Gazebo as Humble has it; empty for others."""
-    if target().title == _LAST_WITH_CLASSIC and is_released(name):
-        return ""
-    return ROS1_PACKAGES.get(name) or OTHER_NAMES.get(name) or ""
+    """Return the advice for a package that the target does not have; empty for others."""
+    change = removed_package(name)
+    if change is not None:
+        return change.advice
+    other = ROS1_PACKAGES.get(name) or OTHER_NAMES.get(name)
+    return f"use {other}" if other else ""
 
 
 def _usage(use: Reference) -> str:

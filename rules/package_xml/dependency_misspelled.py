@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Effect, Example, Fix, Package, Report, Rule, Severity
+from scaffold.api import Diagnostic, Edit, Effect, Example, Fix, Package, Report, Rule
 from scaffold.api.catalog import (
     OTHER_NAMES,
     ROS_PACKAGES,
@@ -29,10 +29,6 @@ class DependencyMisspelled(Rule):
 
     code = "PX022"
     name = "dependency-misspelled"
-    other_severities = {
-        Severity.WARNING: "the name follows the pattern of other packages, such as rclpy_action, "
-        "or is a Python key",
-    }
     effect = Effect.STOPS_ROSDEP
     release_refused = "bloom finds no rosdep rule for the name"
     examples = (
@@ -124,7 +120,6 @@ class DependencyMisspelled(Rule):
                 "2:11",
                 "unknown rosdep key 'python3-opencvv': rosdep stops; did you mean "
                 "'python3-opencv'?",
-                severity=Severity.WARNING,
             ),
         ),
         Example(
@@ -142,7 +137,6 @@ class DependencyMisspelled(Rule):
             Report(
                 "2:11",
                 "unknown package 'rclpy_action': rosdep stops; use 'rclpy'",
-                severity=Severity.WARNING,
             ),
         ),
     )
@@ -157,11 +151,11 @@ class DependencyMisspelled(Rule):
             other = OTHER_NAMES.get(name)
             if other is not None:
                 message = f"unknown package {name!r}: rosdep stops; use {other!r}"
-                yield self.report(dependency, message, severity=Severity.WARNING)
+                yield self.report(dependency, message)
             key = similar_key(name)
             if key is not None and not _is_known(package, name):
                 message = f"unknown rosdep key {name!r}: rosdep stops; did you mean {key!r}?"
-                yield self.report(dependency, message, severity=Severity.WARNING)
+                yield self.report(dependency, message)
             closest = similar_package(name) or _similar_neighbor(package, name)
             if closest is not None and not _has_others(package, name, closest):
                 message = f"unknown package {name!r}: rosdep stops; did you mean {closest!r}?"

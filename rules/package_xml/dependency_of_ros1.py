@@ -7,10 +7,6 @@ from collections.abc import Iterator
 from scaffold.api import Diagnostic, Effect, Example, Package, Rule
 from scaffold.api.catalog import ROS1_PACKAGES
 from scaffold.api.cmake import is_built_for_ros1
-from scaffold.api.distributions import target
-
-_CLASSIC = frozenset({"gazebo_ros", "gazebo_plugins"})
-_WITH_CLASSIC = frozenset({"Humble"})
 
 
 class DependencyOfRos1(Rule):
@@ -47,11 +43,6 @@ class DependencyOfRos1(Rule):
             },
         ),
         Example(
-            "Gazebo Classic, which Humble has",
-            {"package.xml": "<package><exec_depend>gazebo_ros</exec_depend></package>\n"},
-            distro="humble",
-        ),
-        Example(
             "a ROS 1 package",
             {
                 "package.xml": "<package>\n"
@@ -62,26 +53,15 @@ class DependencyOfRos1(Rule):
             "2:21: 'catkin' is a package of ROS 1: rosdep stops; use ament_cmake",
             "3:11: 'rospy' is a package of ROS 1: rosdep stops; use rclpy",
         ),
-        Example(
-            "Gazebo Classic, which other distributions lack",
-            {"package.xml": "<package><exec_depend>gazebo_ros</exec_depend></package>\n"},
-            "1:23: 'gazebo_ros' is a package of Gazebo Classic, which Jazzy lacks: rosdep stops; "
-            "use ros_gz",
-        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         manifest = package.manifest
         if manifest.build_type == "catkin" or is_built_for_ros1(package):
             return
-        title = target().title
         for dependency in manifest.dependencies:
             name = dependency.name
-            if name in _CLASSIC and title in _WITH_CLASSIC:
-                continue
             heir = ROS1_PACKAGES.get(name)
             if heir and dependency.active and package.workspace.get(name) is None:
-                which = f"Gazebo Classic, which {title} lacks" if name in _CLASSIC else "ROS 1"
-                message = f"{name!r} is a package of {which}: rosdep stops; use {heir}"
-                cause = "" if name in _CLASSIC else "dependencies of ROS 1"
-                yield self.report(dependency, message, cause=cause)
+                message = f"{name!r} is a package of ROS 1: rosdep stops; use {heir}"
+                yield self.report(dependency, message, cause="dependencies of ROS 1")

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Location, Package, Rule, ViewError
-from scaffold.api.cmake import is_built_for_ros1
+from scaffold.api import Diagnostic, Effect, Example, Location, Package, Rule, ViewError
+from scaffold.api.cmake import CMakeLists, Command, is_built_for_ros1
 from scaffold.api.distributions import removed_package
 from scaffold.api.interfaces import interface_files
-from scaffold.api.manifest import requirements
+from scaffold.api.manifest import is_fetched, requirements
 
 _NAMED = "<package>\n  <name>talker</name>\n{}</package>\n"
 
@@ -16,9 +16,9 @@ _NAMED = "<package>\n  <name>talker</name>\n{}</package>\n"
 class PackageRemoved(Rule):
     """A package is used that the distribution has removed.
 
-    Only packages of ROS 2 itself are checked, which are those in the repositories of
-    ``ros2.repos``. A package with the same name in the workspace is accepted, and so are
-    dependencies, imports and ``find_package`` calls for other distributions.
+    Only packages of ROS 2 itself, which are those in the repositories of ``ros2.repos``, and of
+    Gazebo are checked. A package with the same name in the workspace or in a ``.repos`` file is
+    accepted, and so are dependencies, imports and ``find_package`` calls for other distributions.
 
     **Why.** ``rosdep install`` finds no rule, CMake stops at ``find_package``, and imports raise
     ``ModuleNotFoundError``.
@@ -30,6 +30,7 @@ class PackageRemoved(Rule):
 
     code = "PX031"
     name = "package-removed"
+    effect = Effect.STOPS_ROSDEP
     examples = (
         Example(
             "an existing package",
@@ -89,6 +90,27 @@ class PackageRemoved(Rule):
             "action_msgs, whose GoalStatus and GoalInfo have other fields (common_interfaces 280)",
             distro="lyrical",
         ),
+        Example(
+            "Gazebo Classic, which Jazzy lacks; found on Humble only",
+            {
+                "package.xml": _NAMED.format("  <depend>gazebo_ros</depend>\n"),
+                "CMakeLists.txt": "project(talker)\nif($ENV{ROS_DISTRO} STREQUAL humble)\n"
+                "  find_package(gazebo_ros REQUIRED)\nendif()\n",
+            },
+            "package.xml:3:11: gazebo_ros was removed in Jazzy: rosdep finds no rule; use ros_gz, "
+            "as Gazebo Classic has ended (rosdistro)",
+        ),
+        Example(
+            "Gazebo Classic, which Humble has",
+            {"package.xml": _NAMED.format("  <exec_depend>gazebo_ros2_control</exec_depend>\n")},
+            distro="humble",
+        ),
+        Example(
+            "the former name of a package",
+            {"package.xml": _NAMED.format("  <exec_depend>ros_ign_bridge</exec_depend>\n")},
+            "3:16: ros_ign_bridge was removed in Jazzy: rosdep finds no rule; use ros_gz_bridge "
+            "(rosdistro)",
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
@@ -96,9 +118,10 @@ class PackageRemoved(Rule):
             return
         for name, at, failure in _uses(package):
             change = removed_package(name)
-            if change is not None and package.workspace.get(name) is None:
+            is_there = package.workspace.get(name) is not None or is_fetched(package, name)
+            if change is not None and not is_there:
                 message = f"{name} {change.state}: {failure}; {change.advice} ({change.source})"
-                yield self.report(at, message)
+                yield self.report(at, message, cause=f"removed package {name}")
 
 
 def _uses(package: Package) -> Iterator[tuple[str, Location, str]]:
@@ -119,9 +142,14 @@ def _uses_of_build(package: Package) -> Iterator[tuple[str, Location, str]]:
     except ViewError:
         return
     for package_found in packages:
-        if package_found.required and not package.cmake.is_off(package_found.command):
+        if package_found.required and _is_always_found(package.cmake, package_found.command):
             yield package_found.name, package_found.location, "CMake stops"
     for file in files:
         for field in file.definition.all_fields:
             if field.type.package:
                 yield field.type.package, field.type_location, "the build stops"
+
+
+def _is_always_found(cmake: CMakeLists, command: Command) -> bool:
+    """Return whether no condition, except that on tests, decides whether a command runs."""
+    return all({*condition} <= {"BUILD_TESTING"} for condition in cmake.conditions(command))

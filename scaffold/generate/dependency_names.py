@@ -8,6 +8,7 @@ from difflib import get_close_matches
 from functools import cached_property
 from typing import TYPE_CHECKING
 
+from scaffold.changes import removed_package
 from scaffold.errors import InputError
 from scaffold.files.disk import Disk
 from scaffold.model import catalog
@@ -45,6 +46,9 @@ def notes(names: Iterable[str], origin: str, directory: str) -> Iterator[str]:
         heir = catalog.ROS1_PACKAGES.get(name)
         if heir:
             raise InputError(f"{origin}: {name!r} is from ROS 1; ROS 2 has {heir} instead")
+        change = removed_package(name)
+        if change is not None:
+            raise InputError(f"{origin}: {name!r} {change.state}; {change.advice}")
         resolves = surroundings.rosdep.resolves(name) if surroundings.rosdep is not None else None
         if resolves:
             continue

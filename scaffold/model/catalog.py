@@ -216,8 +216,6 @@ ROS1_PACKAGES = {
     "catkin": "ament_cmake",
     "cmake_modules": "ament_cmake",
     "dynamic_reconfigure": "ROS 2 parameters (rcl_interfaces)",
-    "gazebo_plugins": "ros_gz",
-    "gazebo_ros": "ros_gz",
     "genmsg": "rosidl_default_generators",
     "message_generation": "rosidl_default_generators",
     "message_runtime": "rosidl_default_runtime",
@@ -246,19 +244,13 @@ ROS1_PACKAGES = {
     "tf_conversions": "tf_transformations",
     "xmlrpcpp": "rclcpp",
 }
-"""Packages of ROS 1 that ROS 2 Jazzy does not have, and their replacements."""
+"""Packages of ROS 1 that ROS 2 does not have, and their replacements."""
 
 OTHER_NAMES = {
-    "ign_ros2_control": "gz_ros2_control",
     "rclpy_action": "rclpy",
     "rclpy_lifecycle": "rclpy",
-    "ros_ign": "ros_gz",
-    "ros_ign_bridge": "ros_gz_bridge",
-    "ros_ign_gazebo": "ros_gz_sim",
-    "ros_ign_image": "ros_gz_image",
-    "ros_ign_interfaces": "ros_gz_interfaces",
 }
-"""Names of no package of Jazzy, with the package that is probably meant."""
+"""Names that no package ever had, with the package that is meant."""
 
 
 def keys_of_module(root: str) -> tuple[str, ...]:
@@ -335,7 +327,8 @@ _SYSTEM_KEYS = frozenset({"git", "graphviz", "lark", "yaml"})
 
 _INDEX_NAMES = {
     "PIL": "pillow",
-    "cv2": "opencv-python opencv-python-headless opencv-contrib-python opencv python3-cv2",
+    "cv2": "opencv-python opencv-python-headless opencv-contrib-python opencv opencv2 opencv4 "
+    "python3-cv2",
     "bs4": "beautifulsoup4",
     "git": "GitPython",
     "serial": "pyserial",
