@@ -3,20 +3,39 @@
 from __future__ import annotations
 
 import re
+import sys
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Effect, Example, Fix, Package, Report, Rule, ViewError
-from scaffold.api.catalog import keys_of_module, module_of_key
+from scaffold.api.catalog import is_released, keys_of_module, module_keys, module_of_key
+from scaffold.api.manifest import is_fetched
 from scaffold.api.python import paths_importing
 
 from ._debian import key_of_debian
 
+_PYTHON = "  <export><build_type>ament_python</build_type></export>\n</package>"
 _MODULES = (".msg", ".srv", ".action")
 _OF_PYTHON_2 = frozenset(
     {"lxml", "matplotlib", "numpy", "opencv", "pandas", "pil", "psutil", "pyqt5", "requests"}
     | {"scipy", "serial", "setuptools", "tk", "yaml", "zmq"}
 )
+_WITHOUT_PYTHON_2 = frozenset(
+    {"argparse", "cpplint", "docx", "fysom", "is-python3", "kdtree", "lttngust", "multicast"}
+    | {"path.py", "percol", "slacker-cli", "telegram-bot", "trep"}
+)
+"""The last parts of keys ``python-...`` that are still resolved, most of them with pip."""
 _NO_KEYS = frozenset({"ament_python"})
+_OF_CMAKE = {
+    "Boost": "boost",
+    "Eigen3": "eigen",
+    "PCL": "libpcl-all-dev",
+    "eigen3": "eigen",
+    "nlohmann_json": "nlohmann-json-dev",
+    "yaml_cpp": "yaml-cpp",
+}
+"""Names that CMake and C++ have for libraries, with their rosdep keys."""
+_KEYS_LIKE_MODULES = frozenset({"sqlite3", "time", "uuid", "zlib"})
+"""Rosdep keys with names of modules of the standard library."""
 _MANIFEST = (
     '<package format="3">\n  <name>talker</name>\n  <exec_depend>{}</exec_depend>\n</package>\n'
 )
@@ -89,7 +108,41 @@ class DependencyWithoutKey(Rule):
             "3:16: 'rclpy std_msgs' contains several names: rosdep stops; write an element for "
             "each",
             "4:16: rosdep keys contain dashes, not underscores; use 'python3-numpy'",
-            "5:16: 'python-numpy' is a Python 2 package; use 'python3-numpy'",
+            "5:16: 'python-numpy' is a Python 2 package: rosdep stops; use 'python3-numpy'",
+        ),
+        Example(
+            "keys of Python 2, and keys for pip",
+            {
+                "package.xml": _MANIFEST.format(
+                    "python-flask</exec_depend>\n"
+                    "  <exec_depend>python-rpi.gpio</exec_depend>\n"
+                    "  <exec_depend>python-docx</exec_depend>\n"
+                    "  <exec_depend>python-pymap3d-pip"
+                )
+            },
+            "3:16: 'python-flask' is a Python 2 package: rosdep stops; use 'python3-flask'",
+            "4:16: 'python-rpi.gpio' is a Python 2 package: rosdep stops; use the key for Python 3",
+        ),
+        Example(
+            "a module of Python itself, and a key with the name of one",
+            {"package.xml": _MANIFEST.format("threading</exec_depend>\n  <exec_depend>time")},
+            "3:16: 'threading' is a module of Python itself: rosdep stops; remove it",
+        ),
+        Example(
+            "a Python package in the package",
+            {
+                "package.xml": _MANIFEST.format("helpers").replace("</package>", _PYTHON),
+                "setup.py": "from setuptools import setup\n\n"
+                "setup(name='talker', packages=['talker', 'helpers'])\n",
+                "helpers/__init__.py": "",
+            },
+            "package.xml:3:16: 'helpers' is a Python package in this package: rosdep stops; "
+            "remove it",
+        ),
+        Example(
+            "a package that CMake knows under another name",
+            {"package.xml": _MANIFEST.format("Eigen3")},
+            "3:16: 'Eigen3' is not a rosdep key: rosdep stops; the key is 'eigen'",
         ),
         Example(
             "the rosdep key",
@@ -165,8 +218,10 @@ class DependencyWithoutKey(Rule):
                 message = f"<{dependency.kind}> is empty: bloom stops; remove it"
                 yield self.report(dependency.element, message, fix)
                 continue
-            problem = _problem(dependency.name) if dependency.active else ""
-            if problem and package.workspace.get(dependency.name) is None:
+            problem = ""
+            if dependency.active and not _is_source(package, dependency.name):
+                problem = _problem(dependency.name) or _why_unknown(package, dependency.name)
+            if problem and dependency.kind != "doc_depend":
                 yield self.report(dependency, problem)
 
     def _check_index_names(self, package: Package) -> Iterator[Diagnostic]:
@@ -187,6 +242,11 @@ class DependencyWithoutKey(Rule):
             yield self.report(dependency, f"{message} is {key!r}", fix, cause=f"dependency {key}")
 
 
+def _is_source(package: Package, name: str) -> bool:
+    """Return whether a package is in the workspace, or fetched into it."""
+    return package.workspace.get(name) is not None or is_fetched(package, name)
+
+
 def _problem(name: str) -> str:
     key = key_of_debian(name)
     problem = ""
@@ -203,11 +263,47 @@ def _problem(name: str) -> str:
         problem = f"{name!r} is a module: rosdep stops; the package is {name.rpartition('.')[0]!r}"
     elif name.startswith("python3_"):
         problem = f"rosdep keys contain dashes, not underscores; use {name.replace('_', '-')!r}"
-    elif name.startswith("python-") and name[7:] in _OF_PYTHON_2:
-        problem = f"{name!r} is a Python 2 package; use {'python3-' + name[7:]!r}"
+    elif name.startswith("python-") and not name.endswith("-pip"):
+        problem = _problem_of_python_2(name)
     elif name in _NO_KEYS:
         problem = f"{name!r} is a build type, not a package: rosdep cannot resolve it; remove it"
     return problem
+
+
+def _why_unknown(package: Package, name: str) -> str:
+    """Return why a name is certainly no key, unless the local rosdep cache has it."""
+    rosdep = package.workspace.rosdep
+    if rosdep is not None and rosdep.resolves(name):
+        return ""
+    if name in _OF_CMAKE:
+        return f"{name!r} is not a rosdep key: rosdep stops; the key is {_OF_CMAKE[name]!r}"
+    if name in sys.stdlib_module_names and name not in _KEYS_LIKE_MODULES:
+        return f"{name!r} is a module of Python itself: rosdep stops; remove it"
+    if _is_own_module(package, name):
+        return f"{name!r} is a Python package in this package: rosdep stops; remove it"
+    return ""
+
+
+def _problem_of_python_2(name: str) -> str:
+    rest = name.removeprefix("python-")
+    if rest in _WITHOUT_PYTHON_2:
+        return ""
+    key = f"python3-{rest}"
+    is_known = rest in _OF_PYTHON_2 or key in module_keys()
+    advice = f"use {key!r}" if is_known else "use the key for Python 3"
+    return f"{name!r} is a Python 2 package: rosdep stops; {advice}"
+
+
+def _is_own_module(package: Package, name: str) -> bool:
+    """Return whether setup.py installs a Python package of a name that no other package has."""
+    if name == package.name or is_released(name) or package.build_type != "ament_python":
+        return False
+    try:
+        packages = package.setup_py.packages
+    except ViewError:
+        return False
+    is_packed = isinstance(packages, list) and name in packages
+    return is_packed and package.has(f"{name}/__init__.py")
 
 
 def _is_found_by_cmake(package: Package, name: str) -> bool:
