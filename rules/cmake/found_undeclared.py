@@ -217,6 +217,23 @@ class FoundUndeclared(Rule):
             },
         ),
         Example(
+            "ament_cmake, which every package needs",
+            {
+                "package.xml": '<package format="3">\n  <name>talker</name>\n</package>\n',
+                "CMakeLists.txt": "project(talker)\nfind_package(ament_cmake)\n",
+            },
+            Report(
+                "CMakeLists.txt:2:14",
+                "finds 'ament_cmake', which package.xml does not declare; add "
+                "<buildtool_depend>ament_cmake</buildtool_depend>",
+                fix="Declare ament_cmake",
+            ),
+            fixed={
+                "package.xml": '<package format="3">\n  <name>talker</name>\n'
+                "  <buildtool_depend>ament_cmake</buildtool_depend>\n</package>\n"
+            },
+        ),
+        Example(
             "declared for the build",
             {
                 "package.xml": _MANIFEST_RUN_ONLY.format("  <depend>std_msgs</depend>\n"),
@@ -267,7 +284,8 @@ class FoundUndeclared(Rule):
         )
         for found in always_first:
             name = found.name
-            if name in reported or not found.required or package.cmake.is_off(found.command):
+            is_required = found.required or name == "ament_cmake"
+            if name in reported or not is_required or package.cmake.is_off(found.command):
                 continue
             other = manifest.left_out({name}, "build", "build_export", "run", "test")
             if other is not None:
