@@ -8,6 +8,7 @@ import sys
 
 from scaffold.api.rclpy import rclpy_file
 from scaffold.api.types import (
+    MARK,
     MARKED,
     TypeFinding,
     elements_misfit,
@@ -43,6 +44,10 @@ _ANY_VALUE = {
     *((name, "emulate_tty") for name in ("ExecuteLocal()", "ExecuteProcess()", "Node()")),
 }
 """Arguments that `ros2 launch --show-args` only prints, or that are only tested for truth."""
+_UNNOTICED = {("DeclareLaunchArgument()", "name"): "no argument of this name is declared"}
+"""Arguments that are only compared with others, with the consequence of a wrong one."""
+_ENTITY = "LaunchDescriptionEntity"
+"""What the callbacks of event handlers return."""
 _COUNTED_ELSEWHERE = frozenset(
     {"create_subscription", "create_service", "create_timer", "registerCallback"}
     | {"add_done_callback", "__init__", "__new__"}
@@ -87,7 +92,7 @@ def _argument(finding: TypeFinding, callee: str, expected: str, given: str) -> s
     """Judge an argument of a function or class of ROS."""
     if callee.endswith(".publish_feedback"):
         given = re.sub(_COMPUTED, r"\1", given)
-    if expected.startswith("(") and is_function(given):
+    if is_function(given) and (expected.startswith("(") or _ENTITY in expected):
         return _function(finding, callee, expected, given)
     given = of_plain_class(finding, given) or given
     is_misfit = is_certain_misfit(expected, given) or is_uncallable(finding, expected, given)
@@ -121,12 +126,18 @@ def _argument(finding: TypeFinding, callee: str, expected: str, given: str) -> s
     subject = f"{parameter!r} of {shown_call}" if parameter else f"an argument of {shown_call}"
     is_long = "... omitted" in expected
     needed = f"cannot be {in_words(given)}" if is_long else f"must be {unlike(expected, given)}"
-    return f"{subject} {needed}: {shown_call} fails{hint}"
+    consequence = _UNNOTICED.get((shown_call, parameter), f"{shown_call} fails")
+    return f"{subject} {needed}: {consequence}{hint}"
 
 
 def _function(finding: TypeFinding, callee: str, expected: str, given: str) -> str:
     """Judge the number of arguments of a function that is passed; annotations may differ."""
     called = callee.rpartition(".")[2]
+    if _ENTITY in expected:
+        subject = (
+            f"{parameter_name(finding, callee)!r} of {short_name(callee.rpartition('.')[0])}()"
+        )
+        return _handler(subject, expected, given)
     if called in _COUNTED_ELSEWHERE:
         node = finding.expression()
         file = rclpy_file(finding.package, finding.path)
@@ -134,6 +145,20 @@ def _function(finding: TypeFinding, callee: str, expected: str, given: str) -> s
             return ""
     takes = takes_instead(expected, given)
     return f"{called}() calls {in_words(given)} with {takes}: TypeError" if takes else ""
+
+
+def _handler(subject: str, expected: str, given: str) -> str:
+    """Judge a function that launch calls for an event: its arguments, and what it returns."""
+    takes = takes_instead(expected, given)
+    if takes:
+        return f"{subject} is called with {takes}: TypeError"
+    returned = given.rpartition("-> ")[2]
+    if returned == "None" or re.search(rf"{MARK}|\b(?:Any|Unknown)\b", returned):
+        return ""
+    return (
+        f"{subject} returns {in_words(returned)}, not actions or None: launch fails when the event "
+        "occurs"
+    )
 
 
 def _listed_elements(finding: TypeFinding) -> str:

@@ -110,7 +110,7 @@ def wrong_callback(finding: TypeFinding, expected: str, given: str) -> str:
 def takes_instead(expected: str, given: str) -> str:
     """Return the needed and actual argument counts of an unsuitable function; or empty."""
     needed = re.findall(r"\(([^()]*)\) -> ", expected)
-    taken = re.match(r"(?:bound method|def) [^(]*\(([^()]*)\) -> ", given)
+    taken = re.match(r"(?:(?:bound method|def) [^(]*)?\(([^()]*)\) -> ", given)
     if taken is None or re.search(r"[*=]|\.\.\.", " ".join([taken[1], *needed])):
         return ""
     counts, has = sorted({*map(_count, needed)}), _count(taken[1])

@@ -49,8 +49,8 @@ _DRIVER = (
     "    serial.Serial('/dev/ttyUSB0').write({})\n"
     "    return euler_from_quaternion({})\n"
 )
-_RARE = ": debug() fails"
-"""The end of the message about a call that only fails while debugging."""
+_RARE = (": debug() fails", ": no argument of this name is declared")
+"""The ends of messages about what fails only while debugging, or works with given arguments."""
 _RIGHT = ("0.1", "ReentrantCallbackGroup()", "Duration(seconds=1.0)")
 
 _FLEET = (
@@ -105,7 +105,10 @@ class ArgumentTypeUnfit(TypeRule):
 
     code = "TY005"
     name = "argument-type-unfit"
-    other_severities = {Severity.WARNING: "the call only logs at debug level"}
+    other_severities = {
+        Severity.WARNING: "the call only logs at debug level, or nothing fails if the user gives a "
+        "launch argument"
+    }
     kinds = frozenset({"invalid-argument-type", "no-matching-overload"})
     examples = (
         Example(
@@ -382,6 +385,29 @@ class ArgumentTypeUnfit(TypeRule):
                 "FILES = ['a.sdf', 'b.sdf']\n"
                 "ENDED = OnShutdown(on_shutdown=lambda event, context: [*map(os.remove, FILES)])\n"
             },
+        ),
+        Example(
+            "launch event handlers that return other values, and a substitution as a name",
+            {
+                "demo.launch.py": "import subprocess\n\n"
+                "from launch.actions import DeclareLaunchArgument\n"
+                "from launch.event_handlers import OnProcessExit, OnShutdown\n"
+                "from launch.substitutions import LaunchConfiguration\n\n"
+                "MODE = DeclareLaunchArgument(LaunchConfiguration('mode'), default_value='a')\n"
+                "ENDED = OnShutdown(on_shutdown=lambda event, context: subprocess.run('sync'))\n"
+                "LEFT = OnProcessExit(on_exit=lambda event: None)\n"
+            },
+            Report(
+                "7:30",
+                "'name' of DeclareLaunchArgument() must be a str, not a "
+                "launch.substitutions.launch_configuration.LaunchConfiguration: no "
+                "argument of this name is declared",
+                severity=Severity.WARNING,
+            ),
+            "8:20: 'on_shutdown' of OnShutdown() returns a CompletedProcess, not actions or None: "
+            "launch fails when the event occurs",
+            "9:22: 'on_exit' of OnProcessExit() is called with 2 arguments, but it takes 1: "
+            "TypeError",
         ),
         Example(
             "wrong argument types in a launch file",
