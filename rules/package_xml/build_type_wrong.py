@@ -19,7 +19,7 @@ from scaffold.api import (
 )
 from scaffold.api.catalog import transitive_dependencies
 from scaffold.api.cmake import uses_ament
-from scaffold.api.manifest import ConditionError, holds
+from scaffold.api.manifest import ConditionError, declared, holds
 
 KNOWN = ("ament_cmake", "ament_python", "cmake", "catkin", "ament_cargo", "python")
 _MANIFEST = (
@@ -322,7 +322,8 @@ class BuildTypeWrong(Rule):
             "<buildtool_depend>ament_cmake</buildtool_depend>"
         )
         at = manifest.root.name_location
-        if "ament_cmake" in transitive_dependencies(manifest.build_names):
+        brought = transitive_dependencies(manifest.build_names)
+        if "ament_cmake" in brought | declared(package, for_tests=True).along:
             yield self.report(at, message, fix, severity=Severity.WARNING)
         # Otherwise found-undeclared reports it.
 

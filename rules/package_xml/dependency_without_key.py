@@ -7,7 +7,13 @@ import sys
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Effect, Example, Fix, Package, Report, Rule, ViewError
-from scaffold.api.catalog import is_released, keys_of_module, module_keys, module_of_key
+from scaffold.api.catalog import (
+    LIBRARY_KEYS,
+    is_released,
+    keys_of_module,
+    module_keys,
+    module_of_key,
+)
 from scaffold.api.manifest import is_fetched
 from scaffold.api.python import paths_importing
 
@@ -25,15 +31,6 @@ _WITHOUT_PYTHON_2 = frozenset(
 )
 """The last parts of keys ``python-...`` that are still resolved, most of them with pip."""
 _NO_KEYS = frozenset({"ament_python"})
-_OF_CMAKE = {
-    "Boost": "boost",
-    "Eigen3": "eigen",
-    "PCL": "libpcl-all-dev",
-    "eigen3": "eigen",
-    "nlohmann_json": "nlohmann-json-dev",
-    "yaml_cpp": "yaml-cpp",
-}
-"""Names that CMake and C++ have for libraries, with their rosdep keys."""
 _KEYS_LIKE_MODULES = frozenset({"sqlite3", "time", "uuid", "zlib"})
 """Rosdep keys with names of modules of the standard library."""
 _MANIFEST = (
@@ -222,7 +219,7 @@ class DependencyWithoutKey(Rule):
             if dependency.active and not _is_source(package, dependency.name):
                 problem = _problem(dependency.name) or _why_unknown(package, dependency.name)
             if problem and dependency.kind != "doc_depend":
-                yield self.report(dependency, problem)
+                yield self.report(dependency, problem, cause=f"dependency {dependency.name}")
 
     def _check_index_names(self, package: Package) -> Iterator[Diagnostic]:
         for dependency in package.manifest.dependencies:
@@ -275,8 +272,8 @@ def _why_unknown(package: Package, name: str) -> str:
     rosdep = package.workspace.rosdep
     if rosdep is not None and rosdep.resolves(name):
         return ""
-    if name in _OF_CMAKE:
-        return f"{name!r} is not a rosdep key: rosdep stops; the key is {_OF_CMAKE[name]!r}"
+    if name in LIBRARY_KEYS:
+        return f"{name!r} is not a rosdep key: rosdep stops; the key is {LIBRARY_KEYS[name]!r}"
     if name in sys.stdlib_module_names and name not in _KEYS_LIKE_MODULES:
         return f"{name!r} is a module of Python itself: rosdep stops; remove it"
     if _is_own_module(package, name):

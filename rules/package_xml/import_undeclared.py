@@ -201,9 +201,17 @@ class ImportUndeclared(Rule):
             },
         ),
         Example(
-            "a library that a dependency outside of every distribution may bring",
+            "a library with modules of messages",
             {
-                "package.xml": _manifest("arm_driver", "rclpy"),
+                "package.xml": _manifest("rclpy"),
+                "talker/__init__.py": "",
+                "talker/node.py": "import rclpy\nfrom pygazebo.msg import pose_pb2\n",
+            },
+        ),
+        Example(
+            "a library that dependencies outside of every distribution may bring",
+            {
+                "package.xml": _manifest("arm_driver", "hand_driver", "rclpy"),
                 "talker/__init__.py": "",
                 "talker/node.py": "import rclpy\nimport scipy\n",
             },
@@ -214,7 +222,29 @@ class ImportUndeclared(Rule):
                 fix="Declare python3-scipy",
                 severity=Severity.WARNING,
             ),
-            fixed={"package.xml": _manifest("arm_driver", "python3-scipy", "rclpy")},
+            fixed={"package.xml": _manifest("arm_driver", "hand_driver", "python3-scipy", "rclpy")},
+        ),
+        Example(
+            "a library and messages that one dependency outside of every distribution may bring",
+            {
+                "package.xml": _manifest("arm_driver", "rclpy"),
+                "talker/__init__.py": "",
+                "talker/node.py": "import rclpy\nimport scipy\nfrom nav_msgs.msg import Path\n",
+            },
+            Report(
+                "talker/node.py:2:1",
+                "imports 'scipy', which package.xml does not declare; add "
+                "<exec_depend>python3-scipy</exec_depend>",
+                fix="Declare python3-scipy",
+            ),
+            Report(
+                "talker/node.py:3:1",
+                "imports 'nav_msgs', which package.xml does not declare; add "
+                "<exec_depend>nav_msgs</exec_depend>",
+                fix="Declare nav_msgs",
+                severity=Severity.WARNING,
+            ),
+            fixed={"package.xml": _manifest("arm_driver", "nav_msgs", "python3-scipy", "rclpy")},
         ),
         Example(
             "a library that no interface package brings; the client library",

@@ -121,7 +121,7 @@ class PackageRemoved(Rule):
             is_there = package.workspace.get(name) is not None or is_fetched(package, name)
             if change is not None and not is_there:
                 message = f"{name} {change.state}: {failure}; {change.advice} ({change.source})"
-                yield self.report(at, message, cause=f"removed package {name}")
+                yield self.report(at, message, cause=f"removed package {change.names[0]}")
 
 
 def _uses(package: Package) -> Iterator[tuple[str, Location, str]]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from scaffold.model.catalog import (
     BUILD_TOOLS,
+    LIBRARY_KEYS,
     OTHER_NAMES,
     ROS1_PACKAGES,
     ROS_PACKAGES,
@@ -18,6 +19,7 @@ from scaffold.model.released import is_released, transitive_dependencies
 
 __all__ = [
     "BUILD_TOOLS",
+    "LIBRARY_KEYS",
     "OTHER_NAMES",
     "ROS1_PACKAGES",
     "ROS_PACKAGES",

@@ -252,6 +252,16 @@ OTHER_NAMES = {
 }
 """Names that no package ever had, with the package that is meant."""
 
+LIBRARY_KEYS = {
+    "Boost": "boost",
+    "Eigen3": "eigen",
+    "PCL": "libpcl-all-dev",
+    "eigen3": "eigen",
+    "nlohmann_json": "nlohmann-json-dev",
+    "yaml_cpp": "yaml-cpp",
+}
+"""Names that CMake and C++ have for libraries, with their rosdep keys."""
+
 
 def keys_of_module(root: str) -> tuple[str, ...]:
     """Return the manifest keys that provide a Python module, the usual one first.

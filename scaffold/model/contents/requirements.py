@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING
 
 from scaffold.formats.hash_comments import without_comments
 from scaffold.model.catalog import (
+    LIBRARY_KEYS,
+    OTHER_NAMES,
     ROS1_PACKAGES,
     ROS_PACKAGES,
     keys_brought,
@@ -48,6 +50,12 @@ _INTERFACES = frozenset(
 """Words in names of packages that only contain interfaces."""
 _TOOLS = ("ament_", "launch", "rclcpp", "rclpy", "rosbag2", "rosidl_")
 """The first parts of names of client libraries, and of tools for builds and tests."""
+_STARTING = frozenset(
+    {"bringup", "config", "demo", "demos", "description", "launch", "robot", "robots", "sim"}
+    | {"simulation", "simulator"}
+)
+"""Words in names of packages with launch files, which start nodes of other packages."""
+_DIGITS = "0123456789"
 _COMMON_WORDS = frozenset({"ament", "my", "python", "python3", "ros", "ros2"})
 """First parts of names that do not make packages related."""
 _OLD_STANDARD_LIBRARY = frozenset({"distutils", "imp", "asynchat", "asyncore", "smtpd"})
@@ -95,11 +103,18 @@ class Declared(NamedTuple):
     def may_use(self, package: Package, name: str) -> bool:
         """Return whether an unknown dependency may bring a library or node that it uses itself.
 
-        ``arm_driver`` may use any one, which ``arm_msgs`` does not.
+        ``arm_driver`` may use messages, which ``arm_msgs`` does not, and ``arm_bringup`` any node.
+        Several unknown ones are part of a larger system that is installed in another way.
         """
-        return self.may_bring(package, name) or (
-            package.workspace.get(name) is None
-            and any(_may_use(dependency, name) for dependency in self.unknown)
+        if self.may_bring(package, name):
+            return True
+        if package.workspace.get(name) is not None or name.startswith(_TOOLS):
+            return False
+        using = [*filter(_may_use_others, self.unknown)]
+        return (
+            len(using) > 1
+            or (bool(using) and _has_messages(name))
+            or any(not _STARTING.isdisjoint(dependency.split("_")) for dependency in using)
         )
 
 
@@ -170,6 +185,8 @@ def _declared(package: Package, for_tests: bool) -> Declared:  # noqa: FBT001  a
 
 def _is_unknown(package: Package, name: str) -> bool:
     """Return whether a dependency is a package that is neither released nor in the workspace."""
+    if name in LIBRARY_KEYS or name in OTHER_NAMES:
+        return False
     is_known = is_released(name) or name in ROS_PACKAGES or name in ROS1_PACKAGES
     is_module = name in sys.stdlib_module_names or keys_of_module(name) or module_of_key(name)
     return not (is_known or is_module) and package.workspace.get(name) is None
@@ -177,22 +194,22 @@ def _is_unknown(package: Package, name: str) -> bool:
 
 def _are_related(dependency: str, name: str) -> bool:
     """Return whether two packages are of one family, or both contain interfaces."""
-    first = dependency.partition("_")[0]
+    first, rest = dependency.partition("_")[::2]
     if first == name.partition("_")[0] and first not in _COMMON_WORDS:
-        return True
+        return bool(rest) or not is_released(name)  # no distribution has ``nav2``
     return dependency.endswith(_OF_MESSAGES) and _has_messages(name)
 
 
-def _may_use(dependency: str, name: str) -> bool:
-    """Return whether a package may use a library or a node of ROS, as its name is of no other kind.
+def _may_use_others(dependency: str) -> bool:
+    """Return whether an unknown package may use libraries and nodes: its name is of no other kind.
 
     Programs themselves declare their client library, and the tools of builds and tests.
     """
-    meant = similar_package(dependency) or similar_key(dependency)
-    words = dependency.split("_")
-    if meant or not words[1:] or not _INTERFACES.isdisjoint(words):
+    if similar_package(dependency) or similar_key(dependency) or not dependency.islower():
         return False
-    return not dependency.startswith(_TOOLS) and not name.startswith(_TOOLS)
+    words = [word.rstrip(_DIGITS) for word in dependency.split("_")]
+    is_name = len(words) > 1 and not dependency.startswith(_TOOLS)
+    return is_name and _INTERFACES.isdisjoint(words)
 
 
 def _has_messages(name: str) -> bool:
@@ -333,6 +350,8 @@ def _keys(package: Package, node: Import, local: frozenset[str]) -> tuple[str, .
     if root in ROS1_PACKAGES:
         return ()
     is_interface = len(names) > 1 and names[1] in INTERFACE_MODULES
+    # ``from pygazebo.msg import pose_pb2`` takes a module; interfaces are classes.
+    is_interface = is_interface and not any(item.name[:1].islower() for item in node.names)
     is_interface = is_interface and root not in _libraries(package)
     if is_interface or package.workspace.get(root) is not None:
         return (root,)
