@@ -18,7 +18,7 @@ from scaffold.api import (
 from scaffold.api.catalog import ROS_PACKAGES, transitive_dependencies
 from scaffold.api.cmake import FoundPackage
 from scaffold.api.distributions import removed_package, target
-from scaffold.api.manifest import declaring, requirements
+from scaffold.api.manifest import declared, declaring
 
 _MANIFEST = '<package format="3">\n  <name>talker</name>\n  <depend>rclcpp</depend>\n{}</package>\n'
 _LISTS = "project(talker)\nfind_package(rclcpp REQUIRED)\nfind_package({} REQUIRED)\n"
@@ -277,7 +277,7 @@ class FoundUndeclared(Rule):
     def check(self, package: Package) -> Iterator[Diagnostic]:
         yield from self._check_run_only(package)
         manifest = package.manifest
-        dependencies = requirements.declared(package, for_tests=True)
+        dependencies = declared(package, for_tests=True)
         reported: set[str] = set()
         always_first = sorted(
             _undeclared(package), key=lambda found: not _is_always_found(package, found)
@@ -311,8 +311,8 @@ class FoundUndeclared(Rule):
     def _check_run_only(self, package: Package) -> Iterator[Diagnostic]:
         manifest = package.manifest
         kinds: dict[str, set[str]] = {}
-        for declared in manifest.dependencies:
-            kinds.setdefault(declared.name, set()).add(declared.kind)
+        for dependency in manifest.dependencies:
+            kinds.setdefault(dependency.name, set()).add(dependency.kind)
         only = {name for name, item in kinds.items() if item == {"exec_depend"}}
         along = _transitive_dependencies(package) if only else set()
         for found_package in package.cmake.found_packages:
@@ -340,15 +340,15 @@ class FoundUndeclared(Rule):
 
 def _undeclared(package: Package) -> Iterator[FoundPackage]:
     """Yield the ROS packages that are searched for and that no dependency provides."""
-    declared = {item.name for item in package.manifest.dependencies if item.may_be_active}
-    dependencies = requirements.declared(package, for_tests=True)
-    names = {package.name, *declared, *transitive_dependencies(declared), *dependencies.along}
+    direct = {item.name for item in package.manifest.dependencies if item.may_be_active}
+    dependencies = declared(package, for_tests=True)
+    names = {package.name, *direct, *transitive_dependencies(direct), *dependencies.along}
     names |= dependencies.direct | _built_with(package)
     for found in package.cmake.found_packages:
         name, neighbor = found.name, package.workspace.get(found.name)
         if name == "rosidl_default_generators" and package.cmake.find("rosidl_generate_interfaces"):
             continue  # interface-declarations-missing reports it, with other missing ones
-        if name in names or f"lib{name}-dev" in declared:  # the system package that contains it
+        if name in names or f"lib{name}-dev" in direct:  # the system package that contains it
             continue
         if neighbor is None and (name not in ROS_PACKAGES or removed_package(name)):
             continue  # unknown, or reported by package-removed

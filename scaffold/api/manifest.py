@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from scaffold.model.contents import requirements
 from scaffold.model.contents.build_requirements import is_installed_to_build
+from scaffold.model.contents.declared import declared
 from scaffold.model.contents.package_name import name_used_elsewhere
-from scaffold.model.contents.requirements import declared, required_packages
+from scaffold.model.contents.requirements import required_packages
 from scaffold.model.discovery.declaring import declaring, way_back
 from scaffold.model.discovery.pip import is_in_requirements
 from scaffold.model.discovery.repos_files import is_fetched
