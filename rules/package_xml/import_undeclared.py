@@ -28,8 +28,6 @@ from ._debian import key_of_debian
 
 _LAUNCH = frozenset({"launch", "launch_ros"})
 """Packages installed wherever launch files can be started."""
-_BUILD = "python3-setuptools"
-"""The package installed with colcon."""
 _MANIFEST = '<package format="3">\n  <name>talker</name>\n{}</package>\n'
 _INDEX = frozenset({"torch", "torchvision"})
 """Packages often installed with pip, for a specific graphics card."""
@@ -64,7 +62,8 @@ class ImportUndeclared(Rule):
     other_severities = {
         Severity.WARNING: "only scripts in the share directory import it, or it may be installed "
         "anyway: with `ros2 launch` for launch files, with pip (torch, or listed in "
-        "requirements.txt or pyproject.toml), to build the workspace, or by an unknown dependency",
+        "requirements.txt or pyproject.toml), with colcon or rosdep, to build the workspace, as a "
+        "package of it, or by an unknown dependency",
     }
     examples = (
         Example(
@@ -273,6 +272,37 @@ class ImportUndeclared(Rule):
                 severity=Severity.WARNING,
             ),
             fixed={"package.xml": _manifest("arm_msgs", "nav_msgs", "python3-scipy", "rclpy")},
+        ),
+        Example(
+            "packages of the workspace",
+            {
+                "package.xml": _manifest(),
+                "talker/__init__.py": "",
+                "talker/node.py": "import arm\n",
+                "test/test_node.py": "import hand\n",
+            },
+            Report(
+                "talker/node.py:1:1",
+                "imports 'arm', which package.xml does not declare: `colcon build "
+                "--packages-up-to talker` leaves it out; add "
+                "<exec_depend>arm</exec_depend>",
+                fix="Declare arm",
+                severity=Severity.WARNING,
+            ),
+            Report(
+                "test/test_node.py:1:1",
+                "imports 'hand', which package.xml does not declare: `colcon test` "
+                "runs the tests without it; add <test_depend>hand</test_depend>",
+                fix="Declare hand",
+            ),
+            fixed={"package.xml": _manifest("arm", "<test_depend>hand</test_depend>")},
+            neighbors={
+                name: {
+                    "package.xml": f"<package><name>{name}</name></package>\n",
+                    f"{name}/__init__.py": "",
+                }
+                for name in ("arm", "hand")
+            },
         ),
         Example(
             "a library that a package of the workspace is built with",
@@ -546,6 +576,7 @@ class ImportUndeclared(Rule):
                 "imports 'yaml', which package.xml does not declare; add "
                 "<exec_depend>python3-yaml</exec_depend>",
                 fix="Declare python3-yaml",
+                severity=Severity.WARNING,
             ),
             fixed={
                 "package.xml": _manifest(
@@ -589,6 +620,8 @@ class ImportUndeclared(Rule):
                 continue  # reported by module-of-ros1-imported
             comes_otherwise = _comes_with_launch(need) or need.module in _INDEX or need.in_data
             comes_otherwise = comes_otherwise or is_from_pip
+            is_built = package.workspace.get(need.module) is not None
+            comes_otherwise = comes_otherwise or (is_built and not need.for_tests)
             comes_otherwise = comes_otherwise or dependencies.may_use(package, need.keys[0])
             comes_otherwise = comes_otherwise or is_installed_to_build(package, need.keys)
             severity = Severity.WARNING if comes_otherwise else Severity.ERROR
@@ -605,9 +638,14 @@ class ImportUndeclared(Rule):
             tag = "test_depend" if need.for_tests else "exec_depend"
             tag = "run_depend" if manifest.format == 1 and tag == "exec_depend" else tag
             needed = declaring(package, tag, need.keys[0])
-            message = (
-                f"imports {need.module!r}, which {_why_missing(package, need)}; {needed.advice}"
-            )
+            message = f"imports {need.module!r}, which {_why_missing(package, need)}"
+            if is_built:
+                message += (
+                    ": `colcon test` runs the tests without it"
+                    if need.for_tests
+                    else f": `colcon build --packages-up-to {package.name}` leaves it out"
+                )
+            message += f"; {needed.advice}"
             if _is_unknown(package, need.module):
                 message += f", and the package to the workspace: {target().title} lacks it"
             cause = f"dependency {need.keys[0]}"
@@ -636,9 +674,7 @@ def _is_unknown(package: Package, module: str) -> bool:
 
 def _comes_with_launch(need: requirements.Requirement) -> bool:
     key = need.keys[0]
-    return key in {_BUILD, *_LAUNCH} or (
-        need.for_launch and key in transitive_dependencies({"ros2launch"})
-    )
+    return key in _LAUNCH or (need.for_launch and key in transitive_dependencies({"ros2launch"}))
 
 
 def _is_required(package: Package, module: str) -> bool:

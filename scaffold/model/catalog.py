@@ -192,6 +192,7 @@ _OTHER_MODULES = {
 }
 
 _BROUGHT = {
+    "python3-cvxpy-pip": "python3-numpy python3-scipy",
     "python3-fastapi": "python3-pydantic",
     "python3-flask": "python3-jinja2 python3-click",
     "python3-flask-cors": "python3-flask",
@@ -199,6 +200,7 @@ _BROUGHT = {
     "python3-flask-sqlalchemy": "python3-flask",
     "python3-geopandas": "python3-pandas python3-pyproj python3-shapely",
     "python3-matplotlib": "python3-dateutil python3-numpy python3-packaging python3-pil",
+    "python3-numba": "python3-numpy python3-scipy",
     "python3-pandas": "python3-dateutil python3-numpy",
     "python3-pydantic": "python3-typing-extensions",
     "python3-opencv": "python3-numpy",
