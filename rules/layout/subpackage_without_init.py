@@ -15,7 +15,7 @@ from scaffold.api import (
     Rule,
     Severity,
 )
-from scaffold.api.install import is_never_run, is_unused_module
+from scaffold.api.install import is_never_run
 from scaffold.api.python import UNKNOWN, Import, imports_by_path
 from scaffold.api.setup_py import FindPackages, matches, package_data
 
@@ -119,7 +119,7 @@ class SubpackageWithoutInit(Rule):
                         continue
                     if self._is_listed(packages, directory) or _is_data(package, directory):
                         continue
-                    is_used = not (is_never_run(package, path) or is_unused_module(package, path))
+                    is_used = not is_never_run(package, path)
                     if is_used or earlier is None:
                         missing[init] = (item, directory, is_used)
         for init, (item, directory, is_used) in missing.items():

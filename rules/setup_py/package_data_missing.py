@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
-from scaffold.api.install import is_never_run, is_unused_module, own_files
+from scaffold.api.install import is_never_run, own_files
 from scaffold.api.setup_py import installed_data, matches, package_data
 
 _SETUP = (
@@ -140,7 +140,7 @@ class PackageDataMissing(Rule):
                 f"{where.path}:{where.line} reads {file.path}, which is not installed; "
                 f"add package_data={{'{holder.replace('/', '.')}': ['{inside}']}}"
             )
-            is_unused = is_never_run(package, where.path) or is_unused_module(package, where.path)
+            is_unused = is_never_run(package, where.path)
             yield self.report(at, message, severity=Severity.WARNING if is_unused else None)
 
     def _owning_package(self, package: Package, path: str) -> str | None:

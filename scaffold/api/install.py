@@ -17,10 +17,10 @@ from scaffold.model.install.modules import (
     paths_imported_by,
     uninstalled_import,
 )
+from scaffold.model.install.reach import is_never_run
 from scaffold.model.install.resources import own_files
 from scaffold.model.install.share import share_of
-from scaffold.model.install.unused import is_copy_of_old_code, is_never_run
-from scaffold.model.rclpy.uncalled import is_unused_module
+from scaffold.model.install.unused import is_copy_of_old_code
 
 __all__ = [
     "absolute_name",
@@ -31,7 +31,6 @@ __all__ = [
     "is_installed_by_path",
     "is_never_run",
     "is_started",
-    "is_unused_module",
     "may_be_made",
     "modules_of",
     "moved_to",

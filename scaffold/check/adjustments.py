@@ -12,25 +12,24 @@ from scaffold.check import conflicts
 from scaffold.check.rules.engine_rules import RuleCrashed, UnparsableFile
 from scaffold.configuration.exclusion import Exclusion
 from scaffold.diagnostic import Diagnostic, Severity
-from scaffold.model.contents.constant_branches import is_in_disabled_branch
+from scaffold.model.contents.dead_code import is_dead
 from scaffold.model.contents.python_facts import imports_of, paths_importing
 from scaffold.model.discovery.foreign import ENVIRONMENTS, Foreign
-from scaffold.model.install.unused import (
-    is_copy_of_old_code,
-    is_never_run,
-    is_out_of_reach,
-)
+from scaffold.model.install.reach import is_never_run, is_unreached
+from scaffold.model.install.unused import is_apart, is_copy_of_old_code
 from scaffold.model.launch.unlaunched import is_in_unlaunched_action
 from scaffold.model.launch.unused_files import is_left_alone
 from scaffold.model.package import Package
 from scaffold.model.python.guards import all_conditions, is_unevaluated
 from scaffold.model.python.module import PythonModule
 from scaffold.model.rclpy.stopping import only_while_stopping
-from scaffold.model.rclpy.uncalled import is_in_uncalled_function, is_unused_module
+from scaffold.model.rclpy.uncalled import is_uncalled
 from scaffold.record import NamedTuple
 from scaffold.source import Location, ViewError
 
 _OF_LINTERS = ("E9", "F")
+_OF_SYNTAX = "E9"
+"""The first part of codes that also concern whoever compiles an installed file."""
 _OF_PROGRAMS = ("IM", "LF", "MS", "ND", "TY")
 """Areas of rules about run-time behavior."""
 _OF_ACTIONS = (
@@ -157,12 +156,14 @@ def _is_unreached(package: Package, diagnostic: Diagnostic) -> bool:
     is_of_example = code not in _OF_TESTS and path.startswith(("doc/", "docs/"))
     if is_of_example or code == _RAISED_ANYWAY or _is_of_ros1(package, diagnostic):
         return True
-    if code.startswith(_OF_LINTERS):
-        return is_out_of_reach(package, path) or _is_hardly_reached(package, diagnostic)
     if code.startswith(_OF_ACTIONS) and _is_unlaunched(package, diagnostic.location):
         return True
-    return code.startswith(_OF_PROGRAMS) and (
-        is_out_of_reach(package, path) or _is_uncalled(package, diagnostic.location)
+    if code.startswith(_OF_SYNTAX) and not is_apart(package, path):
+        return False
+    return code.startswith((*_OF_LINTERS, *_OF_PROGRAMS)) and (
+        is_unreached(package, path)
+        or _is_uncalled(package, diagnostic)
+        or _is_hardly_reached(package, diagnostic)
     )
 
 
@@ -206,25 +207,26 @@ def _is_needed_by_unused_code(package: Package, undeclared: Diagnostic) -> bool:
 
 
 def _is_unused_import(package: Package, at: Location) -> bool:
-    """Return whether an import is in a file that is never run, or in an uncalled function."""
-    return is_never_run(package, at.path) or _is_uncalled(package, at)
+    """Return whether an import is in a file that is never run, or in code that is not reached."""
+    return is_never_run(package, at.path) or _is_dead_or_uncalled(package, at)
 
 
-def _is_unused_module(package: Package, path: str) -> bool:
+def _is_uncalled(package: Package, diagnostic: Diagnostic) -> bool:
+    """Return whether an error is in code that is not reached.
+
+    An undefined name in the first line of a function is evaluated when that is defined.
+    """
+    is_undefined = diagnostic.code == _UNDEFINED
+    is_early = is_undefined and any(
+        any(isinstance(item, ast.arguments) for item in module.parents(name))
+        for module, name in _names_at(package, diagnostic)
+    )
+    return not is_early and _is_dead_or_uncalled(package, diagnostic.location)
+
+
+def _is_dead_or_uncalled(package: Package, at: Location) -> bool:
     try:
-        return path.endswith(".py") and is_unused_module(package, path)
-    except ViewError:
-        return False
-
-
-def _is_uncalled(package: Package, at: Location) -> bool:
-    """Return whether code is in an unused module, an uncalled function, or a disabled branch."""
-    if _is_unused_module(package, at.path):
-        return True
-    try:
-        return is_in_uncalled_function(package, at.path, at.line) or is_in_disabled_branch(
-            package, at.path, at.line
-        )
+        return is_dead(package, at.path, at.line) or is_uncalled(package, at.path, at.line)
     except ViewError:
         return False
 
@@ -247,7 +249,7 @@ def _is_hardly_reached(package: Package, undefined: Diagnostic) -> bool:
         return _is_before_raise(package, undefined.location)
     if undefined.code != _UNDEFINED:
         return False
-    return _is_uncalled(package, undefined.location) or any(
+    return any(
         only_while_stopping(module, name)
         or _is_of_platform(module, name)
         or _is_raised(module, name)

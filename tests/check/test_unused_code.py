@@ -212,7 +212,7 @@ def test_uncalled_function_of_a_launch_file(
         ("warning", "def load_all():\n    return load('a')\n\n\n"),
         ("error", "def load_all():\n    return load('a')\n\n\nload_all()\n"),
         ("error", "loaded = load('a')\n\n\n"),
-        ("error", "def load_all():\n    return [load, 'load']\n\n\n"),
+        ("warning", "def load_all():\n    return [load, 'load']\n\n\n"),
         ("error", "@register\ndef load_all():\n    return load('a')\n\n\n"),
     ],
 )
@@ -335,7 +335,8 @@ def test_method_called_by_another_module(package: Path, capsys: pytest.CaptureFi
     ("path", "text", "severity"),
     [
         ("talker/other.py", "", "warning"),
-        ("talker/other.py", "from talker.talk import Teller\n", "error"),
+        ("talker/other.py", "from talker.talk import Teller\n", "warning"),
+        ("talker/other.py", "from talker.talk import Teller\n\nTeller()\n", "error"),
         ("plugin.xml", "<class type='talker.talk.Teller'/>\n", "error"),
         ("setup.py", CONSOLE_SCRIPT.replace("node:main", "talk:Teller"), "error"),
     ],
@@ -568,7 +569,7 @@ def test_uncalled_function_of_a_library(
     write(package / "talker" / "words.py", "def tell():\n    return undefined\n")
     write(package / path, text)
     assert severities(capsys, "F821") == {"talker/words.py": "error"}  # a library for others
-    entry = ", entry_points={'console_scripts': ['talk = talker.talk:main']})\n"
+    entry = ", entry_points={'console_scripts': ['talk = talker.other:main']})\n"
     write(package / "setup.py", SETUP.replace(")\n", entry))
     assert severities(capsys, "F821") == {"talker/words.py": severity}
 
@@ -679,6 +680,65 @@ def test_module_that_nothing_imports_or_starts(
         ("talker/node.py", "warning"),  # in an uncalled method
         ("talker/plan.py", severity),
     }
+
+
+@pytest.mark.parametrize(
+    ("path", "text", "severity"),
+    [
+        ("talker/node.py", "def main():\n    pass\n", "warning"),
+        ("talker/node.py", "import talker.routes.plan\n", "error"),
+        ("talker/node.py", "from .routes import plan\n", "error"),
+        ("test/test_plan.py", "from talker.routes import plan\n", "error"),
+        ("talker/other.py", "from talker.routes import plan\n", "warning"),
+        ("config/plugins.yaml", "plugins: [talker.routes.plan]\n", "warning"),
+        ("params.yaml", "plugins: [talker.routes.plan]\n", "error"),
+    ],
+)
+def test_module_only_imported_by_modules_that_nothing_imports(
+    package: Path, capsys: pytest.CaptureFixture[str], path: str, text: str, severity: str
+) -> None:
+    write(package / "setup.py", CONSOLE_SCRIPT)
+    write(package / "talker" / "node.py", "def main():\n    pass\n")
+    write(package / "talker" / "routes" / "__init__.py", "from . import plan\n")
+    write(package / "talker" / "routes" / "plan.py", "from .way import *\n")
+    write(package / "talker" / "routes" / "way.py", "from .plan import a\n" + UNDEFINED)
+    write(package / path, text)
+    assert severities(capsys, "F821") == {"talker/routes/way.py": severity}
+
+
+@pytest.mark.parametrize(
+    ("severity", "changed", "into"),
+    [
+        ("warning", "", ""),
+        ("warning", "def report(teller):", 'def report(teller):\n    "Call it after tell()."'),
+        ("warning", "main():", "main():\n    tell = print\n    tell()\n"),
+        ("error", "main():", "main():\n    print().tell()\n"),
+        ("error", "main():", "main():\n    print('tell')\n"),
+        ("error", "main():", "main():\n    report(1)\n"),
+        ("error", "def report", "report(1)\n\n\ndef report"),
+        ("error", "def report", "@register\ndef report"),
+    ],
+)
+def test_method_only_called_by_functions_that_nothing_calls(
+    package: Path, capsys: pytest.CaptureFixture[str], severity: str, changed: str, into: str
+) -> None:
+    write(package / "setup.py", CONSOLE_SCRIPT)
+    words = "class Words:\n    def tell(self):\n        return undefined\n"
+    write(package / "talker" / "words.py", words)
+    node = "from talker.words import Words\n\n\ndef main():\n    Words()\n\n\n"
+    node += "def report(teller):\n    teller.tell()\n    report(teller)\n"
+    write(package / "talker" / "node.py", node.replace(changed, into, 1))
+    found = severities(capsys, "F821")
+    assert found["talker/words.py"] == severity
+
+
+def test_undefined_name_in_the_first_line_of_an_uncalled_function(
+    package: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    write(package / "setup.py", CONSOLE_SCRIPT)
+    node = "def tell(text=undefined):\n    pass\n\n\ndef main():\n    pass\n"
+    write(package / "talker" / "node.py", node)
+    assert severities(capsys, "F821") == {"talker/node.py": "error"}
 
 
 @pytest.mark.parametrize(

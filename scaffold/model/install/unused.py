@@ -1,4 +1,4 @@
-"""Python files that nothing runs: not installed, not imported, or backup copies."""
+"""Files that nothing uses: not installed, unrun tests, or backup copies; and who names a file."""
 
 from __future__ import annotations
 
@@ -58,8 +58,8 @@ _NAMING = (*_KEPT, ".txt", ".cfg", ".toml", ".cmake", ".sh", ".bash")
 TEXTS = (".md", ".rst")
 """The endings of texts that tell people what to start."""
 _OF_CMAKE = ("CMakeLists.txt", ".cmake")
-_SETUP, _INIT = "setup.py", "__init__.py"
-_RUN_AS_THEY_ARE = frozenset({_SETUP, _INIT, "__main__.py"})
+INIT = "__init__.py"
+RUN_AS_THEY_ARE = frozenset({"setup.py", INIT, "__main__.py"})
 _FOR_TESTS = "conftest.py"
 """The file that pytest loads for the tests in and below a directory."""
 
@@ -74,60 +74,18 @@ def is_copy_of_old_code(package: Package, path: str) -> bool:
     return bool(is_kept) and not is_named(package, path, stem)
 
 
-def is_never_run(package: Package, path: str) -> bool:
-    """Return whether a Python file is a copy of old code, or is not installed.
-
-    Scripts started from the sources need no dependency of the package.
-    """
-    return is_copy_of_old_code(package, path) or _is_never_reached(package, path, ())
+def is_unused_setup_py(package: Package) -> bool:
+    """Return whether CMake builds a package without its setup.py."""
+    return _is_built_by_cmake(package) and not _uses_setup_py(package)
 
 
-def is_out_of_reach(package: Package, path: str) -> bool:
-    """Return whether a Python file is in no directory that is installed, and nothing names it.
-
-    People start a script from the sources when a text of the package says so.
-    """
-    return _is_never_reached(package, path, TEXTS)
-
-
-def _is_never_reached(package: Package, path: str, texts: tuple[str, ...]) -> bool:
-    """Return whether a file is apart, and only named by others that are never reached either."""
-
-    def find() -> bool:
-        if path == _SETUP:
-            return _is_built_by_cmake(package) and not _uses_setup_py(package)
-        pending, seen = [path], {path}
-        while pending:
-            item = pending.pop()
-            if not _is_apart(package, item):
-                return False
-            if is_in_tests(item):
-                continue
-            for naming in _files_naming(package, item, _stem(item), texts):
-                if not naming.endswith(".py"):
-                    if item.endswith(_INIT):
-                        continue  # which may mean the ROS package
-                    return False
-                if naming not in seen:
-                    seen.add(naming)
-                    pending.append(naming)
-        return True
-
-    return package.remember(("out of reach", path, texts), find)
-
-
-def _stem(path: str) -> str:
-    """Return the name under which a file is imported."""
-    return path.removesuffix(f"/{_INIT}").rpartition("/")[2].removesuffix(".py")
-
-
-def _is_apart(package: Package, path: str) -> bool:
+def is_apart(package: Package, path: str) -> bool:
     """Return whether a Python file is in no directory that is installed, or no test that is run."""
     directory, _, name = path.rpartition("/")
     stem = name.removesuffix(".py")
     if stem == name or ".launch." in name or stem.endswith("launch"):
         return False
-    if name in _RUN_AS_THEY_ARE and not (name == _INIT and _is_built_by_cmake(package)):
+    if name in RUN_AS_THEY_ARE and not (name == INIT and _is_built_by_cmake(package)):
         return False
     if is_in_tests(path):
         return is_unrun_test(package, path)
@@ -175,7 +133,7 @@ def is_unrun_test(package: Package, path: str) -> bool:
     """Return whether a test file is neither run as a test nor used by one."""
     *directories, name = path.split("/")
     stem = name.removesuffix(".py")
-    if not is_in_tests(path) or stem == name or name in _RUN_AS_THEY_ARE:
+    if not is_in_tests(path) or stem == name or name in RUN_AS_THEY_ARE:
         return False
     if name == _FOR_TESTS:
         return not any(
@@ -242,10 +200,10 @@ def is_named(package: Package, path: str, stem: str, texts: tuple[str, ...] = ()
         stem: The name.
         texts: The extensions of further files to search.
     """
-    return any(_files_naming(package, path, stem, texts))
+    return any(files_naming(package, path, stem, texts))
 
 
-def _files_naming(package: Package, path: str, stem: str, texts: tuple[str, ...]) -> Iterator[str]:
+def files_naming(package: Package, path: str, stem: str, texts: tuple[str, ...]) -> Iterator[str]:
     """Yield the files that mention a name; see `is_named`."""
     unused = _BUILDING[1:] if _is_built_by_cmake(package) else ()
     directory = path.rpartition("/")[0].rpartition("/")[2]

@@ -1,0 +1,145 @@
+"""Python files that nothing reaches: not installed, or not imported by anything that is run."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from scaffold.formats.hash_comments import code_with
+from scaffold.model.contents.ament_cmake import programs
+from scaffold.model.facts import fact
+from scaffold.model.install.console_scripts import has_program_files
+from scaffold.model.install.package_data import installed_data
+from scaffold.model.install.unused import (
+    INIT,
+    RUN_AS_THEY_ARE,
+    TEXTS,
+    files_naming,
+    is_apart,
+    is_copy_of_old_code,
+    is_in_python_package,
+    is_unused_setup_py,
+    names_file,
+)
+from scaffold.model.python.module import is_in_tests
+from scaffold.source import ViewError
+
+if TYPE_CHECKING:
+    from scaffold.model.package import Package
+
+_IMPORTS_RELATIVELY = re.compile(rb"(?m)^[ \t]*from[ \t]+\.")
+_CPP = (".cpp", ".hpp")
+_NAMING = (".py", ".cfg", ".toml", *_CPP)
+"""The endings of files of other packages that may import a module, or tell who does."""
+
+
+def is_never_run(package: Package, path: str) -> bool:
+    """Return whether a Python file is a copy of old code, or is not reached where it is installed.
+
+    Scripts started from the sources need no dependency of the package.
+    """
+    return is_copy_of_old_code(package, path) or is_unreached(package, path, from_sources=False)
+
+
+def is_unreached(package: Package, path: str, *, from_sources: bool = True) -> bool:
+    """Return whether no program, launch file, test or library runs or imports a Python file.
+
+    Follows the names of files in texts, without parsing them: what names a file that is not
+    reached must itself be reached. Files that others may use or start without naming them are
+    reached: tests, launch files, programs, and modules of packages without programs.
+
+    Args:
+        package: The package.
+        path: The file; it need not exist.
+        from_sources: Whether a file that is not installed is reached if a text of the package
+            tells people to start it.
+    """
+
+    def find() -> bool:
+        if path == "setup.py":
+            return is_unused_setup_py(package)
+        pending = [(package, path)]
+        for owner, item in pending:  # which grows
+            texts = _texts_about(owner, item, from_sources=from_sources)
+            if texts is None:
+                return False
+            for user, naming in _users(owner, item, texts):
+                if not naming.endswith(".py"):
+                    if item.endswith(INIT):
+                        continue  # which may mean the ROS package
+                    return False
+                if (user, naming) not in pending:
+                    pending.append((user, naming))
+        return True
+
+    return package.remember(("unreached", path, from_sources), find)
+
+
+def _texts_about(package: Package, path: str, *, from_sources: bool) -> tuple[str, ...] | None:
+    """Return the endings of texts that may tell people to start a file; ``None`` if it is reached.
+
+    A module with ``main()`` or a main guard may be started as a file, unless it is installed in a
+    Python package without an entry point, where ``ros2 run`` does not find it.
+    """
+    if is_apart(package, path):
+        return TEXTS if from_sources else ()
+    name = path.rpartition("/")[2]
+    is_subpackage = name == INIT and path.count("/") > 1
+    if is_in_tests(path) or ".launch." in name or name.endswith("launch.py"):
+        return None
+    if (name in RUN_AS_THEY_ARE and not is_subpackage) or not has_programs(package):
+        return None
+    try:
+        text = package.data(path) if package.has(path) else b""
+    except ViewError:
+        return None
+    has_guard = b"__main__" in text and not _IMPORTS_RELATIVELY.search(text)
+    if not has_guard and b"def main(" not in text:
+        return ()
+    return TEXTS if is_only_importable(package, path) else None
+
+
+def _users(package: Package, path: str, texts: tuple[str, ...]) -> Iterator[tuple[Package, str]]:
+    """Yield the files that may import or start a file, with their packages."""
+    if is_in_tests(path):
+        return  # its own tests are apart too
+    stem = path.removesuffix(f"/{INIT}").rpartition("/")[2].removesuffix(".py")
+    for naming in files_naming(package, path, stem, texts):
+        yield package, naming
+    for user in package.workspace:
+        yield from ((user, naming) for naming in _code_naming(user, package, path, stem))
+
+
+def _code_naming(user: Package, package: Package, module: str, stem: str) -> Iterator[str]:
+    """Yield the code of a package that names a module; other packages name its package as well."""
+    is_own = user is package
+    names = [name.encode() for name in (package.name, module.partition("/")[0])]
+    for path in user.files:
+        try:
+            data = user.data(path) if path.endswith(_CPP if is_own else _NAMING) else b""
+        except ViewError:  # too large for code that calls Python
+            continue
+        if is_own or any(name in data for name in names):
+            code = code_with(data, stem.encode("utf-8", "surrogateescape"))
+            if names_file(code, stem, is_python=path.endswith(".py")):
+                yield path
+
+
+def is_only_importable(package: Package, path: str) -> bool:
+    """Return whether setup.py installs a module in a Python package alone, not as a program."""
+    if package.build_type != "ament_python" or not is_in_python_package(package, path):
+        return False
+    data = installed_data(package)
+    return data is not None and path not in data and package.setup_py.entry_points_complete
+
+
+@fact
+def has_programs(package: Package) -> bool:
+    """Return whether a package installs programs, for which its modules are."""
+    try:
+        if package.build_type == "ament_cmake":
+            return bool(programs(package))
+        return bool(package.setup_py.console_scripts) or has_program_files(package)
+    except ViewError:
+        return False
