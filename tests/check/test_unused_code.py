@@ -530,7 +530,19 @@ def generate_launch_description():
 
 @pytest.mark.parametrize(
     ("severity", "given"),
-    [("warning", "'other.yaml'"), ("error", "'params/talk.yaml'"), ("error", "name + '.yaml'")],
+    [
+        ("warning", "'other.yaml'"),
+        ("error", "'params/talk.yaml'"),
+        ("error", "name + '.yaml'"),
+        ("error", "'ta' + 'lk.yaml'"),
+        ("warning", "'other' + '.yaml'"),
+        ("error", "f'params/{name}.yaml'"),
+        ("error", "f'{name}lk.yaml'"),
+        ("warning", "f'{name}_params.yaml'"),
+        ("warning", "f'other_{name}.yaml'"),
+        ("error", "['params/', name, '.yaml']"),
+        ("error", "'params/%s.yaml' % name"),
+    ],
 )
 def test_parameter_file_not_launched(
     package: Path, capsys: pytest.CaptureFixture[str], severity: str, given: str
@@ -538,6 +550,47 @@ def test_parameter_file_not_launched(
     write(package / "params" / "talk.yaml", "talk:\n  ros__parameters:\n    rate:\n")
     assert severities(capsys, "PF007") == {"params/talk.yaml": "error"}  # passed by hand
     write(package / "launch" / "talk.launch.py", LAUNCH.format(given))
+    assert severities(capsys, "PF007") == {"params/talk.yaml": severity}
+
+
+@pytest.mark.parametrize(
+    ("severity", "path", "text"),
+    [
+        ("warning", "talker/other.py", "# talk.yaml\n"),
+        ("error", "talker/other.py", "NAME = 'talk.yaml'\n"),
+        ("error", "README.md", "Pass it talk.yaml.\n"),
+        ("warning", "params/past.yaml", "include: talk.yaml\n"),
+        ("error", "params/other.yaml", "include: talk.yaml\n"),
+        ("error", "docker.sh", "ros2 run talker talk --params-file talk.yaml\n"),
+        (
+            "warning",
+            "launch/b.launch.py",
+            LAUNCH.replace("    return", "    a = 'talk.yaml'\n    return"),
+        ),
+        (
+            "error",
+            "launch/b.launch.py",
+            LAUNCH.replace("    return", "    use('talk.yaml')\n    return"),
+        ),
+        ("warning", "launch/b.launch.xml", "<launch>\n  <!-- talk.yaml -->\n</launch>\n"),
+        (
+            "error",
+            "launch/b.launch.xml",
+            "<launch>\n  <arg name='a' default='talk.yaml'/>\n</launch>\n",
+        ),
+        (
+            "error",
+            "launch/b.launch.xml",
+            "<launch>\n  <let name='a' value='$(var b).yaml'/>\n</launch>\n",
+        ),
+    ],
+)
+def test_parameter_file_named_elsewhere(
+    package: Path, capsys: pytest.CaptureFixture[str], severity: str, path: str, text: str
+) -> None:
+    write(package / "params" / "talk.yaml", "talk:\n  ros__parameters:\n    rate:\n")
+    write(package / "launch" / "talk.launch.py", LAUNCH.format("'other.yaml'"))
+    write(package / path, text.replace("[{}]", "[]"))
     assert severities(capsys, "PF007") == {"params/talk.yaml": severity}
 
 

@@ -18,8 +18,8 @@ _ENDING = ".launch.py"
 """The ending of launch files that no other module can import: their name has a dot."""
 _STRAIGHT = (ast.Assign, ast.AnnAssign, ast.AugAssign, ast.Expr)
 """Statements after which the next one is executed, if any."""
-_VIEWS = frozenset({"items", "format"})
-"""Methods that only read an object, such as the dictionary of ``launch_arguments``."""
+_VIEWS = frozenset({"items", "format", "join", "str"})
+"""Functions that only read an object, such as the dictionary of ``launch_arguments``."""
 
 
 @fact

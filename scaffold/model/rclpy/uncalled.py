@@ -39,7 +39,7 @@ _CPP = (".cpp", ".hpp")
 _TELLING = (".cfg", ".toml", ".xml", *_CPP)
 """The endings of other files that may call a function of Python, or tell who does."""
 _LAUNCH = frozenset({"launch", "launch_ros"})
-_MOST_PARTS = 50
+_MOST_PARTS = 200
 """More functions and classes that only use each other are not followed."""
 _LOOKUPS = ("globals(", "locals(", "vars(", "__dict__", "eval(", "exec(")
 """Functions that look up names computed at run time."""
