@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 from difflib import get_close_matches
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
 
 _KNOWN = frozenset(
     """
@@ -20,6 +20,14 @@ _KNOWN = frozenset(
     version zip_safe
     """.split()  # noqa: SIM905  a column of quoted names would hide them
 )
+_DESCRIBING = frozenset(
+    """
+    author author_email classifiers description download_url keywords license license_file
+    license_files long_description long_description_content_type maintainer maintainer_email
+    obsoletes platforms project_urls provides requires url
+    """.split()  # noqa: SIM905  as above
+)
+"""Keywords that describe a package, which ROS takes from package.xml."""
 _GROUP = "console_scripts"
 _WRONG_GROUPS = frozenset(
     {"console_script", "scripts", "console", "consolescripts", "console-scripts", "executables"}
@@ -43,12 +51,22 @@ class KeywordMisspelled(Rule):
 
     code = "SP050"
     name = "keyword-misspelled"
+    other_severities = {Severity.WARNING: "the keyword only describes the package"}
     examples = (
         Example("known", {"setup.py": _SETUP.format("entry_points", _GROUP)}),
         Example(
             "a misspelled keyword",
             {"setup.py": _SETUP.format("entry_point", _GROUP)},
             "6:5: setup() ignores the unknown keyword 'entry_point'; did you mean 'entry_points'?",
+        ),
+        Example(
+            "a misspelled keyword that installs nothing",
+            {"setup.py": "from setuptools import setup\n\nsetup(Description='Talks')\n"},
+            Report(
+                "3:7",
+                "setup() ignores the unknown keyword 'Description'; did you mean 'description'?",
+                severity=Severity.WARNING,
+            ),
         ),
         Example(
             "a misspelled group",
@@ -69,7 +87,8 @@ class KeywordMisspelled(Rule):
                     f"setup() ignores the unknown keyword {word.arg!r}; did you mean "
                     f"{closest[0]!r}?"
                 )
-                yield self.report(setup.module.location(word), message)
+                severity = Severity.WARNING if closest[0] in _DESCRIBING else None
+                yield self.report(setup.module.location(word), message, severity=severity)
         keyword = setup.keyword("entry_points")
         node = keyword.node if keyword else None
         if isinstance(node, ast.Dict):

@@ -53,7 +53,10 @@ class AssertMethodMisused(TestRule):
     code = "TS071"
     name = "assert-method-misused"
     is_fixed_for_all = True
-    other_severities = {Severity.INFO: "the method is only deprecated on the distribution"}
+    other_severities = {
+        Severity.WARNING: "``assertTrue(a, True)`` tests what is meant",
+        Severity.INFO: "the method is only deprecated on the distribution",
+    }
     examples = (
         Example("compared", {"test/test_text.py": _TEST.format("assertEqual")}),
         Example(
@@ -110,6 +113,21 @@ class AssertMethodMisused(TestRule):
             "assertEqual",
         ),
         Example(
+            "compared with the value that the method expects anyway, and with another one",
+            {
+                "test/test_text.py": _TEST.format("assertTrue").replace("'A'", "True")
+                + "        self.assertTrue('a'.isupper(), False)\n"
+            },
+            Report(
+                "6:9",
+                "assertTrue only checks the first argument, the second is a message; use "
+                "assertEqual",
+                severity=Severity.WARNING,
+            ),
+            "7:9: assertTrue only checks the first argument, the second is a message; use "
+            "assertEqual",
+        ),
+        Example(
             "the function for assertRaises, called and passed",
             {
                 "test/test_text.py": "import pytest\n\n\ndef test_number():\n"
@@ -146,7 +164,9 @@ class AssertMethodMisused(TestRule):
                             f"{name} only checks the first argument, the second is a message; use "
                             f"assertEqual"
                         )
-                        yield self.report(module.location(method), message)
+                        is_meant = getattr(node.args[1], "value", None) is (name == "assertTrue")
+                        severity = Severity.WARNING if is_meant else None
+                        yield self.report(module.location(method), message, severity=severity)
 
     def _old_name(self, module: PythonModule, method: ast.Attribute) -> Diagnostic:
         name, severity = method.attr, None

@@ -12,7 +12,8 @@ from fnmatch import fnmatchcase
 from typing import TYPE_CHECKING
 
 from scaffold.model.install.declared_pytest import lacks_pytest
-from scaffold.model.install.unused import is_unrun_test
+from scaffold.model.install.unused import is_named, is_unrun_test
+from scaffold.model.python.module import is_collected
 from scaffold.record import NamedTuple
 from scaffold.source import ViewError
 
@@ -221,8 +222,17 @@ def linter_tests(package: Package, linter: str) -> Iterator[tuple[PythonModule, 
             yield module, f"{path} is skipped"
         elif is_unrun_test(package, path):
             yield module, f"CMake does not run {path}"
+        elif _is_uncollected(package, path):
+            yield module, f"pytest does not run {path}"
         else:
             yield module, "" if _can_fail(module) else f"{path} asserts nothing"
+
+
+def _is_uncollected(package: Package, path: str) -> bool:
+    """Return whether pytest does not collect a file by its name, and no other file mentions it."""
+    name = path.rpartition("/")[2]
+    is_collected_by_name = package.build_type != "ament_python" or is_collected(name)
+    return not is_collected_by_name and not is_named(package, path, name.removesuffix(".py"))
 
 
 def _can_fail(module: PythonModule) -> bool:

@@ -129,6 +129,21 @@ CASES: Mapping[str, tuple[Example, ...]] = {
             ),
         ),
         Example(
+            "without, where the file with the test was renamed",
+            {
+                "a/one.py": BARE,
+                "no_tests/_test_copyright.py": TEST,
+                "package.xml": "<package><export><build_type>ament_python</build_type></export>"
+                "</package>\n",
+            },
+            Report(
+                "a/one.py:1:1",
+                "no copyright notice: ament_copyright would fail, but pytest does not run "
+                "no_tests/_test_copyright.py",
+                severity=Severity.INFO,
+            ),
+        ),
+        Example(
             "without, in a directory that the test does not pass to the linter",
             {
                 "a/one.py": f"{APACHE}\n{BARE}",

@@ -223,6 +223,29 @@ class ParameterDefaultUnusable(RclpyRule):
             ),
         ),
         Example(
+            "a parameter that the launch file of another package sets",
+            {
+                "package.xml": "<package><name>talker</name></package>\n",
+                "talker.py": _PLAIN.format("'rate'"),
+            },
+            Report(
+                "talker.py:7:32",
+                "parameter 'rate' has no default: its value is None until it is set",
+                severity=Severity.WARNING,
+            ),
+            neighbors={
+                "bringup": {
+                    "package.xml": "<package><name>bringup</name></package>\n",
+                    "launch/talk.launch.py": "from launch import LaunchDescription\n"
+                    "from launch_ros.actions import Node\n\n\n"
+                    "def generate_launch_description():\n"
+                    "    rate = {'rate': 1.0}\n"
+                    "    talker = Node(package='talker', executable='talk', parameters=[rate])\n"
+                    "    return LaunchDescription([talker])\n",
+                },
+            },
+        ),
+        Example(
             "a parameter without a default, next to one with a default, that a YAML file sets",
             {
                 "talker.py": _PLAIN.format("'rate', 2.0")
@@ -299,7 +322,7 @@ class ParameterDefaultUnusable(RclpyRule):
             if problem:
                 is_harmless = parameter.default_node is None and (
                     len(fields) > 0
-                    or parameter.name in _set_names(package)
+                    or _is_set(package, str(parameter.name))
                     or _is_only_tested(file, parameter)
                 )
                 yield self.report(
@@ -326,6 +349,14 @@ class ParameterDefaultUnusable(RclpyRule):
             ):
                 at = parameter.default_node or parameter.call
                 yield self.report(file.module.location(at), message)
+
+
+def _is_set(package: Package, name: str) -> bool:
+    """Return whether a file of the package, or of one that starts its nodes, sets a parameter."""
+    return name in _set_names(package) or any(
+        name in _set_names(other) and any(x.package == package.name for x in started_nodes(other))
+        for other in package.workspace
+    )
 
 
 @fact
