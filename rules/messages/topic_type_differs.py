@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from scaffold.api import Diagnostic, Effect, Example, Package, Rule
+from scaffold.api import Diagnostic, Effect, Example, Package, Report, Rule, Severity
 from scaffold.api.messages import message_paths
-from scaffold.api.parameters import keeps_default_name
+from scaffold.api.parameters import is_named_in_launch_files, keeps_default_name
 from scaffold.api.programs import (
     NamedEndpoint,
     is_named_in_compiled_code,
@@ -38,6 +38,9 @@ class TopicTypeDiffers(Rule):
     code = "MS020"
     name = "topic-type-differs"
     effect = Effect.WRONG_BEHAVIOR
+    other_severities = {
+        Severity.WARNING: "a launch file gives the topic to other nodes, which may be the partners"
+    }
     examples = (
         Example(
             "same topic type",
@@ -67,6 +70,31 @@ class TopicTypeDiffers(Rule):
                 "src/hear.cpp": 'create_subscription<String>("/robot/chatter", 10, hear);\n'
                 'create_service<Empty>("reset", reset);\n',
             },
+        ),
+        Example(
+            "different types for a topic that a launch file gives to another node",
+            {
+                "a.py": _NODE.format("publisher(String, 'chatter', 10)"),
+                "b.py": _NODE.format("subscription(Bool, 'chatter', print, 10)"),
+                "launch/talk.launch.py": "from launch import LaunchDescription\n"
+                "from launch_ros.actions import Node\n\n\n"
+                "def generate_launch_description():\n"
+                "    topic = {'input': '/chatter'}\n"
+                "    stamper = Node(package='topics', executable='stamp', parameters=[topic])\n"
+                "    return LaunchDescription([stamper])\n",
+            },
+            Report(
+                "a.py:9:31",
+                "'chatter' has type std_msgs/msg/String here, but std_msgs/msg/Bool in b.py:9: "
+                "they never connect",
+                severity=Severity.WARNING,
+            ),
+            Report(
+                "b.py:9:34",
+                "'chatter' has type std_msgs/msg/Bool here, but std_msgs/msg/String in a.py:9: "
+                "they never connect",
+                severity=Severity.WARNING,
+            ),
         ),
         Example(
             "different types for a topic in four files",
@@ -119,7 +147,10 @@ class TopicTypeDiffers(Rule):
                 and all(keeps_default_name(package, x) for side in sides for x in side)
                 and not is_named_in_compiled_code(package, name)
             ):
-                yield from diagnostics
+                is_given = is_named_in_launch_files(package, name)
+                for diagnostic in diagnostics:
+                    severity = Severity.WARNING if is_given else diagnostic.severity
+                    yield diagnostic._replace(severity=severity)
         for name, service in services_of(package).items():
             if service.is_plain and _are_known(package, service.services, service.clients):
                 diagnostics = [*self._check(name, service.services, service.clients)]

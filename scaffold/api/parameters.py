@@ -33,7 +33,7 @@ from scaffold.model.parameters.own_values import (
     own_values,
     plain_name,
 )
-from scaffold.model.parameters.topic_names import keeps_default_name
+from scaffold.model.parameters.topic_names import is_named_in_launch_files, keeps_default_name
 from scaffold.model.parameters.types import a_type, agreed_type, narrow_default
 
 __all__ = [
@@ -51,6 +51,7 @@ __all__ = [
     "declared_alone",
     "declared_by",
     "has_always",
+    "is_named_in_launch_files",
     "keeps_default_name",
     "mistake",
     "mixed",

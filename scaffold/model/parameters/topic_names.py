@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from contextlib import suppress
 from typing import TYPE_CHECKING
 
+from scaffold.formats.hash_comments import without_comments
 from scaffold.formats.yaml import Scalar
 from scaffold.model.parameters.files import parameter_file, parameter_paths
 from scaffold.source import ViewError
@@ -31,6 +32,14 @@ def keeps_default_name(package: Package, endpoint: NamedEndpoint) -> bool:
                     return False
     return not package.remember(
         ("named in launch files", parameter), lambda: _is_named(package, parameter)
+    )
+
+
+def is_named_in_launch_files(package: Package, topic: str) -> bool:
+    """Return whether a launch file gives a topic to nodes, as a parameter or by remapping."""
+    name = re.compile(rf"[\"']/?{re.escape(topic)}[\"']")
+    return any(
+        topic in text and name.search(without_comments(text)) for text in _launch_texts(package)
     )
 
 
