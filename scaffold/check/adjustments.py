@@ -159,12 +159,21 @@ def _is_unreached(package: Package, diagnostic: Diagnostic) -> bool:
     if code.startswith(_OF_ACTIONS) and _is_unlaunched(package, diagnostic.location):
         return True
     if code.startswith(_OF_SYNTAX) and not is_apart(package, path):
-        return False
+        return _is_of_other_interpreter(package, path)
     return code.startswith((*_OF_LINTERS, *_OF_PROGRAMS)) and (
         is_unreached(package, path)
         or _is_uncalled(package, diagnostic)
         or _is_hardly_reached(package, diagnostic)
     )
+
+
+def _is_of_other_interpreter(package: Package, path: str) -> bool:
+    """Return whether the first line of a file names a program other than Python, such as bash."""
+    try:
+        first = package.data(path).partition(b"\n")[0]
+    except ViewError:
+        return False
+    return first.startswith(b"#!") and b"python" not in first
 
 
 def _is_of_ros1(package: Package, diagnostic: Diagnostic) -> bool:

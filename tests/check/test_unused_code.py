@@ -785,6 +785,35 @@ def test_method_only_called_by_functions_that_nothing_calls(
     assert found["talker/words.py"] == severity
 
 
+@pytest.mark.parametrize(
+    ("path", "text", "severity"),
+    [
+        ("README.md", "Run plan.", "warning"),
+        ("README.md", "Run `python3 talker/plan.py` with params/talk.yaml.", "error"),
+        ("docker/start.sh", "python3 src/talker/talker/plan.py params/talk.yaml", "error"),
+        ("other/start.sh", "python3 src/talker/talker/plan.py params/talk.yaml", "warning"),
+    ],
+)
+def test_file_named_by_a_text_of_the_repository(
+    package: Path, capsys: pytest.CaptureFixture[str], path: str, text: str, severity: str
+) -> None:
+    write(package / "setup.py", CONSOLE_SCRIPT)
+    write(package / "talker" / "node.py", "def main():\n    pass\n")
+    write(package / "talker" / "plan.py", UNDEFINED)
+    write(package / "params" / "talk.yaml", "talk:\n  ros__parameters:\n    rate:\n")
+    write(package / "launch" / "talk.launch.py", LAUNCH.format("'other.yaml'"))
+    write(package.parent / ".git" / "HEAD", "")
+    write(package.parent / path, text)
+    expected = {"talker/plan.py": severity, "params/talk.yaml": severity}
+    assert severities(capsys, "F821,PF007") == expected
+
+
+def test_script_of_another_interpreter(package: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    for name, first in (("start", "/usr/bin/env bash"), ("stop", "/usr/bin/env python3")):
+        write(package / "talker" / f"{name}.py", f"#!{first}\nfor item in *; do echo; done\n")
+    assert severities(capsys, "E999") == {"talker/start.py": "warning", "talker/stop.py": "error"}
+
+
 def test_undefined_name_in_the_first_line_of_an_uncalled_function(
     package: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

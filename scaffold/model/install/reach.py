@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from scaffold.formats.hash_comments import code_with
 from scaffold.model.contents.ament_cmake import programs
+from scaffold.model.discovery.texts_above import names_above
 from scaffold.model.facts import fact
 from scaffold.model.install.console_scripts import has_program_files
 from scaffold.model.install.package_data import installed_data
@@ -52,8 +53,8 @@ def is_unreached(package: Package, path: str, *, from_sources: bool = True) -> b
     Args:
         package: The package.
         path: The file; it need not exist.
-        from_sources: Whether a file that is not installed is reached if a text of the package
-            tells people to start it.
+        from_sources: Whether a file that ``ros2 run`` does not find is reached if a text tells
+            people to start it.
     """
 
     def find() -> bool:
@@ -82,13 +83,12 @@ def _texts_about(package: Package, path: str, *, from_sources: bool) -> tuple[st
     A module with ``main()`` or a main guard may be started as a file, unless it is installed in a
     Python package without an entry point, where ``ros2 run`` does not find it.
     """
-    if is_apart(package, path):
-        return TEXTS if from_sources else ()
-    name = path.rpartition("/")[2]
-    is_subpackage = name == INIT and path.count("/") > 1
-    if is_in_tests(path) or ".launch." in name or name.endswith("launch.py"):
+    if from_sources and _is_told(package, path):
         return None
-    if (name in RUN_AS_THEY_ARE and not is_subpackage) or not has_programs(package):
+    told = TEXTS if from_sources else ()
+    if is_apart(package, path):
+        return told
+    if _is_root(path) or not has_programs(package):
         return None
     try:
         text = package.data(path) if package.has(path) else b""
@@ -97,7 +97,24 @@ def _texts_about(package: Package, path: str, *, from_sources: bool) -> tuple[st
     has_guard = b"__main__" in text and not _IMPORTS_RELATIVELY.search(text)
     if not has_guard and b"def main(" not in text:
         return ()
-    return TEXTS if is_only_importable(package, path) else None
+    return told if is_only_importable(package, path) else None
+
+
+def _is_told(package: Package, path: str) -> bool:
+    """Return whether a text of the package, or a text or script above it, names a file."""
+    name = path.rpartition("/")[2]
+    if name in RUN_AS_THEY_ARE:
+        return False
+    naming = files_naming(package, path, name, TEXTS)
+    return names_above(package, name) or any(text.endswith(TEXTS) for text in naming)
+
+
+def _is_root(path: str) -> bool:
+    """Return whether a file is used without being named: tests, launch files, setup.py."""
+    name = path.rpartition("/")[2]
+    is_subpackage = name == INIT and path.count("/") > 1
+    is_launch_file = ".launch." in name or name.endswith("launch.py")
+    return is_in_tests(path) or is_launch_file or (name in RUN_AS_THEY_ARE and not is_subpackage)
 
 
 def _users(package: Package, path: str, texts: tuple[str, ...]) -> Iterator[tuple[Package, str]]:

@@ -205,7 +205,7 @@ def is_named(package: Package, path: str, stem: str, texts: tuple[str, ...] = ()
 
 def files_naming(package: Package, path: str, stem: str, texts: tuple[str, ...]) -> Iterator[str]:
     """Yield the files that mention a name; see `is_named`."""
-    unused = _BUILDING[1:] if _is_built_by_cmake(package) else ()
+    unused = ("package.xml", *(_BUILDING[1:] if _is_built_by_cmake(package) else ()))
     directory = path.rpartition("/")[0].rpartition("/")[2]
     for item in package.files:
         if (

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from scaffold.formats.hash_comments import without_comments
 from scaffold.model.contents.dead_code import is_dead
+from scaffold.model.discovery.texts_above import names_above
 from scaffold.model.install.reach import is_unreached
 from scaffold.model.launch.python_file import LaunchFile
 from scaffold.model.launch.unlaunched import is_never_used
@@ -50,6 +51,8 @@ def is_left_alone(package: Package, path: str) -> bool:
 def _is_left_alone(package: Package, path: str, seen: frozenset[tuple[str, str]]) -> bool:
     seen |= {(package.name, path)}
     name = path.rpartition("/")[2]
+    if names_above(package, name):
+        return False
     whole = re.compile(rb"(?<![\w.-])%b" % re.escape(_encoded(name)))
     is_launched = False
     for user in package.workspace:
