@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
-from scaffold.api.install import is_copy_of_old_code
+from scaffold.api.install import is_copy_of_old_code, names_above
 from scaffold.api.launch import DATA_DIRECTORIES, data_files, is_named, launch_files
 from scaffold.api.setup_py import installed_data
 
@@ -34,7 +34,10 @@ class ShareFileNotInstalled(Rule):
 
     code = "SP010"
     name = "share-file-not-installed"
-    other_severities = {Severity.WARNING: "nothing in the package refers to the directory"}
+    other_severities = {
+        Severity.WARNING: "nothing in the package refers to the directory, or a text of the "
+        "repository tells people to start the launch file by its path"
+    }
     examples = (
         Example(
             "installed",
@@ -180,7 +183,9 @@ class ShareFileNotInstalled(Rule):
                     f"data_files does not install {path}: `ros2 launch` does not find it; "
                     f"add an entry"
                 )
-                yield self.report(at, message, cause=f"files in {path.rpartition('/')[0]}/")
+                severity = Severity.WARNING if names_above(package, path) else None
+                cause = f"files in {path.rpartition('/')[0]}/"
+                yield self.report(at, message, severity=severity, cause=cause)
         for directory in DATA_DIRECTORIES:
             files = data_files(package, directory)
             if files and not installed.intersection(files):

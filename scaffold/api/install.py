@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from scaffold.model.discovery.texts_above import names_above
 from scaffold.model.install.modules import (
     absolute_name,
     file_of,
@@ -34,6 +35,7 @@ __all__ = [
     "may_be_made",
     "modules_of",
     "moved_to",
+    "names_above",
     "names_imported",
     "own_files",
     "own_roots",

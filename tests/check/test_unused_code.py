@@ -1028,3 +1028,12 @@ def test_setup_py_next_to_cmake(
     lists = "project(talker)\nfind_package(ament_cmake REQUIRED)\n"
     write(package / "CMakeLists.txt", f"{lists}{command}\nament_package()\n")
     assert severities(capsys, "F821") == {"setup.py": severity}
+
+
+def test_launch_file_started_by_its_path(package: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    write(package / "launch" / "talk.launch.py", LAUNCH)
+    write(package.parent / ".git" / "HEAD", "")
+    write(package.parent / "README.md", "Run `ros2 launch talker talk.launch.py`.")
+    assert severities(capsys, "SP010") == {"setup.py": "error"}
+    write(package.parent / "README.md", "Run `ros2 launch src/talker/launch/talk.launch.py`.")
+    assert severities(capsys, "SP010") == {"setup.py": "warning"}
