@@ -158,8 +158,10 @@ def _is_unreached(package: Package, diagnostic: Diagnostic) -> bool:
         return True
     if code.startswith(_OF_ACTIONS) and _is_unlaunched(package, diagnostic.location):
         return True
-    if code.startswith(_OF_SYNTAX) and not is_apart(package, path):
-        return _is_of_other_interpreter(package, path)
+    if code.startswith(_OF_SYNTAX):
+        if _is_of_other_interpreter(package, path):
+            return True
+        return is_apart(package, path) and is_unreached(package, path)
     return code.startswith((*_OF_LINTERS, *_OF_PROGRAMS)) and (
         is_unreached(package, path)
         or _is_uncalled(package, diagnostic)

@@ -91,12 +91,10 @@ class StepWithoutFraction(RclpyRule):
             },
         ),
         Example(
-            "whole seconds, of which there may be none",
+            "whole seconds in per cent",
             {
-                "odometry.py": _NODE.format(
-                    "1.0\n            whole = abs(now.sec - self.last.sec)\n"
-                    "            if whole == 0:\n                return\n"
-                    "            self.progress = 100 / float(whole)"
+                "odometry.py": _NODE.format("1.0").replace(
+                    "self.last = now", "self.done = 100 * (now.sec - self.last.sec) / self.limit"
                 )
             },
         ),
@@ -256,6 +254,8 @@ def _is_step(file: RclpyFile, node: ast.expr) -> bool:
     match parent:
         case ast.Call(func=ast.Name(id=name)) if name in _WRAPPERS:
             return _is_step(file, parent)
+        case ast.BinOp(op=ast.Mult(), left=ast.Constant(value=100)):
+            return False  # the progress in per cent
         case ast.BinOp(op=ast.Mult() | ast.Div()):
             return True
         case ast.Assign(targets=[ast.Name(id=name) | ast.Attribute(attr=name) as target]):
@@ -264,21 +264,13 @@ def _is_step(file: RclpyFile, node: ast.expr) -> bool:
 
 
 def _is_meant_whole(file: RclpyFile, node: ast.BinOp) -> bool:
-    """Return whether whole seconds are enough: only compared, or counted once per second.
-
-    Or the code handles that there are none of what it does not call a step.
-    """
-    value: ast.AST | None = file.module.parent(node)
-    while isinstance(value, ast.Call):
-        value = file.module.parent(value)
-    match value:
-        case ast.Assign(targets=[ast.Name(id=name) | ast.Attribute(attr=name) as target]):
+    """Return whether whole seconds are enough: only compared, or counted once per second."""
+    match file.module.parent(node):
+        case ast.Assign(targets=[ast.Name() | ast.Attribute() as target]):
             tests = [file.module.parent(use) for use in _uses(file, target)]
         case _:
             return False
     if all(isinstance(test, ast.Compare) for test in tests):
-        return True
-    if name not in _STEPS and any(map(_is_zero_test, tests)):
         return True
     begin = file.module.text(node.right).removesuffix(".sec")
     conditions = [file.module.parent(test) for test in tests if isinstance(test, ast.Compare)]
@@ -288,14 +280,6 @@ def _is_meant_whole(file: RclpyFile, node: ast.BinOp) -> bool:
         for statement in (condition.body if isinstance(condition, ast.If) else ())
         if isinstance(statement, ast.Assign)
     )
-
-
-def _is_zero_test(test: ast.AST | None) -> bool:
-    """Return whether a condition handles a difference of exactly zero."""
-    match test:
-        case ast.Compare(ops=[ast.Eq()], comparators=[ast.Constant(value=0)]):
-            return True
-    return False
 
 
 def _uses(file: RclpyFile, target: ast.expr) -> Sequence[ast.Name | ast.Attribute]:

@@ -53,8 +53,8 @@ def is_unreached(package: Package, path: str, *, from_sources: bool = True) -> b
     Args:
         package: The package.
         path: The file; it need not exist.
-        from_sources: Whether a file that ``ros2 run`` does not find is reached if a text tells
-            people to start it.
+        from_sources: Whether a file is reached if a text tells people to start it from the
+            sources.
     """
 
     def find() -> bool:
@@ -85,9 +85,8 @@ def _texts_about(package: Package, path: str, *, from_sources: bool) -> tuple[st
     """
     if from_sources and _is_told(package, path):
         return None
-    told = TEXTS if from_sources else ()
     if is_apart(package, path):
-        return told
+        return TEXTS if from_sources else ()
     if _is_root(path) or not has_programs(package):
         return None
     try:
@@ -97,7 +96,7 @@ def _texts_about(package: Package, path: str, *, from_sources: bool) -> tuple[st
     has_guard = b"__main__" in text and not _IMPORTS_RELATIVELY.search(text)
     if not has_guard and b"def main(" not in text:
         return ()
-    return told if is_only_importable(package, path) else None
+    return TEXTS if is_only_importable(package, path) else None
 
 
 def _is_told(package: Package, path: str) -> bool:
