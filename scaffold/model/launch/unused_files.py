@@ -27,12 +27,11 @@ _NAMING = (
 """The endings of files that start nodes, build a robot, or tell people how to."""
 _WITH_HASHES = (".py", ".yaml", ".yml", ".sh", ".txt", ".cmake")
 _WITH_MARKUP = (".xml", ".launch", ".urdf", ".xacro", ".sdf", ".world")
-_MARKUP_COMMENT = re.compile(rb"<!--.*?-->", re.DOTALL)
 _JOINED = re.compile(rb"([\"'])\s*\+\s*\1")
 """Matches what separates two literals that are added."""
 _DYNAMIC = rb"(?:\{[^{}\n]{0,99}\}|\$\([^()\n]{0,99}\)|%[sd]|\$\w{1,99}|\$\{[^{}\n]{0,99}\})"
 """Matches the part of a name that is only known when a launch file runs."""
-_COMPUTED = re.compile(rb"[\w.-]*(?:%b[\w.-]*)+" % _DYNAMIC)
+_COMPUTED = re.compile(rb"[\w.-]{0,99}(?:%b[\w.-]{0,99}){1,9}" % _DYNAMIC)
 _ADDED = re.compile(rb"(?:\+\s*[\"'](?![\w.-]*/)|[\"'](?=[._-]))([\w.-]+)[\"']")
 """Matches a literal that is added to the first part of a name, or is no name by itself."""
 _MARKUP = (".py", ".xml", ".yaml", ".yml")
@@ -87,7 +86,8 @@ def _texts(package: Package) -> Iterator[tuple[str, bytes]]:
         if path.endswith(_WITH_HASHES):
             data = without_comments(data)
         elif path.endswith(_WITH_MARKUP):
-            data = _MARKUP_COMMENT.sub(b"", data)
+            data, *parts = data.split(b"<!--")
+            data += b"".join(part.partition(b"-->")[2] for part in parts)
         yield path, _JOINED.sub(b"", data)
 
 
