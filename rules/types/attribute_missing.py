@@ -860,6 +860,22 @@ class AttributeMissing(TypeRule):
             "position",
         ),
         Example(
+            "text in place of a node that most callers hand on",
+            {
+                "package.xml": "<package><name>rover</name></package>\n",
+                "rover/__init__.py": "",
+                "rover/fail.py": "from rclpy.node import Node\n\n\n"
+                "def fail(node, *text):\n    node.get_logger().error(str(text))\n\n\n"
+                "def fail_late(node, text):\n    fail(node, text)\n",
+                "rover/drive.py": "from rclpy.node import Node\n"
+                "from rover.fail import fail\n\n\n"
+                "def drive(node):\n    fail(node, 'too fast')\n\n\n"
+                "def stop():\n    fail('too slow')\n",
+            },
+            "rover/fail.py:5:5: a str has no 'get_logger': AttributeError ('node' comes from line "
+            "10 of rover/drive.py)",
+        ),
+        Example(
             "product with a value that may be an array",
             {"keep.py": _MEMORY.format("value")},
         ),

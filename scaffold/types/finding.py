@@ -119,12 +119,15 @@ class TypeFinding:
         node = self._root
         if node is None or (node.id == "self" and node is self.expression()):
             return None
-        lines = [value.lineno for value in arguments_for(self.module, node)]
-        if lines:
-            return node.id, f"line {min(lines)}"
-        called = origins.called_as(self.module, node)
-        place = next(self.calls_from_modules(called), None) if called else None
-        return (node.id, f"line {place[1]} of {place[0]}") if place else None
+        given: list[tuple[PythonModule, ast.expr | None, str]] = [
+            (self.module, value, f"line {value.lineno}")
+            for value in sorted(arguments_for(self.module, node), key=lambda value: value.lineno)
+        ]
+        given += origins.given_by_modules(self.package, self.path, node)
+        # what a caller hands on comes from another place
+        first = [place for module, value, place in given if not origins.is_handed_on(module, value)]
+        first += [place for _, _, place in given]
+        return (node.id, first[0]) if first else None
 
     def calls_from_modules(self, function: str) -> Iterator[tuple[str, int]]:
         """Yield the file and line of each call of a function of this file by other modules."""

@@ -7,9 +7,11 @@ from collections.abc import Iterator, Sequence
 from collections.abc import Set as AbstractSet
 from typing import TypeGuard
 
-from scaffold.model.python.given_arguments import arguments_for, parameter_of
+from scaffold.model.package import Package
+from scaffold.model.python.given_arguments import arguments_for, given_argument, parameter_of
 from scaffold.model.python.module import PythonModule
 from scaffold.model.python.values import is_none_literal
+from scaffold.types.rewriting.passed import calls_from_modules
 
 _MAX_DEPTH = 20
 """The maximum number of names, attributes, elements and calls to trace a value through."""
@@ -297,6 +299,39 @@ def called_as(module: PythonModule, name: ast.Name) -> str:
     if function is None or not isinstance(class_, ast.ClassDef):
         return function.name if function is not None else ""
     return class_.name if function.name == "__init__" else f"{class_.name}.{function.name}"
+
+
+def given_by_modules(
+    package: Package, path: str, name: ast.Name
+) -> Iterator[tuple[PythonModule, ast.expr | None, str]]:
+    """Yield what other modules pass for a parameter: the module, the argument, and its place.
+
+    The argument is ``None`` if the function is a callback there.
+    """
+    parameter, function = parameter_of(package.module(path), name)
+    called = called_as(package.module(path), name)
+    if parameter is None or function is None or not called:
+        return
+    for other, line in calls_from_modules(package, path, called):
+        module = package.module(other)
+        values = (
+            given_argument(function, call, parameter, is_method=called != function.name)
+            for call in module.walk(ast.Call)
+            if call.lineno == line and _last_name(call.func) == called.rpartition(".")[2]
+        )
+        yield module, next(values, None), f"line {line} of {other}"
+
+
+def is_handed_on(module: PythonModule, value: ast.expr | None) -> bool:
+    """Return whether an argument is a parameter of the caller."""
+    return isinstance(value, ast.Name) and parameter_of(module, value)[0] is not None
+
+
+def _last_name(function: ast.expr) -> str:
+    match function:
+        case ast.Attribute(attr=name) | ast.Name(id=name):
+            return name
+    return ""
 
 
 def other_parameters(module: PythonModule, name: ast.Name) -> frozenset[str]:
