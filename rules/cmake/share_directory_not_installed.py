@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from contextlib import suppress
 from fnmatch import fnmatchcase
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, Severity
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, Severity, ViewError
 from scaffold.api.cmake import Install, installs_directory
 from scaffold.api.launch import DATA_DIRECTORIES, data_files, is_named, launch_files
 
@@ -17,6 +18,8 @@ _LISTS_PATTERNS = (
 )
 _FILES = {"config/talker.yaml": "talker:\n  ros__parameters:\n    rate: 1.0\n"}
 DIRECTORIES = ("launch", *DATA_DIRECTORIES)
+_NAMING = (".md", ".rst", ".sh", ".py", ".xml", ".yaml")
+"""Ends of the names of files that start launch files, or tell people to."""
 _LISTS_PATHS = "project(talker)\ninstall(DIRECTORY {} DESTINATION share/${{PROJECT_NAME}}{})\n"
 _FILES_PATHS = {"config/talker.yaml": ""}
 
@@ -38,8 +41,8 @@ class ShareDirectoryNotInstalled(Rule):
     code = "CM018"
     name = "share-directory-not-installed"
     other_severities = {
-        Severity.WARNING: "nothing in the package refers to the directory, or its files are "
-        "installed in another one"
+        Severity.WARNING: "nothing in the package refers to the directory, such as one with "
+        "test.launch.py, or its files are installed in another one"
     }
     examples = (
         Example(
@@ -65,6 +68,15 @@ class ShareDirectoryNotInstalled(Rule):
             ),
             "CMakeLists.txt:3:1: launch/ is not installed, so launch/talk.launch.py is not found "
             "at run time",
+        ),
+        Example(
+            "a launch file for tests that no text names",
+            {"CMakeLists.txt": _LISTS.format(""), "launch/test.launch.py": _LAUNCH},
+            Report(
+                "CMakeLists.txt:3:1",
+                "launch/ is not installed, so launch/test.launch.py is not found at run time",
+                severity=Severity.WARNING,
+            ),
         ),
         Example(
             "after a command of an unknown package, which may install it",
@@ -220,7 +232,9 @@ class ShareDirectoryNotInstalled(Rule):
             if named or installs_directory(package, directory) is not False:
                 continue
             message = f"{directory}/ is not installed, so {path} is not found at run time"
-            is_used = directory == "launch" or is_named(package, directory)
+            is_used = (directory == "launch" and not _is_for_tests(package, directory)) or is_named(
+                package, directory
+            )
             severity = Severity.ERROR if is_used else Severity.WARNING
             yield self.report(calls[-1].name_location, message, severity=severity)
 
@@ -263,6 +277,23 @@ class ShareDirectoryNotInstalled(Rule):
                 message = f"the files of {directory}/ are installed to {lands}"
                 fix = Fix(f"Install to {directory}/", (edit,))
                 yield self.report(item, message, fix, severity=Severity.WARNING)
+
+
+def _is_for_tests(package: Package, directory: str) -> bool:
+    """Return whether the launch files of a directory are named like tests, and no text names them.
+
+    Their author starts them from the sources.
+    """
+    files = [path for path in launch_files(package) if path.startswith(f"{directory}/")]
+    names = {path.rpartition("/")[2].encode() for path in files}
+    if not all(name.startswith(b"test") for name in names):
+        return False
+    for path in package.files:
+        if path.endswith(_NAMING) and path not in files:
+            with suppress(ViewError):
+                if any(name in package.data(path) for name in names):
+                    return False
+    return True
 
 
 def _is_taken(install: Install, path: str) -> bool:

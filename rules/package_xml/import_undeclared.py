@@ -86,7 +86,7 @@ class ImportUndeclared(Rule):
             },
         ),
         Example(
-            "development scripts, which are not installed",
+            "development scripts and contents of images, which are not installed",
             {
                 "package.xml": _manifest("rclpy"),
                 "setup.py": "setup(entry_points={'console_scripts': ['a = talker.a:main']})\n",
@@ -97,6 +97,7 @@ class ImportUndeclared(Rule):
                 "tools/__init__.py": "",
                 "tools/draw.py": "import matplotlib\n",
                 "tools/requirements.txt": "matplotlib\n",
+                "docker/content/show.launch.py": "import xacro\n",
             },
         ),
         Example(

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 INTERFACE_MODULES = frozenset({"msg", "srv", "action"})
 _OF_INTERFACES = [[], *([name] for name in sorted(INTERFACE_MODULES))]
 """The submodules of interface packages."""
-_NOT_SHIPPED = ("doc/", "docs/", "setup.py", "conf.py")
+_NOT_SHIPPED = ("doc/", "docker/", "docs/", "setup.py", "conf.py")
 _ROS1 = frozenset({"rospy", "roslib"})
 _NOT_INSTALLING = re.compile(
     r"\b(?:add_subdirectory|aux_source_directory|(?:target_)?include_directories)\s*\([^()]*\)"
