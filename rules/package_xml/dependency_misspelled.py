@@ -14,7 +14,7 @@ from scaffold.api.catalog import (
     similar_package,
 )
 from scaffold.api.interfaces import KINDS
-from scaffold.api.manifest import is_fetched
+from scaffold.api.manifest import is_fetched, is_included
 
 
 class DependencyMisspelled(Rule):
@@ -50,12 +50,13 @@ class DependencyMisspelled(Rule):
             fixed={"package.xml": "<package>\n  <depend>std_msgs</depend>\n</package>\n"},
         ),
         Example(
-            "an extra letter, in a package of the workspace; one that the code imports",
+            "an extra letter, in a package of the workspace; others that code imports or includes",
             {
                 "package.xml": "<package>\n  <name>talker</name>\n"
                 "  <depend>our_arm_msgss</depend>\n  <depend>our_hand_msgss</depend>\n"
-                "</package>\n",
+                "  <depend>our_foot_msgss</depend>\n</package>\n",
                 "talker.py": "from our_hand_msgss.msg import Grip\n",
+                "src/walk.cpp": "#include <our_foot_msgss/msg/step.hpp>\n",
             },
             Report(
                 "package.xml:3:11",
@@ -64,12 +65,12 @@ class DependencyMisspelled(Rule):
             ),
             neighbors={
                 name: {"package.xml": f"<package>\n  <name>{name}</name>\n</package>\n"}
-                for name in ("our_arm_msgs", "our_hand_msgs")
+                for name in ("our_arm_msgs", "our_foot_msgs", "our_hand_msgs")
             },
             fixed={
                 "package.xml": "<package>\n  <name>talker</name>\n"
                 "  <depend>our_arm_msgs</depend>\n  <depend>our_hand_msgss</depend>\n"
-                "</package>\n"
+                "  <depend>our_foot_msgss</depend>\n</package>\n"
             },
         ),
         Example(
@@ -183,7 +184,7 @@ def _similar_neighbor(package: Package, name: str) -> str | None:
     if len(similar) != 1 or similar[0] == package.name:
         return None
     is_imported = any(name in module.imports_by_root for module in package.modules())
-    return None if is_imported else similar[0]
+    return None if is_imported or is_included(package, name) else similar[0]
 
 
 def _is_known(package: Package, name: str) -> bool:

@@ -9,7 +9,7 @@ from scaffold.model.contents.package_name import name_used_elsewhere
 from scaffold.model.contents.requirements import required_packages
 from scaffold.model.discovery.declaring import declaring, way_back
 from scaffold.model.discovery.pip import is_in_requirements
-from scaffold.model.discovery.repos_files import is_fetched
+from scaffold.model.discovery.repos_files import is_fetched, is_included
 from scaffold.model.manifest.conditions import (
     ConditionError,
     Constant,
@@ -32,6 +32,7 @@ __all__ = [
     "holds",
     "is_fetched",
     "is_in_requirements",
+    "is_included",
     "is_installed_to_build",
     "is_never_true",
     "is_placeholder",

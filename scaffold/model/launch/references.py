@@ -7,7 +7,7 @@ from contextlib import suppress
 from typing import TYPE_CHECKING
 
 from scaffold.model.catalog import ROS_PACKAGES, is_near, similar_package
-from scaffold.model.discovery.repos_files import is_fetched
+from scaffold.model.discovery.repos_files import is_fetched, is_included
 from scaffold.model.facts import fact
 from scaffold.model.launch.markup_file import is_known, markup_files
 from scaffold.model.launch.python_file import LaunchFile, launch_paths
@@ -127,7 +127,7 @@ def meant_package(package: Package, use: Reference) -> Suggestion | None:
     if is_near(use.name, package.name):
         return Suggestion(package.name, "this package")
     for other in package.workspace.names:
-        if is_near(use.name, other):
+        if is_near(use.name, other) and not is_included(package, use.name):
             return Suggestion(other, "a package of the workspace")
     for other in sorted(package.manifest.declared_names):
         if is_near(use.name, other):
