@@ -323,6 +323,23 @@ def test_uncalled_method(
     assert severities(capsys, "MS002") == {"talker/talk.py": severity}
 
 
+@pytest.mark.parametrize(
+    ("base", "severity"),
+    [
+        ("import abc\n\n\nclass Speaker(abc.ABC):\n    def tell(self):\n        pass\n", "warning"),
+        ("class Speaker:\n    def say(self):\n        self.tell()\n", "error"),
+        ("from voice import Voice\n\n\nclass Speaker(Voice):\n    pass\n", "error"),
+        ("from talker.talk import Talker\n\n\nclass Speaker(Talker):\n    pass\n", "error"),
+    ],
+)
+def test_uncalled_method_with_a_base_in_another_module(
+    package: Path, capsys: pytest.CaptureFixture[str], base: str, severity: str
+) -> None:
+    write(package / "talker" / "talk.py", NODE.replace("(Node)", "(Node, Speaker)"))
+    write(package / "talker" / "speaker.py", base)
+    assert severities(capsys, "MS002") == {"talker/talk.py": severity}
+
+
 def test_method_called_by_another_module(package: Path, capsys: pytest.CaptureFixture[str]) -> None:
     write(package / "talker" / "talk.py", NODE)
     write(package / "talker" / "copy_of_it.py", NODE.replace("String().text", "String().data"))

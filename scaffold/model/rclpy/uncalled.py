@@ -15,6 +15,7 @@ from scaffold.model.facts import fact
 from scaffold.model.install.reach import has_programs, is_only_importable, is_unreached
 from scaffold.model.install.unused import TEXTS, is_named
 from scaffold.model.rclpy.api import NODE, has
+from scaffold.model.rclpy.own_modules import OwnModules
 from scaffold.source import ViewError
 
 if TYPE_CHECKING:
@@ -39,6 +40,8 @@ _CPP = (".cpp", ".hpp")
 _TELLING = (".cfg", ".toml", ".xml", *_CPP)
 """The endings of other files that may call a function of Python, or tell who does."""
 _LAUNCH = frozenset({"launch", "launch_ros"})
+_MOST_BASES = 4
+"""More base classes in other modules are not followed."""
 _MOST_PARTS = 200
 """More functions and classes that only use each other are not followed."""
 _LOOKUPS = ("globals(", "locals(", "vars(", "__dict__", "eval(", "exec(")
@@ -103,21 +106,29 @@ class _Search:
 
 
 def _users(package: Package, path: str, part: str) -> Iterator[tuple[Package, str, str]]:
-    """Yield the parts of the workspace that may use a part of a file."""
+    """Yield the parts of the workspace that may use a part of a file.
+
+    Those of a program are in modules that import it, or that it imports base classes from.
+    """
     is_startable = _is_startable(package, path)
     name = part.rpartition(".")[2].encode()
-    stem = path.rpartition("/")[2].removesuffix(".py").encode()
+    data = package.data(path)
     for user in [package] if is_startable else package.workspace:
         for file in _files_with(user, name):
             if user is not package and not _knows(user, package, path):
                 break
             is_own = user is package and file == path
-            if is_startable and not is_own and stem not in user.data(file):
+            is_related = is_own or _stem(path) in user.data(file) or _stem(file) in data
+            if is_startable and not is_related:
                 continue
             if file.endswith(".py"):
                 yield from ((user, file, using) for using in parts_mentioning(user, file, part))
             else:
                 yield user, file, TOP
+
+
+def _stem(path: str) -> bytes:
+    return path.rpartition("/")[2].removesuffix(".py").encode()
 
 
 @fact
@@ -136,9 +147,9 @@ def _is_used_by_name(package: Package, path: str, part: str) -> bool:
     if not nodes or _looks_up_names(module) or not _is_for_programs(package, module):
         return False
     return all(
-        _has_known_users(module, node)
+        _has_known_users(package, module, node)
         if isinstance(node, ast.ClassDef)
-        else _is_called_by_name(module, node)
+        else _is_called_by_name(package, module, node)
         for node in nodes
     )
 
@@ -161,25 +172,40 @@ def _looks_up_names(module: PythonModule) -> bool:
     return any(lookup in text for lookup in _LOOKUPS)
 
 
-def _has_known_users(module: PythonModule, class_: ast.ClassDef) -> bool:
+def _has_known_users(
+    package: Package, module: PythonModule, class_: ast.ClassDef, depth: int = _MOST_BASES
+) -> bool:
     """Return whether no decorator, metaclass or base may register a class."""
     is_plain = not (class_.decorator_list or class_.keywords or module.in_tests)
-    return is_plain and _has_known_bases(module, class_)
+    return is_plain and _has_known_bases(package, module, class_, depth)
 
 
-def _has_known_bases(module: PythonModule, class_: ast.ClassDef) -> bool:
-    """Return whether no base but those of the file calls methods that it does not have itself."""
+def _has_known_bases(
+    package: Package, module: PythonModule, class_: ast.ClassDef, depth: int = _MOST_BASES
+) -> bool:
+    """Return whether no base but own ones calls methods that it does not have itself."""
     for base in class_.bases:
         own = module.classes.get(base.id) if isinstance(base, ast.Name) else None
+        name = module.qualified_name(base) or ""
         if own is not None and own.node.lineno < class_.lineno:
-            if not _has_known_users(module, own.node):
+            if not _has_known_users(package, module, own.node, depth):
                 return False
-        elif module.qualified_name(base) not in _BASES:
+        elif name not in _BASES and not _is_known_base(package, module, name, depth):
             return False
     return True
 
 
-def _is_called_by_name(module: PythonModule, function: FunctionNode) -> bool:
+def _is_known_base(package: Package, module: PythonModule, name: str, depth: int) -> bool:
+    """Return whether a class of another module of the package has no unknown bases."""
+    holder, _, class_name = name.rpartition(".")
+    for path in OwnModules(module, package).paths_of(holder) if depth else ():
+        other = package.module(path)
+        found = other.classes.get(class_name)
+        return found is not None and _has_known_users(package, other, found.node, depth - 1)
+    return False
+
+
+def _is_called_by_name(package: Package, module: PythonModule, function: FunctionNode) -> bool:
     """Return whether a function is not called implicitly by Python, rclpy, or an unknown base."""
     name = function.name
     if name in _ENTRIES | _OF_FILES or name.startswith("__"):
@@ -193,7 +219,7 @@ def _is_called_by_name(module: PythonModule, function: FunctionNode) -> bool:
         return True
     if class_.decorator_list or class_.keywords or has(NODE, name):
         return False
-    return _has_known_bases(module, class_) or bool(_CALLBACK.search(name))
+    return _has_known_bases(package, module, class_) or bool(_CALLBACK.search(name))
 
 
 def _is_decorated(module: PythonModule, function: FunctionNode) -> bool:
