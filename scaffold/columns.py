@@ -7,7 +7,9 @@ import re
 from collections.abc import Iterator
 from typing import TextIO
 
-_CONTROL = re.compile(r"\x1b\[[0-9;]*m")  # linear: no repetition follows another
+from scaffold import lazy_re
+
+_CONTROL = lazy_re.compile(r"\x1b\[[0-9;]*m")  # linear: no repetition follows another
 """Matches escape sequences of colors."""
 _HANGING = 4
 """The indentation of continuation lines."""

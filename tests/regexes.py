@@ -64,7 +64,7 @@ def patterns() -> Iterator[Pattern]:
     for top in ("scaffold", "rules", "templates"):
         for path in sorted((ROOT / top).rglob("*.py")):
             text = path.read_text()
-            if "import re\n" in text:
+            if "import re\n" in text or "lazy_re" in text:
                 yield from _of_module(str(path.relative_to(ROOT)), text)
 
 
@@ -74,7 +74,7 @@ def _of_module(path: str, text: str) -> Iterator[Pattern]:
     values = _constants(tree)
     for node in ast.walk(tree):
         match node:
-            case ast.Call(func=ast.Attribute(ast.Name("re"), method), args=[first, *_]):
+            case ast.Call(func=ast.Attribute(ast.Name("re" | "lazy_re"), method), args=[first, *_]):
                 pattern = _text(first, values, 0) if method in METHODS else None
             case _:
                 continue

@@ -6,6 +6,7 @@ import re
 from collections.abc import Callable, Iterator, Mapping
 from difflib import get_close_matches
 
+from scaffold import lazy_re
 from scaffold.ament import xmllint
 from scaffold.ament.codes import diagnostic
 from scaffold.ament.use import linter_use
@@ -43,7 +44,7 @@ _Problem = tuple[Location, str] | tuple[Location, str, Fix | None]
 _IN_EXPORT = frozenset({"architecture_independent", "build_type", "deprecated", "metapackage"})
 
 # linear: a declaration and comments end at their first end mark
-_PROLOGUE = re.compile(rb"\s*(?:<\?xml[^>]*\?>)?\s*(?:<!--.*?-->\s*)*", re.DOTALL)
+_PROLOGUE = lazy_re.compile(rb"\s*(?:<\?xml[^>]*\?>)?\s*(?:<!--.*?-->\s*)*", re.DOTALL)
 """Matches the text before the first element."""
 
 

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import ast
-import re
 from collections.abc import Collection, Iterable, Iterator, Mapping
 
+from scaffold import lazy_re
 from scaffold.ament.codes import STYLE
 from scaffold.ament.settings import settings_of
 from scaffold.check import conflicts
@@ -44,7 +44,7 @@ _RAISED_ANYWAY = "F901"
 """``raise NotImplemented()`` raises another exception."""
 _OF_TESTS = frozenset({"LY020", "LY021", "PX050"})
 """Codes that are errors only if a test of the package checks the file."""
-_QUOTED = re.compile(r"'([^']+)'")
+_QUOTED = lazy_re.compile(r"'([^']+)'")
 _UNDEFINED = "F821"
 _OF_FORMATS = ("F50", "F52")
 """The first parts of codes about the format of a text."""

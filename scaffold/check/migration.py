@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import re
 from collections import Counter
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from contextlib import suppress
 from types import MappingProxyType
 from typing import TYPE_CHECKING
 
-from scaffold import distributions
+from scaffold import distributions, lazy_re
 from scaffold.check import conflicts
 from scaffold.check.rules.engine_rules import (
     FileTooLarge,
@@ -212,4 +211,4 @@ def _identity(directory: str, item: Diagnostic) -> tuple[str, str, str, str]:
     return directory, item.location.path, item.code, message
 
 
-_EXCEPTION = re.compile(r"\b[A-Z]\w*Error\b")
+_EXCEPTION = lazy_re.compile(r"\b[A-Z]\w*Error\b")

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Collection, Mapping, Sequence
 from typing import TYPE_CHECKING
 
-from scaffold import distributions
+from scaffold import distributions, lazy_re
 from scaffold.check.rules.engine_rules import UnusedSuppression
 from scaffold.check.session import Session
 
@@ -20,10 +19,10 @@ if TYPE_CHECKING:
     Key = tuple[str, tuple[object, ...], str]
 
 _TITLES = "|".join(name.capitalize() for name in distributions.NAMES)
-_NAMED = re.compile(rf"\b(?:{_TITLES}|Python 3\.\d+|\d+\.\d+\.\d+ of ROS 2)\b")
+_NAMED = lazy_re.compile(rf"\b(?:{_TITLES}|Python 3\.\d+|\d+\.\d+\.\d+ of ROS 2)\b")
 """Matches a distribution in a message."""
 # linear: a message is a few lines long
-_JOINED = re.compile(
+_JOINED = lazy_re.compile(
     rf"\b(?:(?:{_TITLES})(?:/(?:{_TITLES}))*|Python 3\.\d+(?:/3\.\d+)*"
     r"|\d+\.\d+\.\d+(?:/\d+\.\d+\.\d+)* of ROS 2)\b"
 )

@@ -10,7 +10,7 @@ import os
 import re
 from typing import TYPE_CHECKING
 
-from scaffold import distributions
+from scaffold import distributions, lazy_re
 from scaffold.cli.distro import FLAG
 from scaffold.model.discovery.colcon import repository_around
 
@@ -30,7 +30,7 @@ _PLACES = (
 _MAX_BYTES = 200_000
 """The number of bytes read; a README names its distribution at the top."""
 _KNOWN = (*distributions.NAMES, *sorted(distributions.ENDED_ROS2))
-_NAMED = re.compile(
+_NAMED = lazy_re.compile(
     r"(?<![a-z])ros[ _-]?2?[ _-]?(?:distro(?:s|butions?)?)?[\W_]{1,4}"
     rf"({'|'.join(_KNOWN)})(?![a-z])"
     r"(?P<later>\+|\s+(?:onwards?|(?:or|and)\s+(?:above|higher|later|newer|up))\b)?",

@@ -13,6 +13,7 @@ import subprocess
 import tempfile
 from functools import cache
 
+from scaffold import lazy_re
 from scaffold.configuration import trust
 from scaffold.errors import ConfigError
 from scaffold.files import cache as kept
@@ -20,10 +21,10 @@ from scaffold.files.disk import digest
 from scaffold.programs import git, git_tree
 from scaffold.record import NamedTuple
 
-_URL = re.compile(r"(\w+://[^/]*/.+|[^@/\s]+@[^:/\s]+:.+)@([^@:]+)")
+_URL = lazy_re.compile(r"(\w+://[^/]*/.+|[^@/\s]+@[^:/\s]+:.+)@([^@:]+)")
 """The URL up to the last '@'; an earlier one may precede a host."""
-_REVISION = re.compile(r"\w[\w./+-]*", re.ASCII)
-_COMMIT = re.compile(r"[0-9a-f]{7,64}")
+_REVISION = lazy_re.compile(r"\w[\w./+-]*", re.ASCII)
+_COMMIT = lazy_re.compile(r"[0-9a-f]{7,64}")
 _MAX_NAMED = 8
 """The maximum number of tags and branches in an error."""
 

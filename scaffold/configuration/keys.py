@@ -6,11 +6,10 @@ all derived from it.
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Sequence
 from typing import Any
 
-from scaffold import distributions
+from scaffold import distributions, lazy_re
 from scaffold.record import NamedTuple
 
 SEVERITIES = ("error", "warning", "info")
@@ -56,7 +55,7 @@ def _is_text(value: object) -> bool:
     return isinstance(value, str) and "\0" not in value
 
 
-_CHARACTERS = re.compile(r"\[!?\]?[^\]]{0,99}\]")
+_CHARACTERS = lazy_re.compile(r"\[!?\]?[^\]]{0,99}\]")
 """A character class in a pattern."""
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import re
 import shutil
 import sys
 from collections.abc import Mapping
@@ -11,13 +10,14 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 
+from scaffold import lazy_re
 from scaffold.distributions import DEFAULT
 from scaffold.doctor.workspace import Workspace
 
 INSTALLED = "/opt/ros"
 NETWORK = "/sys/class/net"
 
-_PYTHON = re.compile(r"python(3\.\d+)")
+_PYTHON = lazy_re.compile(r"python(3\.\d+)")
 
 
 @dataclass(frozen=True)

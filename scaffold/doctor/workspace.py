@@ -8,13 +8,14 @@ from collections.abc import Iterator
 from functools import cached_property
 from pathlib import Path
 
+from scaffold import lazy_re
 from scaffold.files.disk import Disk
 from scaffold.files.tree import MANIFEST
 from scaffold.model.discovery.colcon import package_directories
 
 _MARKER = ".colcon_install_layout"
-_NAME = re.compile(r"<name>\s*([^<>\s]+)\s*</name>")
-_CHAINED = re.compile(r"""^_?COLCON_CURRENT_PREFIX=["']?([^"'\n$]+)["']?\s*$""", re.MULTILINE)
+_NAME = lazy_re.compile(r"<name>\s*([^<>\s]+)\s*</name>")
+_CHAINED = lazy_re.compile(r"""^_?COLCON_CURRENT_PREFIX=["']?([^"'\n$]+)["']?\s*$""", re.MULTILINE)
 _MANIFEST_BYTES = 2**16
 _INSTALLED_ONCE = ("setup.py", "setup.cfg", "pyproject.toml", "CMakeLists.txt", MANIFEST)
 """Files that take effect only by a build, also with ``--symlink-install``."""

@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterator
 from functools import cached_property
 
+from scaffold import lazy_re
 from scaffold.record import NamedTuple
 
 
@@ -77,7 +78,7 @@ def _read(text: str) -> Iterator[_Pattern]:
         yield _Pattern(regex, is_taken_back, is_for_directories)
 
 
-_PIECES = re.compile(
+_PIECES = lazy_re.compile(
     r"(?P<any_start>(?:^|(?<=/))\*\*/)|(?P<any_end>(?<=/)\*\*$)|(?P<star>\*+)|(?P<one>\?)"
     r"|\[(?P<not>[!^]?)(?P<set>\]?(?:\\.|[^\]\\]){0,99})\]|\\(?P<escaped>.)|(?P<plain>.)",
     re.DOTALL,

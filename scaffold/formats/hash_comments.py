@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-import re
 from typing import AnyStr
 
+from scaffold import lazy_re
+
 _COMMENT = r"(?m)(?:^|(?<=[ \t)\]},;]))#[^\n]*"
-_IN_TEXT, _IN_BYTES = re.compile(_COMMENT), re.compile(_COMMENT.encode())
+_IN_TEXT, _IN_BYTES = lazy_re.compile(_COMMENT), lazy_re.compile(_COMMENT.encode())
 
 
 def without_comments(text: AnyStr) -> AnyStr:

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator
 from functools import cached_property
 from typing import TYPE_CHECKING
 
+from scaffold import lazy_re
 from scaffold.record import NamedTuple
 from scaffold.source import Location, ParseError, Source
 
@@ -14,9 +14,9 @@ if TYPE_CHECKING:
     from scaffold.edits import Edit
 
 DEFAULT_SECTION = "DEFAULT"
-_LINE = re.compile(r"[^\r\n]*(?:\r\n|\r|\n|\Z)")
-_HEADER = re.compile(r"\[(.+)\]")
-_DELIMITER = re.compile(r"[=:]\s*")
+_LINE = lazy_re.compile(r"[^\r\n]*(?:\r\n|\r|\n|\Z)")
+_HEADER = lazy_re.compile(r"\[(.+)\]")
+_DELIMITER = lazy_re.compile(r"[=:]\s*")
 _COMMENTS = ("#", ";")
 
 

@@ -5,12 +5,13 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
+from scaffold import lazy_re
 from scaffold.record import NamedTuple
 from scaffold.source import Location, Source
 
 BLANK = " \t\r\n"
 BOM = "\ufeff"
-_ATTRIBUTE = re.compile(
+_ATTRIBUTE = lazy_re.compile(
     r"""(?<![^ \t\r\n])([^ \t\r\n=]+)[ \t\r\n]*=[ \t\r\n]*(?:"([^"]*)"|'([^']*)')"""
 )
 

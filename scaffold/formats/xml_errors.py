@@ -6,11 +6,12 @@ import re
 from collections.abc import Callable
 from xml.parsers.expat import errors
 
+from scaffold import lazy_re
 from scaffold.formats.xml import BLANK, BOM, Element
 from scaffold.source import ParseError, Source
 
-_REFERENCE = re.compile(r"&(?:#[0-9]+|#x[0-9A-Fa-f]+|[A-Za-z_:][\w:.\-]*);")
-_NAME = re.compile(r"[^\s<>/=\"'&]+")
+_REFERENCE = lazy_re.compile(r"&(?:#[0-9]+|#x[0-9A-Fa-f]+|[A-Za-z_:][\w:.\-]*);")
+_NAME = lazy_re.compile(r"[^\s<>/=\"'&]+")
 _NEAR = 4096  # characters; errors further away are unrelated
 _TYPOGRAPHIC_QUOTES = "\u201c\u201d\u2018\u2019"
 

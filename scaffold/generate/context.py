@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import os
-import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from datetime import date, datetime, timezone
 from pathlib import Path
 from typing import Any
 
-from scaffold import distributions
+from scaffold import distributions, lazy_re
 from scaffold.distributions import Distribution
 from scaffold.errors import ContentError, InputError
 from scaffold.generate import target
@@ -28,9 +27,9 @@ from scaffold.generate.templates.template import (
 )
 from scaffold.model.catalog import BUILD_TOOLS
 
-_DEPENDENCY = re.compile(r"[A-Za-z0-9][\w.+-]*")
+_DEPENDENCY = lazy_re.compile(r"[A-Za-z0-9][\w.+-]*")
 """A package or a key of rosdep."""
-_IMPORT = re.compile(r"import ([A-Z]\w*(?:, [A-Z]\w*)*)")
+_IMPORT = lazy_re.compile(r"import ([A-Z]\w*(?:, [A-Z]\w*)*)")
 
 VERSION = "0.1.0"
 """The version of a new package; 0.0.0 would be a placeholder."""

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import os
-import re
 from collections import Counter
 from collections.abc import Hashable, Iterable
 from typing import TypeVar
 
+from scaffold import lazy_re
 from scaffold.ament import copyright as notices
 from scaffold.ament.copyright import Header
 from scaffold.generate import repository
@@ -20,11 +20,11 @@ _T = TypeVar("_T", bound=Hashable)
 _SOURCES = (".py", ".c", ".cc", ".cpp", ".cxx", ".h", ".hh", ".hpp", ".hxx")
 _NOT_CODE = frozenset({"test", "tests", "launch", "launches", "doc", "docs"})
 """Directories whose files are often copied: `ros2 pkg create` writes linter tests of its own."""
-_VENDORED = re.compile(
+_VENDORED = lazy_re.compile(
     r"(?i)_*(3rd|third)[-_]?part(y|ies)|vendor(s|ed|ing)?|extern(al|als)?|deps|dependencies|"
     r"sub_?modules|contrib|node_modules|site-packages"
 )
-_LICENSES = re.compile(r"(?i)(licen[sc]e|copying|notice)s?([-_.].*)?")
+_LICENSES = lazy_re.compile(r"(?i)(licen[sc]e|copying|notice)s?([-_.].*)?")
 
 
 def own_headers(package: Package) -> list[Header]:

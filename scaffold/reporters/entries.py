@@ -6,6 +6,7 @@ import os
 import re
 from collections.abc import Hashable, Mapping, Sequence
 
+from scaffold import lazy_re
 from scaffold.ament.codes import STYLE
 from scaffold.check.result import Result
 from scaffold.check.rules import registry
@@ -18,7 +19,7 @@ from scaffold.reporters.paths import shown
 SEVERITIES = (Severity.ERROR, Severity.WARNING, Severity.INFO)
 """Worst first."""
 
-_SET_ASIDE = re.compile(
+_SET_ASIDE = lazy_re.compile(
     r"(?:.*[_ .-])?(?:archived?|archives|attic|backups?|bak|deprecated|junk|legacy|obsolete|old"
     r"|trash|unused)|[(\[](?:old|unused|deprecated)[)\]].*",
     re.IGNORECASE,
@@ -27,7 +28,7 @@ _SET_ASIDE = re.compile(
 _AT_RUN_TIME = frozenset(
     {Effect.STOPS_START, Effect.STOPS_PROGRAM, Effect.WRONG_BEHAVIOR, Effect.IGNORED}
 )
-_TESTS = re.compile(r"(?:^|/)(?:tests?/|test_[^/]*$|[^/]*_test\.py$)")
+_TESTS = lazy_re.compile(r"(?:^|/)(?:tests?/|test_[^/]*$|[^/]*_test\.py$)")
 """Matches the paths of tests, which no robot runs."""
 DEPENDENCY = "dependency "
 """The prefix of causes that only matter on machines without a package."""

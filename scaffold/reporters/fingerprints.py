@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import re
 from collections import Counter
 from hashlib import sha256
 from typing import TYPE_CHECKING
 
+from scaffold import lazy_re
 from scaffold.ament.codes import STYLE
 from scaffold.check.several import without_distribution
 from scaffold.reporters.paths import in_repository
@@ -24,7 +24,7 @@ _FACTOR = 37
 _END_OF_FILE = "\uffff"
 _STYLE_OF_FILES = frozenset({"D100", "D104"})
 """Style codes about a whole file, reported at line 1 whatever its text."""
-_NUMBERS = re.compile(r"\d+")
+_NUMBERS = lazy_re.compile(r"\d+")
 
 
 class Fingerprints:

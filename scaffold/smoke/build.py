@@ -5,13 +5,13 @@ from __future__ import annotations
 import asyncio
 import glob
 import os
-import re
 import shutil
 import time
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from scaffold import lazy_re
 from scaffold.model.package import Package as Source
 from scaffold.smoke.environment import Environment
 from scaffold.smoke.processes import output, process
@@ -23,14 +23,14 @@ _COMPILED = (".c", ".cc", ".cpp", ".cxx", ".h", ".hpp", ".msg", ".srv", ".action
 
 _INCLUDES = Path(__file__).with_name("embedded") / "includes.cmake"
 
-_JOB = re.compile(
+_JOB = lazy_re.compile(
     r"\[(?P<time>[\d.]+)\] \((?P<name>[^)]*)\) "
     r"Job(?P<what>Queued|Started|Ended|Skipped)(?P<rest>.*)"
 )
 _REPEAT_STARTS = "--- stderr: "
 _REPEAT_ENDS = "---"
 """The lines around package logs that colcon repeats on the console."""
-_SUCCESS = re.compile(r"'rc': 0\b")
+_SUCCESS = lazy_re.compile(r"'rc': 0\b")
 
 
 @dataclass(frozen=True)

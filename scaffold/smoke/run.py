@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-import re
 import signal
 import time
 from collections.abc import Callable, Mapping
@@ -11,6 +10,7 @@ from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
+from scaffold import lazy_re
 from scaffold.smoke.expectation import Expectation
 from scaffold.smoke.isolation import domain
 from scaffold.smoke.isolation.station import Isolation, Stations
@@ -32,7 +32,7 @@ ENDING = 2.0
 
 _GIVING = f"if it needs arguments, set `arguments` of the executable in {FILE}"
 
-_LATE_CALL = re.compile(r"context is (?:invalid|not valid)")
+_LATE_CALL = lazy_re.compile(r"context is (?:invalid|not valid)")
 """Errors of calls after a signal: rclpy ends the context at once, even during a callback."""
 
 

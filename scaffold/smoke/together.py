@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-import re
 import signal
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -12,6 +11,7 @@ from dataclasses import dataclass, replace
 from difflib import get_close_matches
 from pathlib import Path
 
+from scaffold import lazy_re
 from scaffold.smoke.lifecycle import Lifecycles
 from scaffold.smoke.lifecycle import problems as failed
 from scaffold.smoke.observe import LAST_ANSWER_TIMEOUT, Observer, ObserverError
@@ -25,13 +25,13 @@ from scaffold.smoke.scenario.model import NOTHING, Scenario
 NAME = "all together"
 
 _KEPT = ("transient_local", "transient", "persistent")
-_DIED = re.compile(
+_DIED = lazy_re.compile(
     r"\[ERROR\] \[(?P<name>[^\]]+)\]: process has died \[pid \d+, exit code (?P<code>-?\d+)"
 )
 """The message of launch about a dead node."""
 _ASKED = "user interrupted with ctrl-c (SIGINT)"
 """The message of launch when it receives a signal."""
-_IGNORED = re.compile(
+_IGNORED = lazy_re.compile(
     r"\[ERROR\] \[(?P<name>[^\]]+)\]: process\[[^\]]+\] failed to terminate '(?P<seconds>[\d.]+)' "
     r"seconds after receiving '(?P<signal>SIGINT)'"
 )

@@ -11,7 +11,7 @@ from collections.abc import Callable, Collection, Mapping, Sequence
 from contextlib import AbstractContextManager, nullcontext
 from functools import cached_property
 
-from scaffold import distributions
+from scaffold import distributions, lazy_re
 from scaffold.model.package import Package
 from scaffold.model.reads import Reads, recorded
 from scaffold.types import environment, python_modules, ty
@@ -37,7 +37,7 @@ _OF_MODULES = frozenset({"import-not-found", "missing-module-member"})
 _STR = r'`(?:str|Literal\["[^`]*"\])`'
 _CONTAINER = r"(?:dict|list|set|tuple|array)\[[^`]*\]"
 _PLAIN = rf"`(?:str|bytes|int\*?|float\*?|Literal\[[^`]*\]|{_CONTAINER})`"
-_NAMELESS = re.compile(
+_NAMELESS = lazy_re.compile(
     rf"Object of type `(?:str|int|float|bool|bytes|CoroutineType\[.*\]|{_CONTAINER})`"
     r" has no attribute `\w+`"
     r"|Too many positional arguments: expected \d+, got \d+"
@@ -52,7 +52,7 @@ _NAMELESS = re.compile(
 )
 """Matches relevant reports that do not name anything of ROS."""
 # linear: a line has 20 kB at most
-_SUPPRESSION = re.compile(rb"noqa:[^\n]*\bTY[0-9]", re.IGNORECASE)
+_SUPPRESSION = lazy_re.compile(rb"noqa:[^\n]*\bTY[0-9]", re.IGNORECASE)
 
 
 class _File:

@@ -8,6 +8,7 @@ from collections.abc import Iterator, Sequence
 from functools import cached_property
 from typing import TypeVar
 
+from scaffold import lazy_re
 from scaffold.model.package import Package
 from scaffold.model.python.distribution_branches import stretches_not_run
 from scaffold.model.python.distribution_conditions import open_parts
@@ -25,7 +26,7 @@ from scaffold.types.ty import TyDiagnostic
 
 Node = TypeVar("Node", bound=ast.AST)
 
-_DECIDING = re.compile(
+_DECIDING = lazy_re.compile(
     r"\b(?:hasattr|getattr|callable|isinstance|issubclass|TYPE_CHECKING|platform|ROS_VERSION)\b"
     r"|\bin dir\(|__slots__|get_fields_and_field_types|signature|find_spec"
     r"|(?:^|[^a-z]|hex)version|distro|_AVAILABLE\b"
@@ -33,7 +34,7 @@ _DECIDING = re.compile(
     re.IGNORECASE,
 )
 """Matches conditions on a version, a module or the type of an object."""
-_LEAVING = re.compile(
+_LEAVING = lazy_re.compile(
     r"version_info|\bPY_?[23]\d{0,2}\b|hexversion|__version__|(?i:distro)|find_spec|importorskip"
 )
 """Matches conditions on a version or a module that may leave a block."""
@@ -48,7 +49,7 @@ _OF_ARGUMENTS = frozenset(
 )
 """Kinds of reports about a call that always fails."""
 # linear: only searched in the text of a called function
-_PATCHING = re.compile(r"\bpatch(?:\.object)?$|\bmonkeypatch\.setattr$")
+_PATCHING = lazy_re.compile(r"\bpatch(?:\.object)?$|\bmonkeypatch\.setattr$")
 """Matches calls that replace an attribute during a test."""
 _SHORT = 2
 """The maximum number of statements of a ``try`` that only probes whether something works."""

@@ -9,22 +9,23 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator, Sequence
 
+from scaffold import lazy_re
 from scaffold.model.python.module import is_in_tests
 from scaffold.types.sources import Source
 from scaffold.types.stubs.marks import MARK
 from scaffold.types.ty import TyDiagnostic
 
 CALLEE = r"[^\W\d]\w*(?:\.\w+)?"
-_OWNER = re.compile(
+_OWNER = lazy_re.compile(
     r"(?:Object of type|Class) `([^\W\d]\w*)` has no attribute `(\w+)`", re.IGNORECASE
 )
 # linear: the text before the name has no backquote
-_CALL = re.compile(rf"[^`]*(?:`\w+`[^`]*)*? (?:[a-z]+ )*`({CALLEE})`(?:: expected .*)?")
-_FOUND = re.compile(r"found `((?:Literal\[)?([A-Z][^\W_]\w*)(?:\.[^`|]*)?)`$")
+_CALL = lazy_re.compile(rf"[^`]*(?:`\w+`[^`]*)*? (?:[a-z]+ )*`({CALLEE})`(?:: expected .*)?")
+_FOUND = lazy_re.compile(r"found `((?:Literal\[)?([A-Z][^\W_]\w*)(?:\.[^`|]*)?)`$")
 """Matches an instance of an unmarked class, or a member of an enumeration."""
-_STANDING_IN = re.compile(r"Mock|Fake|Stub|Dummy", re.IGNORECASE)
+_STANDING_IN = lazy_re.compile(r"Mock|Fake|Stub|Dummy", re.IGNORECASE)
 """Matches classes whose objects are passed instead of those of others."""
-_MODULE = re.compile(r"Module `([\w.]+)` has no member `\w+`")
+_MODULE = lazy_re.compile(r"Module `([\w.]+)` has no member `\w+`")
 _CALLS = frozenset(
     {
         "missing-argument",
@@ -33,14 +34,16 @@ _CALLS = frozenset(
         "parameter-already-assigned",
     }
 )
-_CHANGING = re.compile(
+_CHANGING = lazy_re.compile(
     rb"\b(?:setattr|__dict__|__getattribute__|__new__|metaclass|exec|globals|vars)\b"
 )
 """Matches code that sets attributes dynamically or replaces objects."""
-_LENDING = re.compile(rb"import[ (]*\*|\b(?:__getattr__|__import__|import_module|globals|exec)\b")
+_LENDING = lazy_re.compile(
+    rb"import[ (]*\*|\b(?:__getattr__|__import__|import_module|globals|exec)\b"
+)
 """Matches code that defines names of a module dynamically or takes those of another one."""
-_NAME = re.compile(rb"\b[A-Za-z_]\w*")
-_DECORATOR = re.compile(rb"[ \t]*@(?:\w+\.)*(\w+)")
+_NAME = lazy_re.compile(rb"\b[A-Za-z_]\w*")
+_DECORATOR = lazy_re.compile(rb"[ \t]*@(?:\w+\.)*(\w+)")
 _DECORATORS = frozenset({b"dataclass", b"final", b"total_ordering"})
 """Decorators of classes that add no other attributes."""
 

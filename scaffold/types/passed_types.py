@@ -8,9 +8,9 @@ names, where these tell all: those of Python's own types and of the stubs.
 from __future__ import annotations
 
 import builtins
-import re
 from collections.abc import Iterable, Mapping, Sequence
 
+from scaffold import lazy_re
 from scaffold.types.rewriting.passed import GIVEN, Passed
 from scaffold.types.sources import Source
 from scaffold.types.stubs.marks import MARK
@@ -19,9 +19,9 @@ from scaffold.types.ty import TyDiagnostic
 Types = Sequence[tuple[str, str]]
 """The functions that a module calls, each with its argument types; empty if not known."""
 
-_REVEALED = re.compile(r"Revealed type: `(.*)`")
-_TEXT = re.compile(r'"[^"\\]*"')
-_NAME = re.compile(rf"[^\W\d][\w{MARK}]*")
+_REVEALED = lazy_re.compile(r"Revealed type: `(.*)`")
+_TEXT = lazy_re.compile(r'"[^"\\]*"')
+_NAME = lazy_re.compile(rf"[^\W\d][\w{MARK}]*")
 _PLAIN = frozenset(
     {name for name, value in vars(builtins).items() if isinstance(value, type)}
     | {"Any", "Literal", "None", "False", "True", "Unknown"}

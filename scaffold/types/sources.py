@@ -11,6 +11,7 @@ import re
 from collections.abc import Iterable, Iterator, Mapping
 from functools import cached_property
 
+from scaffold import lazy_re
 from scaffold.files.disk import digest
 from scaffold.files.limits import most_bytes, why_unread
 from scaffold.model.interfaces.syntax import SECTIONS
@@ -21,7 +22,7 @@ from scaffold.types.stubs.libraries import interface_stub_files
 from scaffold.types.ty import LIBRARY
 
 # linear: an open bracket is followed for 4 kB at most, and spaces for a line
-_IMPORT = re.compile(
+_IMPORT = lazy_re.compile(
     rb"""[ \t]*
     (?: from [ \t]+ (?P<base>[.\w]+) [ \t]+ import [ \t]* (?P<names>\([^)]{0,4000}\)|[^\n#;]*)
       | from [ \t]* (?P<dots>\.+) [ \t]* import [ \t]* (?P<siblings>\([^)]{0,4000}\)|[^\n#;]*)
@@ -30,10 +31,10 @@ _IMPORT = re.compile(
 )
 _OF_PYTHON = "_py"
 """The suffix of a ROS package that its Python package lacks: ``tf2_ros_py``."""
-_LATER = re.compile(rb"[;:][ \t]*(?=(?:from|import)[ \t])")
+_LATER = lazy_re.compile(rb"[;:][ \t]*(?=(?:from|import)[ \t])")
 """Matches what is before a second statement on a line."""
-_WORD = re.compile(rb"[\w.]+")
-_CLASS = re.compile(rb"\bclass (\w+)")
+_WORD = lazy_re.compile(rb"[\w.]+")
+_CLASS = lazy_re.compile(rb"\bclass (\w+)")
 
 
 class Source:

@@ -7,14 +7,13 @@ environment: of the user's files, it reads only those to check.
 from __future__ import annotations
 
 import os
-import re
 import selectors
 import signal
 import time
 from collections.abc import Iterator, Mapping, Sequence
 from functools import lru_cache
 
-from scaffold import distributions
+from scaffold import distributions, lazy_re
 from scaffold.errors import ScaffoldError
 from scaffold.programs import bundled
 from scaffold.record import NamedTuple
@@ -53,7 +52,7 @@ KINDS = (
 )
 """The rules of ty that our rules are based on; all others are off."""
 
-_NARROWED = re.compile(r" & ~Always(?:Falsy|Truthy)")
+_NARROWED = lazy_re.compile(r" & ~Always(?:Falsy|Truthy)")
 """Matches what a condition narrowed a type to, such as a non-empty string."""
 CONFIGURATION = "ty.toml"
 LIBRARY = "lib"

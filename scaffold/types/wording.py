@@ -5,11 +5,12 @@ from __future__ import annotations
 import builtins
 import re
 
+from scaffold import lazy_re
 from scaffold.types.stubs.marks import MARK, MARKED, full_name, short_name
 
 # linear: the type checker truncates types in messages
-_TEXT = re.compile(r"""b?"(?:[^"\\]|\\.)*\"""")
-_IDENTIFIER = re.compile(rf"[^\W\d][\w{MARK}]*")
+_TEXT = lazy_re.compile(r"""b?"(?:[^"\\]|\\.)*\"""")
+_IDENTIFIER = lazy_re.compile(rf"[^\W\d][\w{MARK}]*")
 _BUILTINS = frozenset(
     {"int", "float", "str", "bool", "bytes", "bytearray", "complex", "list", "tuple", "dict"}
     | {"set", "frozenset", "Literal", "LiteralString", "None", "True", "False", "type", "class"}
@@ -20,21 +21,23 @@ _BUILTINS = frozenset(
         if isinstance(value, type) and issubclass(value, BaseException)
     }
 )
-_ANYTHING = re.compile(r"\b(?:Unknown|Any|object|Todo|Never|Divergent)\b|@|(?<!& )~")
+_ANYTHING = lazy_re.compile(r"\b(?:Unknown|Any|object|Todo|Never|Divergent)\b|@|(?<!& )~")
 """Matches types of which too little is known, such as ``~None``, a narrowed ``object``."""
-_CONTAINER = re.compile(r"list|dict|set|tuple")
-_CLASSES = re.compile(rf"(?:{MARKED}|bytes|None)(?: \| (?:{MARKED}|bytes|None))*")
-_ITERABLE = re.compile(r"\b(?:Iterable|Sequence)\[")
-_INNERMOST = re.compile(r"\([^()\[\]]*\)|\[[^()\[\]]*\]")
+_CONTAINER = lazy_re.compile(r"list|dict|set|tuple")
+_CLASSES = lazy_re.compile(rf"(?:{MARKED}|bytes|None)(?: \| (?:{MARKED}|bytes|None))*")
+_ITERABLE = lazy_re.compile(r"\b(?:Iterable|Sequence)\[")
+_INNERMOST = lazy_re.compile(r"\([^()\[\]]*\)|\[[^()\[\]]*\]")
 """Matches innermost arguments of a function or a type."""
-_SEQUENCE = re.compile(r"(?:Sequence|list|tuple)\[.*\]")
-_NO_SEQUENCE = re.compile(r"(?:dict|set)\[.*\]|(?:int|float|bool)\*?|Literal\[-?\d+\]")
-_SCALAR = re.compile(r"(?:int|float|bool)\*?|Literal\[-?\d+\]")
-_OMITTED = re.compile(r"\| \.\.\. omitted \d+ union elements")
-_NUMBERS = re.compile(r"Supports(?:Float|Int|Index)(?: \| Supports(?:Float|Int|Index))*")
-_PLAIN = re.compile(r"Literal\[.*\]|(?:str|bytes|int|float|bool|list|tuple|dict)\b.*", re.DOTALL)
+_SEQUENCE = lazy_re.compile(r"(?:Sequence|list|tuple)\[.*\]")
+_NO_SEQUENCE = lazy_re.compile(r"(?:dict|set)\[.*\]|(?:int|float|bool)\*?|Literal\[-?\d+\]")
+_SCALAR = lazy_re.compile(r"(?:int|float|bool)\*?|Literal\[-?\d+\]")
+_OMITTED = lazy_re.compile(r"\| \.\.\. omitted \d+ union elements")
+_NUMBERS = lazy_re.compile(r"Supports(?:Float|Int|Index)(?: \| Supports(?:Float|Int|Index))*")
+_PLAIN = lazy_re.compile(
+    r"Literal\[.*\]|(?:str|bytes|int|float|bool|list|tuple|dict)\b.*", re.DOTALL
+)
 """Matches types of values that are not classes."""
-_PLAIN_OR_CLASS = re.compile(r"(?:str|bytes|int|float|bool)\*?|Literal\[.*\]|<class '[^']+'>")
+_PLAIN_OR_CLASS = lazy_re.compile(r"(?:str|bytes|int|float|bool)\*?|Literal\[.*\]|<class '[^']+'>")
 """Matches types of numbers, strings, and classes themselves."""
 _KINDS = {'"': "str", "b": "bytes", "T": "bool", "F": "bool"}
 

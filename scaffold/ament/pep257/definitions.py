@@ -9,13 +9,14 @@ from bisect import bisect_left
 from collections.abc import Iterator, Sequence
 from functools import cached_property
 
+from scaffold import lazy_re
 from scaffold.ament.python_text.text import PythonText
 from scaffold.ament.python_text.tokens import COMMENT, NEWLINE, NL, QUOTED
 from scaffold.record import NamedTuple
 
 MODULE, CLASS, FUNCTION, METHOD = range(4)
 
-_LITERAL = re.compile(rf"(?:[rRuU]|[bB][rR]?|[rR][bB])?(?:{'|'.join(QUOTED)})", re.DOTALL)
+_LITERAL = lazy_re.compile(rf"(?:[rRuU]|[bB][rR]?|[rR][bB])?(?:{'|'.join(QUOTED)})", re.DOTALL)
 
 _Definition = ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef
 

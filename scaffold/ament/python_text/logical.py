@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import re
 from bisect import bisect_left
 from collections.abc import Sequence
 from functools import cached_property
 
+from scaffold import lazy_re
 from scaffold.ament.python_text.tokenizer import read_statement
 from scaffold.ament.python_text.tokens import (
     FSTRING_MIDDLE,
@@ -21,7 +21,7 @@ from scaffold.ament.python_text.tokens import (
 )
 
 _Built = tuple[str, tuple[list[int], list[Position]]]
-_FIRST = re.compile(r"(?i:[rbfu]{0,2})[\"']|\w+|.")
+_FIRST = lazy_re.compile(r"(?i:[rbfu]{0,2})[\"']|\w+|.")
 
 
 class LogicalLine:

@@ -10,21 +10,22 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Sequence
 
+from scaffold import lazy_re
 from scaffold.ament.python_text.logical import LogicalLine, expand_indent, gap
 from scaffold.ament.python_text.tokens import FSTRING_START, QUOTED
 from scaffold.record import NamedTuple
 
-_MUTED = re.compile(rf"#[^\n]*|{'|'.join(QUOTED)}|['\"]", re.DOTALL)
+_MUTED = lazy_re.compile(rf"#[^\n]*|{'|'.join(QUOTED)}|['\"]", re.DOTALL)
 """Comments and string literals, the latter without their prefixes. From Python 3.12 on, fields of
 an f-string may have line breaks: then only one of its quotes is matched."""
-_PREFIX = re.compile(r"(?:^|\W)([rRbBuUfF]{1,2})\Z")
+_PREFIX = lazy_re.compile(r"(?:^|\W)([rRbBuUfF]{1,2})\Z")
 """The prefix of a string, at the end of three characters."""
-_FIELD = re.compile(
+_FIELD = lazy_re.compile(
     r"\{(?P<value>(?:[^{}:!#\"'\\\n]|\"[^\"{}:!#\\\n]*\"|'[^'{}:!#\\\n]*')*)"
     r"(?P<conversion>![rsa])?(?::(?P<format>[^{}\n]*))?\}"
 )
-_STRING = re.compile(r"\"([^\"]*)\"|'([^']*)'")
-_LONE_BACKSLASH = re.compile(r"^[ \t]*\\\n", re.MULTILINE)
+_STRING = lazy_re.compile(r"\"([^\"]*)\"|'([^']*)'")
+_LONE_BACKSLASH = lazy_re.compile(r"^[ \t]*\\\n", re.MULTILINE)
 _BREAK = "\0"
 """Replaces a line break in a string; no valid file has this character."""
 _OPAQUE = "\1"

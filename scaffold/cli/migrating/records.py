@@ -7,7 +7,7 @@ import os
 import re
 from typing import TYPE_CHECKING
 
-from scaffold import distributions
+from scaffold import distributions, lazy_re
 from scaffold.cli import distro
 from scaffold.record import NamedTuple
 from scaffold.writing.transaction import RECORD
@@ -28,8 +28,8 @@ class Recorded(NamedTuple):
     """Whether there are packages without a record."""
 
 
-_ANSWERS = re.compile(r'^  "answers": \{\n', re.MULTILINE)
-_ANSWER = re.compile(rf'^    "{distro.ANSWER}": [^\n]*,\n', re.MULTILINE)
+_ANSWERS = lazy_re.compile(r'^  "answers": \{\n', re.MULTILINE)
+_ANSWER = lazy_re.compile(rf'^    "{distro.ANSWER}": [^\n]*,\n', re.MULTILINE)
 
 
 def plan(directory: str, targets: Sequence[Distribution]) -> tuple[bytes, bytes] | None:

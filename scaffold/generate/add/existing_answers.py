@@ -7,6 +7,7 @@ from collections import Counter
 from collections.abc import Sequence
 from itertools import dropwhile
 
+from scaffold import lazy_re
 from scaffold.ament import copyright as notices
 from scaffold.errors import InputError
 from scaffold.files.tree import MANIFEST
@@ -20,12 +21,12 @@ from scaffold.model.package import Package
 
 _BSD = "Redistribution and use in source and binary forms"
 _THIRD_CLAUSE = "either the name of"
-_NOTICE = re.compile(r"(?im)^[ \t]*copyright\b(.*)$")
-_YEAR = re.compile(r"(?i)(?:\(c\)|©)?[\d,-]*")
+_NOTICE = lazy_re.compile(r"(?im)^[ \t]*copyright\b(.*)$")
+_YEAR = lazy_re.compile(r"(?i)(?:\(c\)|©)?[\d,-]*")
 """A year or the like between "copyright" and the holder."""
-_ENDED = re.compile(r"(?<!\bInc)(?<!\bLtd)(?<!\bCo)(?<!\bCorp)(?<!\be\.V)\.$")
+_ENDED = lazy_re.compile(r"(?<!\bInc)(?<!\bLtd)(?<!\bCo)(?<!\bCorp)(?<!\be\.V)\.$")
 """The period at the end of a sentence, but not that of "Inc."."""
-_AUTHOR = re.compile(r"(?i)#[\s*]*[@\\]?(authors?|written by)\b")
+_AUTHOR = lazy_re.compile(r"(?i)#[\s*]*[@\\]?(authors?|written by)\b")
 _OF_TEXTS = ("free software foundation",)
 """Holders of license texts, not of the licensed code."""
 _ACCOUNTS = frozenset({"root", "user", "ubuntu", "ros", "admin", "vscode", "none", "unknown"})

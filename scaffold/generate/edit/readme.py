@@ -6,11 +6,12 @@ import re
 from collections.abc import Iterable, Iterator, Sequence
 from typing import NamedTuple
 
+from scaffold import lazy_re
 from scaffold.edits import Edit
 from scaffold.generate.edit.addition import Addition, Outcome, spliced
 from scaffold.source import Source
 
-_DELIMITER = re.compile(r"\s*(?:\|\s*)?:?-+:?\s*(?:\|\s*:?-+:?\s*)*(?:\|\s*)?")
+_DELIMITER = lazy_re.compile(r"\s*(?:\|\s*)?:?-+:?\s*(?:\|\s*:?-+:?\s*)*(?:\|\s*)?")
 _FRAME = ("Prerequisites", "Build", "Test", "Author", "License")
 """The sections not about parts; a README with all of them was generated."""
 _FENCE = ("```", "~~~")

@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Sequence
 
+from scaffold import lazy_re
 from scaffold.generate.payload import words
 from scaffold.model.interfaces.syntax import Constant, Field, Section
 from scaffold.model.interfaces.types import INTEGER_RANGES
 
-_DULL = re.compile(
+_DULL = lazy_re.compile(
     "UNKNOWN|NONE|NOT_SET|UNSET|UNSPECIFIED|UNDEFINED|INVALID|NOTHING|ERROR|FAIL|DEFAULT|DISABLED"
     "|OFF$|IDLE"
 )
 _OUTCOMES = frozenset({"error", "result", "return"})
 """Words in the names of fields that hold a result code."""
-_GOOD = re.compile("(^|_)(SUCCESS|SUCCEEDED|OK|NONE|NO_ERROR)($|_)")
+_GOOD = lazy_re.compile("(^|_)(SUCCESS|SUCCEEDED|OK|NONE|NO_ERROR)($|_)")
 _ENUMS = frozenset(
     {"action", "code", "command", "error", "event", "kind", "level", "mode", "operation", "option"}
     | {"reason", "result", "severity", "stage", "state", "status", "type"}

@@ -8,6 +8,7 @@ import re
 from collections.abc import Iterable
 from typing import Any
 
+from scaffold import lazy_re
 from scaffold.generate.payload import conventions, effects
 from scaffold.generate.payload.effects import Effects
 from scaffold.generate.payload.processing import PROCESSES, Process
@@ -15,7 +16,7 @@ from scaffold.generate.questions.names import header_name
 from scaffold.model.interfaces.types import FLOATS, INTEGER_RANGES
 from scaffold.record import NamedTuple
 
-_PERIOD = re.compile(r"(msg\.(scan_time)) = [\d.]+")
+_PERIOD = lazy_re.compile(r"(msg\.(scan_time)) = [\d.]+")
 """An assignment of the conventional period of messages."""
 
 

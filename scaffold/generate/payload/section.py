@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable, Mapping, Sequence
 
+from scaffold import lazy_re
 from scaffold.generate.payload import enums, words
 from scaffold.generate.payload.code import COUNTER, Block
 from scaffold.generate.payload.imports import imports
@@ -17,9 +17,11 @@ from scaffold.model.interfaces.types import FLOATS, INTEGER_RANGES
 
 STEPS = 10
 """The number of steps of an action with no field for it."""
-_DONE = re.compile("(.*_)?(success|successful|succeeded|ok|accepted|done|completed|result)$")
-_WHY = re.compile("(.*_)?(answer|message|msg|reason|description|info|details|text|status_message)$")
-_ERROR = re.compile("(?:^|_)(?:error|failure)(?:_|$)")
+_DONE = lazy_re.compile("(.*_)?(success|successful|succeeded|ok|accepted|done|completed|result)$")
+_WHY = lazy_re.compile(
+    "(.*_)?(answer|message|msg|reason|description|info|details|text|status_message)$"
+)
+_ERROR = lazy_re.compile("(?:^|_)(?:error|failure)(?:_|$)")
 _NUMBERS = frozenset({*INTEGER_RANGES, *FLOATS}) - {"byte", "char"}
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping
 
+from scaffold import lazy_re
 from scaffold.generate.payload.code import COUNT, WAVE
 from scaffold.record import NamedTuple
 
@@ -240,7 +241,7 @@ def per_unit(name: str, comment: str) -> str:
 
 # -- flags
 
-_TRUE = re.compile(
+_TRUE = lazy_re.compile(
     "(is|has|can|was|use|enable)_|.*(success|successful|succeeded|valid|enabled|available|passed|present"
     "|ok|ready|connected|online|accepted|done|finished|healthy)$"
 )

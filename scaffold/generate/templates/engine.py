@@ -19,6 +19,7 @@ from jinja2 import (
 from jinja2 import Environment as Jinja
 from jinja2.environment import TemplateModule
 
+from scaffold import lazy_re
 from scaffold.errors import ContentError
 from scaffold.files.disk import digest, read_file
 from scaffold.generate.templates import filters
@@ -26,7 +27,7 @@ from scaffold.generate.templates.bytecode import Compiled
 from scaffold.generate.templates.sandbox import Sandbox, refuse_outside
 from scaffold.generate.templates.template import ENDING, MAX_BYTES
 
-_COMMENT = re.compile(r"^([ \t]*)(?:(#|//):(?: (.*))?|<!--: (.*))$", re.MULTILINE)
+_COMMENT = lazy_re.compile(r"^([ \t]*)(?:(#|//):(?: (.*))?|<!--: (.*))$", re.MULTILINE)
 """A tutorial comment: ``#: text``, ``//: text`` or ``<!--: text -->``; may be empty."""
 
 

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import os
-import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from fnmatch import fnmatchcase
 from itertools import chain
 from types import MappingProxyType
 from typing import Any
 
+from scaffold import lazy_re
 from scaffold.configuration import content
 from scaffold.errors import ContentError
 from scaffold.generate.repository import MARK
@@ -19,7 +19,7 @@ from scaffold.generate.templates.sandbox import refuse_leaving, refuse_outside
 from scaffold.generate.templates.template import ENDING, MANIFEST, Template
 from scaffold.record import NamedTuple
 
-_NAME = re.compile(r"\{\{ ([\w.]+) \}\}")
+_NAME = lazy_re.compile(r"\{\{ ([\w.]+) \}\}")
 
 
 class Rendered(NamedTuple):

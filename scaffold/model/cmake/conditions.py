@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Mapping, Sequence
 
+from scaffold import lazy_re
 from scaffold.distributions import ALIASES, VARIABLE, target
 from scaffold.model.cmake.parser import unescape
 from scaffold.model.cmake.variables import split_list
@@ -21,7 +22,7 @@ _TEXTS: Mapping[str, Callable[[str, str], bool]] = {
     "GREATER_EQUAL": lambda left, right: left >= right,
 }
 """The suffixes of ``STR`` and ``VERSION_`` comparisons."""
-_VERSION = re.compile(r"\d+(?:\.\d+){0,3}")
+_VERSION = lazy_re.compile(r"\d+(?:\.\d+){0,3}")
 _FIXED_PARTS = 2
 """The number of version components that are fixed within a distribution."""
 

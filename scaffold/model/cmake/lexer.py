@@ -7,27 +7,27 @@ bracket argument that only ``]==]`` closes, or a comment if ``#`` precedes it.
 
 from __future__ import annotations
 
-import re
 from collections.abc import Sequence
 from typing import overload
 
+from scaffold import lazy_re
 from scaffold.record import NamedTuple
 
 BOM = "\ufeff"
 
-_COMMON = re.compile(
+_COMMON = lazy_re.compile(
     r"""(?P<space>[ \t\r]+)|(?P<newline>\n)|(?P<open>\()|(?P<close>\))"""
     r"""|(?P<bracket>\#?\[=*\[)|(?P<comment>\#[^\0\n]*)|(?P<quoted>"[^"\\]*")"""
     r"""|(?P<identifier>[A-Za-z_][A-Za-z0-9_]*(?=[ \t\r\n()\#]|\Z))"""
     r"""|(?P<word>[^ \0\t\r\n()\#"\[=\\]+)"""
 )
-_RUN = re.compile(r'[^ \0\t\r\n()#"\[=\\]+')
-_QUOTED_RUN = re.compile(r'[^\0\r\n()#"\\]+')
-_MAKE_VARIABLE = re.compile(r"\$\([A-Za-z0-9_]*\)")
-_NUL = re.compile(r"\0+")
-_EQUALS = re.compile("=*")
-_SPECIAL = re.compile(r'["\\]')
-_CALL = re.compile(r"\n[ \t]*([A-Za-z_]\w*)[ \t]*\(")
+_RUN = lazy_re.compile(r'[^ \0\t\r\n()#"\[=\\]+')
+_QUOTED_RUN = lazy_re.compile(r'[^\0\r\n()#"\\]+')
+_MAKE_VARIABLE = lazy_re.compile(r"\$\([A-Za-z0-9_]*\)")
+_NUL = lazy_re.compile(r"\0+")
+_EQUALS = lazy_re.compile("=*")
+_SPECIAL = lazy_re.compile(r'["\\]')
+_CALL = lazy_re.compile(r"\n[ \t]*([A-Za-z_]\w*)[ \t]*\(")
 MOST_ERRORS = 100
 _ATTEMPTS = 16  # at guessing the missing quote
 

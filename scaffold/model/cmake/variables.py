@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-import re
 from bisect import bisect_left
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 
+from scaffold import lazy_re
 from scaffold.model.cmake.parser import Argument, Command
 from scaffold.record import NamedTuple
 
 ROOT = "\0"
 """Placeholder for the directory of the package; no file can contain it."""
 
-_PIECE = re.compile(r"\\([\s\S])|\$\{|\}|[^\\$}]+|\$")
-_SPLIT = re.compile(r"(?:[^;\\]|\\[\s\S]?)+")
+_PIECE = lazy_re.compile(r"\\([\s\S])|\$\{|\}|[^\\$}]+|\$")
+_SPLIT = lazy_re.compile(r"(?:[^;\\]|\\[\s\S]?)+")
 _ESCAPES = {"t": "\t", "n": "\n", "r": "\r", ";": "\\;"}
 _MAX_TURNS = 20_000  # turns of loops followed in a file
 _LONGEST_VALUE = 20_000

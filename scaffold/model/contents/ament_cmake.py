@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import ast
 import posixpath
-import re
 from typing import TYPE_CHECKING
 
+from scaffold import lazy_re
 from scaffold.model.cmake.distribution_branches import lines_not_run
 from scaffold.model.cmake.known_commands import MODULES, is_known
 from scaffold.model.cmake.lists import CMakeLists
@@ -256,7 +256,7 @@ def is_used_by_build(package: Package, path: str) -> bool:
     )
 
 
-_TESTING = re.compile(r"_test$|^add_test$|^message$")
+_TESTING = lazy_re.compile(r"_test$|^add_test$|^message$")
 """Matches the names of commands that mention a file without processing it."""
 
 

@@ -7,6 +7,7 @@ import re
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
+from scaffold import lazy_re
 from scaffold.model.cmake.rosidl import GENERATE, Generation, generations_of
 from scaffold.model.contents.ament_cmake import has_unknown_commands
 from scaffold.model.facts import fact
@@ -80,7 +81,7 @@ def names_used_in_code(package: Package) -> set[str]:
     return package.remember("names_used_in_code", lambda: _words_of_users(package))
 
 
-_COMMENT = re.compile(r"^[ \t]*(?://|#(?!include)).*", re.MULTILINE)
+_COMMENT = lazy_re.compile(r"^[ \t]*(?://|#(?!include)).*", re.MULTILINE)
 """Matches a line that is a comment of C++ or Python."""
 
 

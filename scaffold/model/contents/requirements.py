@@ -7,6 +7,7 @@ import sys
 from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
+from scaffold import lazy_re
 from scaffold.formats.hash_comments import without_comments
 from scaffold.model.catalog import ROS1_PACKAGES, keys_of_module
 from scaffold.model.contents.ament_cmake import programs
@@ -26,7 +27,7 @@ _OF_INTERFACES = [[], *([name] for name in sorted(INTERFACE_MODULES))]
 """The submodules of interface packages."""
 _NOT_SHIPPED = ("doc/", "docker/", "docs/", "setup.py", "conf.py")
 _ROS1 = frozenset({"rospy", "roslib"})
-_NOT_INSTALLING = re.compile(
+_NOT_INSTALLING = lazy_re.compile(
     r"\b(?:add_subdirectory|aux_source_directory|(?:target_)?include_directories)\s*\([^()]*\)"
     r"|\bPYTHONPATH=[^\s)]*"
 )

@@ -11,6 +11,7 @@ import re
 from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
+from scaffold import lazy_re
 from scaffold.formats.gitignore import IgnoreFile
 
 if TYPE_CHECKING:
@@ -27,7 +28,7 @@ WHERE = {
 ENVIRONMENTS = "environments"
 """Virtual environments, which are never checked."""
 
-_COPIES = re.compile(
+_COPIES = lazy_re.compile(
     r".+\.sync-conflict-|.*~$|\.#|#.*#$|.*\.(?:orig|rej)$|\..*\.sw[op]$", re.DOTALL
 )
 _VENDORED = frozenset(

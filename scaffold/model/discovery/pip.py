@@ -7,6 +7,7 @@ import re
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
+from scaffold import lazy_re
 from scaffold.model.catalog import module_of_key
 from scaffold.model.discovery.colcon import repository_around
 
@@ -15,10 +16,10 @@ if TYPE_CHECKING:
 
 _PLACES = ("", "docker", ".devcontainer")
 """Directories of a repository with requirements files."""
-_NAME = re.compile(r"^[ \t]*([A-Za-z0-9][\w.-]*)", re.MULTILINE)
+_NAME = lazy_re.compile(r"^[ \t]*([A-Za-z0-9][\w.-]*)", re.MULTILINE)
 # linear: few lines of a file start with the key
-_PROJECT = re.compile(r"^dependencies\s*=\s*\[(.*?)\][ \t]*$", re.MULTILINE | re.DOTALL)
-_QUOTED = re.compile(r"""["']([A-Za-z0-9][\w.-]*)""")
+_PROJECT = lazy_re.compile(r"^dependencies\s*=\s*\[(.*?)\][ \t]*$", re.MULTILINE | re.DOTALL)
+_QUOTED = lazy_re.compile(r"""["']([A-Za-z0-9][\w.-]*)""")
 _MAX_BYTES = 100_000
 
 

@@ -7,6 +7,7 @@ import re
 from contextlib import suppress
 from typing import TYPE_CHECKING
 
+from scaffold import lazy_re
 from scaffold.model.discovery.colcon import repository_around
 from scaffold.source import ViewError
 
@@ -17,7 +18,7 @@ if TYPE_CHECKING:
 
 _PLACES = ("", ".github")
 """Directories of a repository with such files."""
-_ENTRY = re.compile(r"^ {1,8}(?:[\w.-]{1,99}/){0,9}([\w.-]{1,99}):[ \t]*$", re.MULTILINE)
+_ENTRY = lazy_re.compile(r"^ {1,8}(?:[\w.-]{1,99}/){0,9}([\w.-]{1,99}):[ \t]*$", re.MULTILINE)
 """Matches the key of an entry; its last part is the directory, and mostly the package."""
 _CPP = (".cpp", ".cc", ".cxx", ".hpp", ".hh", ".h")
 _MAX_BYTES = 100_000

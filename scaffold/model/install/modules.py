@@ -9,6 +9,7 @@ import sys
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
+from scaffold import lazy_re
 from scaffold.model.catalog import ROS_PACKAGES, keys_of_module
 from scaffold.model.contents.ament_cmake import has_unknown_commands, programs
 from scaffold.model.contents.python_facts import imports_by_path, imports_of
@@ -28,13 +29,13 @@ if TYPE_CHECKING:
 _ELSEWHERE = ("ament_environment_hooks", "ament_python_install_module", "configure_file")
 """Commands that put modules on the Python path in another way."""
 
-_ENTRY_POINT = re.compile(r"(?<![\w.-])[\w.-]{1,99} ?= ?[\w.]{1,200}:\w+")
+_ENTRY_POINT = lazy_re.compile(r"(?<![\w.-])[\w.-]{1,99} ?= ?[\w.]{1,200}:\w+")
 """Matches a console script in a setup.py, which makes no module."""
 
-_PROJECT = re.compile(r"(?i)\bproject\s*\(\s*([\w-]+)")
+_PROJECT = lazy_re.compile(r"(?i)\bproject\s*\(\s*([\w-]+)")
 """Matches the name of a project in a CMakeLists.txt."""
 
-_ON_PATH = re.compile(r"(?:.*(?:-packages/|\}/))([\w/]+)$")
+_ON_PATH = lazy_re.compile(r"(?:.*(?:-packages/|\}/))([\w/]+)$")
 """Matches a destination on the Python path, with the path below it."""
 
 

@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
+from scaffold import lazy_re
 from scaffold.formats.hash_comments import code_with, without_comments
 from scaffold.model.python.module import is_collected, is_in_tests
 from scaffold.source import ViewError
@@ -13,7 +14,7 @@ from scaffold.source import ViewError
 if TYPE_CHECKING:
     from scaffold.model.package import Package
 
-_COPY = re.compile(
+_COPY = lazy_re.compile(
     r"^(?:old|backup|bak|deprecated|obsolete|unused)[_ -]|^copy[_ -]of|^untitled\d{0,4}$"
     r"|[_ .-](?:old|backup|bak|orig|original|deprecated|obsol[eu]te|unused|copy)(?:[_ -]?\d{1,8})?$"
     r"|[ ](?:copy[ ])?\(?\d{1,4}\)?$|[ ]copy[ ]\d{1,4}$"
@@ -25,28 +26,28 @@ _COPY = re.compile(
 The last ones are written by file managers: ``talk (copy).py``, ``talk (3rd copy).py``,
 ``talk - Copy.py``.
 """
-_UNUSED_DIRECTORY = re.compile(
+_UNUSED_DIRECTORY = lazy_re.compile(
     r"(?:^|[\W_])(?:unused|deprecated|backups?|bak|archived?|old)(?:$|[\W_])", re.IGNORECASE
 )
 """Matches the name of a directory with unused code."""
 _KEPT = (".py", ".xacro", ".urdf", ".launch", ".xml", ".yaml", ".yml")
 """The extensions of files whose copies are recognized by name."""
-_RUNS_PYTHON = re.compile(rb"pytest|launch_test|nose|python|PYTHON|ament_lint_auto|\.py\b")
+_RUNS_PYTHON = lazy_re.compile(rb"pytest|launch_test|nose|python|PYTHON|ament_lint_auto|\.py\b")
 """Matches commands of CMakeLists.txt that run or check Python."""
-_ADDS_DIRECTORY = re.compile(rb"\badd_subdirectory\s*\([^)]{0,200}\)")
-_INSTALLS_PYTHON = re.compile(rb"ament_python_install|python_setup|setup\.py")
+_ADDS_DIRECTORY = lazy_re.compile(rb"\badd_subdirectory\s*\([^)]{0,200}\)")
+_INSTALLS_PYTHON = lazy_re.compile(rb"ament_python_install|python_setup|setup\.py")
 """Matches commands that may install a whole Python package."""
-_RUNS_SETUP = re.compile(rb"python_setup|setup\.py|\bpip3?\b")
-_OF_TARGETS = re.compile(
+_RUNS_SETUP = lazy_re.compile(rb"python_setup|setup\.py|\bpip3?\b")
+_OF_TARGETS = lazy_re.compile(
     rb"\b(?:add_(?:executable|library)|ament_export_[a-z]{1,20}|ament_target_dependencies"
     rb"|target_[a-z_]{1,20}|ament_(?:auto_)?add_(?:executable|gmock|gtest|library))"
     rb"\s*\([^)]{0,500}\)|\binstall\s*\(\s*TARGETS\b[^)]{0,500}\)"
 )
 """Matches commands about C++."""
-_OF_PROJECT = re.compile(rb"(?<![/\w])\$\{PROJECT_NAME\}/?(?=[\s\")])")
+_OF_PROJECT = lazy_re.compile(rb"(?<![/\w])\$\{PROJECT_NAME\}/?(?=[\s\")])")
 """Matches what may be the directory with the name of the package."""
-_PROJECT = re.compile(rb"\bproject\s*\([^)]{0,200}\)")
-_LIST_OF_NAMES = re.compile(rb"[\s\w,()]{0,400}")
+_PROJECT = lazy_re.compile(rb"\bproject\s*\([^)]{0,200}\)")
+_LIST_OF_NAMES = lazy_re.compile(rb"[\s\w,()]{0,400}")
 """Matches a line that may belong to an import of several lines."""
 _TAKES_ALL = (
     rb"GLOB_RECURSE[^)]{0,500}\*(?:\.py|(?!\.))|\bDIRECTORY\s+\./?\s|\brglob"

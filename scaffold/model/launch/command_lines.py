@@ -7,6 +7,7 @@ import re
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
+from scaffold import lazy_re
 from scaffold.model.launch.calls import LaunchCall
 from scaffold.model.launch.evaluator import joined_value
 from scaffold.model.launch.markup_file import markup_files
@@ -23,9 +24,11 @@ UNSAID = "$"
 """Placeholder for an unknown value; options are always literal."""
 _PROCESSES = ("ExecuteProcess", "ExecuteLocal")
 _RUN = ["ros2", "run"]
-_WORD = re.compile(r"(?:\$\([^()]*(?:\([^()]*\)[^()]*)*\)|[^\s$]|\$)+")
+_WORD = lazy_re.compile(r"(?:\$\([^()]*(?:\([^()]*\)[^()]*)*\)|[^\s$]|\$)+")
 """Matches a word of a command line; a substitution is a part of one."""
-_FOUND = re.compile(r"\$\(find-exec\s+([^\s()$]+)\s*\)")  # linear: spaces and non-spaces alternate
+_FOUND = lazy_re.compile(
+    r"\$\(find-exec\s+([^\s()$]+)\s*\)"
+)  # linear: spaces and non-spaces alternate
 
 
 class Word(NamedTuple):

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import ast
-import re
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
+from scaffold import lazy_re
 from scaffold.model.launch.calls import LaunchCall
 from scaffold.model.launch.evaluator import share_path
 from scaffold.model.launch.python_file import LaunchFile
@@ -20,7 +20,7 @@ _SETTERS = ("DeclareLaunchArgument", "SetLaunchConfiguration", "SetLaunchConfigu
 BY_LAUNCH = frozenset({"ros_namespace", "global_params", "ros_remaps", "launch_file_directory"})
 """Configurations that launch itself sets."""
 _ENDINGS = (".py", ".xml", ".yaml", ".yml")
-_COMPUTED = re.compile(r"(?:[}%]|\+ ?['\"])([\w.-]*launch\.(?:py|xml|ya?ml))")
+_COMPUTED = lazy_re.compile(r"(?:[}%]|\+ ?['\"])([\w.-]*launch\.(?:py|xml|ya?ml))")
 """Matches the known end of a computed name, ``f'{world}.launch.py'``."""
 
 

@@ -7,6 +7,7 @@ from collections.abc import Set as AbstractSet
 from contextlib import suppress
 from typing import TYPE_CHECKING
 
+from scaffold import lazy_re
 from scaffold.model.facts import fact
 from scaffold.model.launch.python_file import LaunchFile
 from scaffold.source import ViewError
@@ -18,9 +19,9 @@ ENDINGS = ("launch.py", "launch.xml", "launch.yaml", "launch.yml")
 DIRECTORIES = ("launch/", "launches/")
 _USERS = (".py", ".xml", ".yaml", ".yml", ".cpp", ".hpp")
 _LONGEST_PATH = 200
-_WORD = re.compile(r"(?<![^\"'\s=/])(?!self\.)[\w-]*\.[\w.-]*")
+_WORD = lazy_re.compile(r"(?<![^\"'\s=/])(?!self\.)[\w-]*\.[\w.-]*")
 """Matches possible file names in a text, but not attributes of ``self``."""
-_INSTALLED = re.compile(
+_INSTALLED = lazy_re.compile(
     r"(?i)share|package://|model://|\$\(find|\$\(dirname\)|__file__|ThisLaunchFileDir|MoveItConfigs"
 )
 """Matches what paths to installed files start with."""

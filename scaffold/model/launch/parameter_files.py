@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import contextlib
-import re
 from collections.abc import Iterator, Sequence
 from difflib import SequenceMatcher
 from typing import TYPE_CHECKING
 
+from scaffold import lazy_re
 from scaffold.model.facts import fact
 from scaffold.model.install.share import share_of
 from scaffold.model.launch.nodes import StartedNode, consumers, started_nodes
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 _ALIKE = 0.75
 # linear: it matches from the start of a run of these characters only
-_FILE_NAME = re.compile(r"(?<![\w.-])[\w.-]+\.ya?ml")
+_FILE_NAME = lazy_re.compile(r"(?<![\w.-])[\w.-]+\.ya?ml")
 _LAUNCH_ENDINGS = ("launch.xml", "launch.yaml", "launch.yml", ".launch", ".py")
 
 

@@ -10,6 +10,7 @@ from contextlib import suppress
 from difflib import SequenceMatcher, get_close_matches
 from typing import TYPE_CHECKING
 
+from scaffold import lazy_re
 from scaffold.model.discovery.gitignore import is_untracked
 from scaffold.model.facts import fact
 from scaffold.model.install.share import share_of
@@ -36,17 +37,17 @@ _SHARE = "get_package_share_"
 """The start of the functions that return the share directory of a package."""
 _DATABASES = (".db", ".sqlite", ".sqlite3")
 
-_READING = re.compile(
+_READING = lazy_re.compile(
     r"(?i:(?:im|safe_|full_)?(?:read|load)\w*|parse|fromfile|from_file|loadtxt|genfromtxt)"
 )
 """Matches functions that read a file."""
 
 
-_PLACEHOLDER = re.compile(r"(?i:readme[^/]*|\.(?:git)?(?:keep|ignore)|\.placeholder)")
+_PLACEHOLDER = lazy_re.compile(r"(?i:readme[^/]*|\.(?:git)?(?:keep|ignore)|\.placeholder)")
 """Matches files that keep a directory in git."""
 
 
-_OPTIONS = re.compile(r"\s-")
+_OPTIONS = lazy_re.compile(r"\s-")
 """Matches the start of options after a file."""
 
 

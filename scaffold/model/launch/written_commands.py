@@ -8,6 +8,7 @@ import re
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
+from scaffold import lazy_re
 from scaffold.model.discovery.colcon import repository_around
 from scaffold.source import ViewError
 
@@ -16,7 +17,7 @@ if TYPE_CHECKING:
 
 _DIRECTORIES = ("", "docker", "scripts", ".devcontainer")
 """Directories of a repository whose files are read."""
-_STARTING = re.compile(r"(?i)docker|compose|\.(?:sh|bash|md|rst|ya?ml)$")
+_STARTING = lazy_re.compile(r"(?i)docker|compose|\.(?:sh|bash|md|rst|ya?ml)$")
 """Matches the names of files that start programs or document how to."""
 _MAX_BYTES = 200_000
 

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import ast
-import re
 from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
 
+from scaffold import lazy_re
 from scaffold.model.interfaces.definitions import Definitions
 from scaffold.model.interfaces.syntax import Field
 from scaffold.model.interfaces.types import FieldType
@@ -32,7 +32,7 @@ from scaffold.record import NamedTuple
 _PARAMETER_VALUE = "rcl_interfaces.msg.ParameterValue"
 _DEPTH = 12
 _MAX_BINDINGS = 200  # assignments of one name or attribute; with more its type is unknown
-_OF_EVENTS = re.compile(r"connect$|register(?!Callback)|add_(?:listener|handler|observer)")
+_OF_EVENTS = lazy_re.compile(r"connect$|register(?!Callback)|add_(?:listener|handler|observer)")
 """Matches methods that take a function for the events of another library."""
 _ASKS_TYPE = frozenset({"isinstance", "type", "hasattr", "getattr", "setattr", "issubclass"})
 

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import ast
-import re
 from collections.abc import Iterator, Sequence
 
+from scaffold import lazy_re
 from scaffold.changes import Change
 from scaffold.edits import Edit
 from scaffold.model.python.distribution_branches import cases
@@ -25,7 +25,7 @@ _LOGGER = "rclpy.impl.rcutils_logger.RcutilsLogger"
 _OF_IMPORT = frozenset({"ImportError", "ModuleNotFoundError"})
 _ABOVE = {"ModuleNotFoundError": "ImportError"}
 """The class above an error."""
-_VERSION = re.compile(
+_VERSION = lazy_re.compile(
     r"version_info|__version__|VERSION|\b[Vv]ersion(?:\.parse)?\(|(?i:distro)"
     r"|(?i:ros|rclpy|numpy|np|python)_?version"
 )
@@ -34,7 +34,7 @@ _FINDERS = frozenset({"importlib.util.find_spec", "pkgutil.find_loader", IMPORT_
 """Functions that test whether a module exists."""
 _MAX_POSITIONAL = 3
 """The number of positional arguments from which a call may give any of them."""
-_CONSTANT = re.compile(r"\b[A-Z_][A-Z0-9_]*")
+_CONSTANT = lazy_re.compile(r"\b[A-Z_][A-Z0-9_]*")
 
 
 class ChangedUse(NamedTuple):

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
 
+from scaffold import lazy_re
 from scaffold.model.facts import fact
 from scaffold.model.package import Package
 from scaffold.model.python.module import is_in_tests
@@ -30,7 +30,7 @@ def rclpy_paths(package: Package) -> Sequence[str]:
     return package.remember("rclpy_paths", lambda: list(find()))
 
 
-_OF_NODES = re.compile(
+_OF_NODES = lazy_re.compile(
     rb"\.(?:create_(?:publisher|subscription|service|client|timer|rate)|call_async"
     rb"|(?:declare|get)_parameter|send_goal_async|get_logger\(\)\.\w+|get_clock)\("
 )

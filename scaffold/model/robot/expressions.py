@@ -9,8 +9,9 @@ from __future__ import annotations
 import ast
 import math
 import operator
-import re
 from collections.abc import Callable, Iterator, Mapping
+
+from scaffold import lazy_re
 
 Value = str | int | float | bool
 """The supported values of properties; all others are unknown."""
@@ -19,7 +20,7 @@ UNKNOWN_MARK = "\0"
 SHARE_MARK = "\2"
 """The marks around the package name of ``$(find package)``."""
 _MAX_TEXT = 5_000
-_TOKEN = re.compile(r"\${2,99}[{(]|\$\{[^}]{0,900}\}|\$\([^)]{0,900}\)|[^$]+|\$")
+_TOKEN = lazy_re.compile(r"\${2,99}[{(]|\$\{[^}]{0,900}\}|\$\([^)]{0,900}\)|[^$]+|\$")
 _MATH: Mapping[str, object] = {
     name: value for name, value in vars(math).items() if not name.startswith("_")
 }

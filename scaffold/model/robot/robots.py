@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
+from scaffold import lazy_re
 from scaffold.model.package import mentions
 from scaffold.model.robot.expressions import SHARE_MARK, is_known
 from scaffold.model.robot.files import RobotFile, next_to, robot_file, robot_paths
@@ -19,7 +20,7 @@ if TYPE_CHECKING:
     from scaffold.model.package import Package
     from scaffold.source import Location
 
-_NAMED = re.compile(r"(?:\$\(find ([\w-]+)\)|package://([\w-]+))((?:/[\w.+-]+)+)(.?)")
+_NAMED = lazy_re.compile(r"(?:\$\(find ([\w-]+)\)|package://([\w-]+))((?:/[\w.+-]+)+)(.?)")
 _LAUNCH = ("launch.py", "launch.xml", "launch.yaml", "launch.yml")
 _CONDITIONS = ("xacro:if", "xacro:unless")
 _OF_CONTROL = frozenset({"command_interface", "state_interface"})

@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 
-from scaffold import distributions
+from scaffold import distributions, lazy_re
 from scaffold.model.interfaces.sources import BundleSource, KnownPackage
 from scaffold.model.interfaces.syntax import SECTIONS
 
@@ -18,7 +18,7 @@ _FOR_PYTHON = (
 )  # fmt: skip
 """The generators that Python needs, so that less C++ is compiled."""
 
-_OTHER_PACKAGE = re.compile(r"^([a-z][a-z0-9_]*)/[A-Z]", re.MULTILINE)
+_OTHER_PACKAGE = lazy_re.compile(r"^([a-z][a-z0-9_]*)/[A-Z]", re.MULTILINE)
 
 MANIFEST = """\
 <?xml version="1.0"?>

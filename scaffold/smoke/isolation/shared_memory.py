@@ -4,15 +4,16 @@ from __future__ import annotations
 
 import fcntl
 import os
-import re
 import stat
+
+from scaffold import lazy_re
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
 DIRECTORY = "/dev/shm"  # noqa: S108  not our temporary file: where Linux keeps them
-_NAME = re.compile(r"(?:sem\.)?(?P<segment>(?:fastrtps|fastdds|fast_datasharing)_[\w.-]+)")
+_NAME = lazy_re.compile(r"(?:sem\.)?(?P<segment>(?:fastrtps|fastdds|fast_datasharing)_[\w.-]+)")
 _SUFFIXES = ("_mutex", "_el", "_sl")
 _LOCKS = ("_el", "_sl")
 _OF_ALL = "lttng-ust-"

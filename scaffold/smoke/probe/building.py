@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-import re
 from typing import Any
+
+from scaffold import lazy_re
 
 from .messages import find_type
 
 Ros = Any
 """Objects of rclpy, which are untyped."""
 
-_STEP = re.compile(r"[^.\[\]]+")
-_ELEMENTS = re.compile(r"sequence<(?P<bounded>[^,>]+)(?:, ?\d+)?>|(?P<array>[^\[]+)\[\d*\]")
+_STEP = lazy_re.compile(r"[^.\[\]]+")
+_ELEMENTS = lazy_re.compile(r"sequence<(?P<bounded>[^,>]+)(?:, ?\d+)?>|(?P<array>[^\[]+)\[\d*\]")
 
 
 def fill(message: Ros, values: dict[str, Ros]) -> Ros:

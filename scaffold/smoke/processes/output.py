@@ -8,6 +8,8 @@ from collections.abc import Iterable, Iterator
 from itertools import pairwise
 from pathlib import Path
 
+from scaffold import lazy_re
+
 SHOWN_LINES = 24
 """The maximum number of lines shown for a problem."""
 READ_BYTES = 1_000_000
@@ -16,34 +18,34 @@ TRACEBACK = "Traceback (most recent call last):"
 
 _FRAMES = 2
 """The number of traceback frames shown: the place of the error and its caller."""
-_LIBRARY = re.compile(
+_LIBRARY = lazy_re.compile(
     r"/rclpy/|/colcon_|/setuptools/|<frozen |load_entry_point|"
     r"/lib/python3\.\d+/(?!(?:site|dist)-packages/)"
 )
 """Paths of frames outside the user's code; the second to last is that of setuptools scripts."""
 PASSED_ON = "CalledProcessError"
 """An exception that reports the failure of another program, which printed the reason itself."""
-_CMAKE_ERROR = re.compile(r"CMake Error")
-_CMAKE_WARNING = re.compile(r"CMake (?:Deprecation )?Warning")
-_ERROR_LINE = re.compile(r"^\S.*\b(?:fatal )?error(?: in [\w.-]+ setup command)?: |^error: ")
-_WARNING_LINE = re.compile(r"\bwarning: |(?<=\w)Warning: ")
-_COMPLAINT = re.compile(
+_CMAKE_ERROR = lazy_re.compile(r"CMake Error")
+_CMAKE_WARNING = lazy_re.compile(r"CMake (?:Deprecation )?Warning")
+_ERROR_LINE = lazy_re.compile(r"^\S.*\b(?:fatal )?error(?: in [\w.-]+ setup command)?: |^error: ")
+_WARNING_LINE = lazy_re.compile(r"\bwarning: |(?<=\w)Warning: ")
+_COMPLAINT = lazy_re.compile(
     r"^\[[\d.]+s\] (?:WARNING|ERROR):[\w.]+:"
     r"(?P<text>.*(?:\n(?!\[|---|[A-Z][a-z]+ (?:>>>|<<<)|\s).+)*)",
     re.MULTILINE,
 )
 """A message of colcon itself."""
-_NAMED_ERROR = re.compile(r"^[\w.]*(?:Error|Exception)\b.*")
-_USAGE = re.compile(r"^[ \t]*usage:.*", re.IGNORECASE | re.MULTILINE)
-_REFUSAL = re.compile(r"^(?:.*: )?error: (?P<reason>.*)", re.IGNORECASE | re.MULTILINE)
+_NAMED_ERROR = lazy_re.compile(r"^[\w.]*(?:Error|Exception)\b.*")
+_USAGE = lazy_re.compile(r"^[ \t]*usage:.*", re.IGNORECASE | re.MULTILINE)
+_REFUSAL = lazy_re.compile(r"^(?:.*: )?error: (?P<reason>.*)", re.IGNORECASE | re.MULTILINE)
 """The usage text of argparse, click and the like, with the error message."""
-_IS_LACK = re.compile(r"\brequired\b|\bmissing\b|\btoo few\b|\bexpect", re.IGNORECASE)
-_TOO_SHORT = re.compile(r"IndexError: |ValueError: not enough values to unpack")
-_ARGUMENTS = re.compile(r"\bargv\b|\barg\w*\[")
+_IS_LACK = lazy_re.compile(r"\brequired\b|\bmissing\b|\btoo few\b|\bexpect", re.IGNORECASE)
+_TOO_SHORT = lazy_re.compile(r"IndexError: |ValueError: not enough values to unpack")
+_ARGUMENTS = lazy_re.compile(r"\bargv\b|\barg\w*\[")
 """A source line of a program that reads arguments by index."""
 _OWN_DOING = "byte-compiling is disabled"
 """A message of setuptools caused by our own settings: the build must not write into the sources."""
-_ESCAPE = re.compile(r"\x1b\[[0-9;?]*[A-Za-z]")
+_ESCAPE = lazy_re.compile(r"\x1b\[[0-9;?]*[A-Za-z]")
 
 
 def read(path: Path, start: int = 0) -> str:

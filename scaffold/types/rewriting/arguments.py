@@ -12,6 +12,7 @@ import re
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from functools import lru_cache
 
+from scaffold import lazy_re
 from scaffold.record import NamedTuple
 from scaffold.types.rewriting import containers, returns
 from scaffold.types.rewriting.added_lines import Extended, with_lines
@@ -32,24 +33,24 @@ _EITHER = "_ros2_either"
 """A condition of unknown value."""
 _MAX_CALLS = 12
 """The maximum number of calls of one function; one with more accepts ``Any``."""
-_FUNCTION = re.compile(
+_FUNCTION = lazy_re.compile(
     r"^(?P<indent> *)(?:async )?def (?P<name>[^\W\d]\w*)"
     r"\((?P<parameters>(?:[^()]|\([^()]*\)){1,800}\)) *(?:->[^\n]{0,200})?: *"
     r"(?:#[^\n]*)?\n(?=\n*(?P<inner> +)\S)",
     re.MULTILINE,
 )
-_MADE = re.compile(
+_MADE = lazy_re.compile(
     r"^[ ]*(?P<name>self\.\w+|\w+)[ ]*(?::[^=\n]*)?=[ ]*(?P<class>[A-Z]\w*)\(", re.MULTILINE
 )
 """Matches a variable or an attribute that is set to a new object."""
-_SET_TO_OBJECT = re.compile(r"=[ ]*[A-Z]\w*\(")
-_NAME = re.compile(r"\w+")
-_DERIVED = re.compile(r"class \w+\(([^()\n]*)")
+_SET_TO_OBJECT = lazy_re.compile(r"=[ ]*[A-Z]\w*\(")
+_NAME = lazy_re.compile(r"\w+")
+_DERIVED = lazy_re.compile(r"class \w+\(([^()\n]*)")
 """Matches a derived class."""
-_PARAMETER = re.compile(r"(\*{0,2}\w*|/)[ ]*(:[^=\"'\n#]*?)?[ ]*(?:=\s*(.*))?", re.DOTALL)
+_PARAMETER = lazy_re.compile(r"(\*{0,2}\w*|/)[ ]*(:[^=\"'\n#]*?)?[ ]*(?:=\s*(.*))?", re.DOTALL)
 """Matches a parameter; not one with a quoted annotation, as callbacks get."""
-_CONSTANT = re.compile(r"-?\d[\w.]*|'[^'\\\n]*'|\"[^\"\\\n]*\"|True|False|None")
-_OTHER_SCOPE = re.compile(r"\b(?:lambda|yield)\b|:=|#|\bself\s*(?:$|[,)\]])")
+_CONSTANT = lazy_re.compile(r"-?\d[\w.]*|'[^'\\\n]*'|\"[^\"\\\n]*\"|True|False|None")
+_OTHER_SCOPE = lazy_re.compile(r"\b(?:lambda|yield)\b|:=|#|\bself\s*(?:$|[,)\]])")
 """Matches names that differ on another line, and objects that may be of a subclass."""
 
 

@@ -14,6 +14,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from functools import partial
 from itertools import accumulate
 
+from scaffold import lazy_re
 from scaffold.types.rewriting.registrations import registrations, targets
 
 _WORDS = (
@@ -25,27 +26,27 @@ _WORDS = (
     b"_set_parameters_callback(",
     b"diagnostic_updater",
 )
-_CALL = re.compile(
+_CALL = lazy_re.compile(
     r"\b(create_subscription|create_service|ActionServer|add_done_callback"
     r"|add_(?:on|post|pre)_set_parameters_callback)\("
 )
-_FILTER = re.compile(
+_FILTER = lazy_re.compile(
     r"((?:self\.)?\b[^\W\d]\w{0,80})[ ]{0,9}=[ ]{0,9}(?:message_filters\.)?"
     r"(Subscriber|TimeSynchronizer|ApproximateTimeSynchronizer)\("
 )
-_OTHER_FUTURES = re.compile(r"\b(?:asyncio|concurrent|submit)\b")
+_OTHER_FUTURES = lazy_re.compile(r"\b(?:asyncio|concurrent|submit)\b")
 # linear: a line is searched from each call of these
-_OF_EVENT = re.compile(
+_OF_EVENT = lazy_re.compile(
     r"(?:\+=[ \t]{0,9}|\.(?:connect|register(?!Callback)\w{0,40}|add_(?:listener|handler|observer))"
     r"\([^()\n]{0,200})\bself\.(\w+)\b(?!\()"
 )
 """Matches a callback that an event of another library gets, which may pass other objects."""
-_TYPE = re.compile(r"(?:\w+\.)*[A-Z]\w*")
-_CALLBACK = re.compile(r"(?:self\.)?([^\W\d]\w*)")
-_SEGMENT = re.compile(r"^(?=class )", re.MULTILINE)
+_TYPE = lazy_re.compile(r"(?:\w+\.)*[A-Z]\w*")
+_CALLBACK = lazy_re.compile(r"(?:self\.)?([^\W\d]\w*)")
+_SEGMENT = lazy_re.compile(r"^(?=class )", re.MULTILINE)
 _PARAMETER = r"\w+(?:\s*:\s*[\w.\[\]\"']+)?"
 _SELF = r"self(?:\s*:\s*[\w.\"']+)?"
-_DEFINITION = re.compile(
+_DEFINITION = lazy_re.compile(
     rf"(\bdef (\w+)\(\s*(?:{_SELF}\s*,\s*)?)(?!self\b)({_PARAMETER}"
     rf"(?:\s*,\s*{_PARAMETER}){{0,8}})(\s*(?:,\s*)?\)\s*(?:->[^\n]*)?:)"
 )
@@ -60,7 +61,7 @@ _FUTURE = "_Ros2Future"
 STATUS = "_Ros2DiagnosticStatus"
 """The name of the class of the argument of diagnostic tasks."""
 # linear: a line has 20 kB at most
-_TASK = re.compile(
+_TASK = lazy_re.compile(
     r"\.add\([^()\n]*,\s*(?:self\.)?(?P<added>\w+)\)"
     r"|^class \w+\((?:\w+\.)?DiagnosticTask\):",
     re.MULTILINE,
@@ -77,10 +78,10 @@ _IMPORTS = {
 }
 """The imports to append to a file, by the name that is used."""
 # linear: up to 2 kB are searched
-_FUTURE_NAME = re.compile(r"(?:self\.)?\b\w+$")
+_FUTURE_NAME = lazy_re.compile(r"(?:self\.)?\b\w+$")
 # linear: as above
-_SENT_HERE = re.compile(r"\.send_goal_async\([^()]*(?:\([^()]*\)[^()]*)*\)$")
-_SIGN = re.compile(r"[()\[\]{},'\"]|\\.", re.DOTALL)
+_SENT_HERE = lazy_re.compile(r"\.send_goal_async\([^()]*(?:\([^()]*\)[^()]*)*\)$")
+_SIGN = lazy_re.compile(r"[()\[\]{},'\"]|\\.", re.DOTALL)
 """Matches a character that may end an argument or a string; escaped ones as a whole."""
 _MAX_LENGTH = 2_000
 """The maximum length of a call in characters; the rest is not inspected."""

@@ -10,18 +10,19 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping, Sequence
 
+from scaffold import lazy_re
 from scaffold.record import NamedTuple
 from scaffold.types.rewriting.callbacks import arguments_of, function_body
 from scaffold.types.rewriting.results import expression_at
 from scaffold.types.rewriting.statements import class_starts, lines_like, mentions, statement_around
 
-_MADE = re.compile(
+_MADE = lazy_re.compile(
     r"^(?P<indent>[ ]+)(?P<name>(?:self\.)?[^\W\d]\w*)[ ]*=[ ]*(?P<value>"
     r"\{\}|\[\]|dict\(\)|list\(\)|(?:collections\.)?deque\([^()\n]{0,80}\)"
     r"|\{(?![^\n]*[ ]for[ ])[^{}:\n#]{1,80}:[^{}\n#]{1,400}\})[ ]*(?:#[^\n]*)?$",
     re.MULTILINE,
 )
-_SET_TO_CONTAINER = re.compile(r"=[ ]*(?:[\[{]|dict|list|(?:collections\.)?deque)")
+_SET_TO_CONTAINER = lazy_re.compile(r"=[ ]*(?:[\[{]|dict|list|(?:collections\.)?deque)")
 _HELPERS = {"{": "_ros2_dict", "d": "_ros2_dict", "[": "_ros2_list", "l": "_ros2_list"}
 _DEFINITIONS = """
 from collections import deque as _Ros2Deque
@@ -34,27 +35,27 @@ def _ros2_deque(*_: _Ros2Sequence[_Ros2Element]) -> _Ros2Deque[_Ros2Element]: ..
 """
 _ADDING = {"append": "0", "appendleft": "0", "setdefault": "1", "insert": "1"}
 """Methods that add an element to a container, with the index of its argument."""
-_METHOD = re.compile(r"\.(\w+)\(")
+_METHOD = lazy_re.compile(r"\.(\w+)\(")
 _READING = frozenset(
     {"get", "items", "values", "keys", "pop", "popitem", "popleft", "clear", "copy", "remove"}
     | {"index", "count", "sort", "reverse", "rotate"}
 )
-_SET = re.compile(r"[ ]*=(?!=)[ ]*")
-_CHANGED = re.compile(r"[ ]*(?:[-+*/|&%^@]|//|\*\*|<<|>>)=|[ ]*,[^\n=]*=(?!=)")
-_READ = re.compile(
+_SET = lazy_re.compile(r"[ ]*=(?!=)[ ]*")
+_CHANGED = lazy_re.compile(r"[ ]*(?:[-+*/|&%^@]|//|\*\*|<<|>>)=|[ ]*,[^\n=]*=(?!=)")
+_READ = lazy_re.compile(
     r"(?:\b(?:in|not|if|elif|while|and|or|return)[ ]+"
     r"|\b(?:len|sorted|sum|min|max|any|all|list|tuple|set|enumerate|reversed|zip|str|iter|next)\("
     r"|\{)$"
 )
-_OF_MESSAGE = re.compile(r"(?!self\.\w{1,80}[ ]?=)(?:\w{1,80}\.){1,9}\w{1,80}[ ]?=[ ]?")
+_OF_MESSAGE = lazy_re.compile(r"(?!self\.\w{1,80}[ ]?=)(?:\w{1,80}\.){1,9}\w{1,80}[ ]?=[ ]?")
 """Matches the text before a value that is assigned to a field of an object."""
-_LINE_END = re.compile(r"[ ]{0,40}(?:#|\n|\Z)")
+_LINE_END = lazy_re.compile(r"[ ]{0,40}(?:#|\n|\Z)")
 """Matches the end of a line, with an optional comment."""
 # linear: names and defaults, without brackets
-_SIGNATURE = re.compile(r"^[ ]*(?:async[ ]+)?def[ ]+\w+\(([^()]*)\)", re.MULTILINE)
+_SIGNATURE = lazy_re.compile(r"^[ ]*(?:async[ ]+)?def[ ]+\w+\(([^()]*)\)", re.MULTILINE)
 _MAX_ADDED = 12
 _KEPT = "_ros2_kept"
-_OTHER_SCOPE = re.compile(r"\b(?:lambda|yield|for)\b|:=|#|\bself\s*(?:$|[,)\]])")
+_OTHER_SCOPE = lazy_re.compile(r"\b(?:lambda|yield|for)\b|:=|#|\bself\s*(?:$|[,)\]])")
 
 
 class Kept(NamedTuple):

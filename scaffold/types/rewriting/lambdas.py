@@ -9,10 +9,11 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 
+from scaffold import lazy_re
 from scaffold.types.rewriting.statements import statement_around
 
-_LAMBDA = re.compile(r"\blambda(?: (\w+))?: ")
-_SUBSCRIBED = re.compile(r"\bcreate_subscription\(\s*([\w.]+)\s*,")
+_LAMBDA = lazy_re.compile(r"\blambda(?: (\w+))?: ")
+_SUBSCRIBED = lazy_re.compile(r"\bcreate_subscription\(\s*([\w.]+)\s*,")
 
 
 def place_of(

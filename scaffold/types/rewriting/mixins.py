@@ -9,19 +9,20 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
+from scaffold import lazy_re
 from scaffold.types.rewriting.added_lines import Extended
 from scaffold.types.rewriting.callbacks import function_body
 
-_CLASS = re.compile(
+_CLASS = lazy_re.compile(
     r"^class ([^\W\d]\w*)(?:\([ ]*(?:object|(?:abc\.)?ABC)?[ ]*\))?[ ]*:", re.MULTILINE
 )
-_USED = re.compile(
+_USED = lazy_re.compile(
     r"\bself\.(create_(?:publisher|subscription|timer|service|client)|get_(?:logger|clock|parameter)"
     r"|declare_parameters?)\("
 )
 """Matches the methods of a node that mixins call."""
 # linear: the spaces at the start of a line
-_METHOD = re.compile(
+_METHOD = lazy_re.compile(
     r"^(?P<indent>[ ]+)(?:async )?def \w+\(\s*(?P<self>self)\b(?!\s*:)", re.MULTILINE
 )
 _NODE = "_Ros2Node"

@@ -8,6 +8,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping
 
+from scaffold import lazy_re
 from scaffold.files.limits import most_bytes
 from scaffold.model.facts import fact
 from scaffold.model.interfaces.syntax import SECTIONS
@@ -19,21 +20,21 @@ from scaffold.types.sources import imported_names
 
 GIVEN = "_ros2_given"
 """The prefix of the global names of passed values."""
-_OPENED = re.compile(r"(\.\w+)?\(")
-_METHOD = re.compile(r"\.(\w+)\(")
-_KEPT = re.compile(r"[ ]*(self\.\w+|\w+)[ ]*(?::[^=]*)?=[ ]*")
+_OPENED = lazy_re.compile(r"(\.\w+)?\(")
+_METHOD = lazy_re.compile(r"\.(\w+)\(")
+_KEPT = lazy_re.compile(r"[ ]*(self\.\w+|\w+)[ ]*(?::[^=]*)?=[ ]*")
 """Matches the text before a call whose result is assigned."""
-_SET = re.compile(r"[ ]*(?::[^=\n]*)?=(?!=)[ ]*(?!None\b)")
+_SET = lazy_re.compile(r"[ ]*(?::[^=\n]*)?=(?!=)[ ]*(?!None\b)")
 """Matches the text after a name that is assigned."""
-_BOUND = re.compile(r"\b(?:def|lambda|for|as|global|nonlocal|del|import)\b")
+_BOUND = lazy_re.compile(r"\b(?:def|lambda|for|as|global|nonlocal|del|import)\b")
 
 
-_CLASS = re.compile(r"^class \w+\((\w+(?:\.\w+)?)[ ]*(?:,[^()\n]*)?\):[^\n]*\n", re.MULTILINE)
+_CLASS = lazy_re.compile(r"^class \w+\((\w+(?:\.\w+)?)[ ]*(?:,[^()\n]*)?\):[^\n]*\n", re.MULTILINE)
 """Matches the head of a class with its first base."""
-_OF_SELF = re.compile(r"(?<![\w.])(?:(self)|super\(\))\.(\w+)\((?!\))")
+_OF_SELF = lazy_re.compile(r"(?<![\w.])(?:(self)|super\(\))\.(\w+)\((?!\))")
 """Matches the start of a method call of ``self`` with arguments."""
-_REGISTERING = re.compile(r"\.create_(subscription|service)\(")
-_TYPE = re.compile(r"(?:\w+\.)*[A-Z]\w*")
+_REGISTERING = lazy_re.compile(r"\.create_(subscription|service)\(")
+_TYPE = lazy_re.compile(r"(?:\w+\.)*[A-Z]\w*")
 _OF_NODES = frozenset(
     {"create_client", "create_publisher", "create_service", "create_subscription", "create_timer"}
     | {"declare_parameter", "declare_parameters", "get_parameter", "get_parameters"}

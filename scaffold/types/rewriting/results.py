@@ -10,33 +10,34 @@ import re
 from collections import Counter
 from collections.abc import Iterator
 
+from scaffold import lazy_re
 from scaffold.types.rewriting.callbacks import function_body
 from scaffold.types.rewriting.statements import definitions
 
 _ANY = "_Ros2Any"
-_FUNCTION = re.compile(
+_FUNCTION = lazy_re.compile(
     r"^(?P<indent>[ \t]*)def (?P<name>[^\W\d]\w*)"
     r"(?P<parameters>\((?:[^()]|\([^()]*\)){0,800}\))(?P<end>[ \t]*):[ \t]*(?:#[^\n]*)?$",
     re.MULTILINE,
 )
 """Matches the head of a function without a return annotation."""
-_NAMED = re.compile(r"\bdef (\w+)\(")
-_OTHER_SCOPES = re.compile(r"^[ \t]*(?:(?:async )?def|class)\b|\byield\b", re.MULTILINE)
-_RETURN = re.compile(r"(?:^[ \t]*|[:;][ \t]*)return\b[ \t]*", re.MULTILINE)
-_CLASS = re.compile(r"(?:[^\W\d]\w*\.){0,4}[A-Z]\w*")
+_NAMED = lazy_re.compile(r"\bdef (\w+)\(")
+_OTHER_SCOPES = lazy_re.compile(r"^[ \t]*(?:(?:async )?def|class)\b|\byield\b", re.MULTILINE)
+_RETURN = lazy_re.compile(r"(?:^[ \t]*|[:;][ \t]*)return\b[ \t]*", re.MULTILINE)
+_CLASS = lazy_re.compile(r"(?:[^\W\d]\w*\.){0,4}[A-Z]\w*")
 _KNOWN = (
     (
-        re.compile(r"(?:self\.)?\w{0,40}buffer\w{0,40}\.lookup_transform", re.IGNORECASE),
+        lazy_re.compile(r"(?:self\.)?\w{0,40}buffer\w{0,40}\.lookup_transform", re.IGNORECASE),
         "_Ros2TransformStamped",
         "from geometry_msgs.msg import TransformStamped as _Ros2TransformStamped",
     ),
     (
-        re.compile(r"(?:\w+\.){1,3}get_clock\(\)\.now"),
+        lazy_re.compile(r"(?:\w+\.){1,3}get_clock\(\)\.now"),
         "_Ros2Time",
         "from rclpy.time import Time as _Ros2Time",
     ),
     (
-        re.compile(r"(?:\w+\.){1,3}get_clock\(\)\.now\(\)\.to_msg"),
+        lazy_re.compile(r"(?:\w+\.){1,3}get_clock\(\)\.now\(\)\.to_msg"),
         "_Ros2Stamp",
         "from builtin_interfaces.msg import Time as _Ros2Stamp",
     ),

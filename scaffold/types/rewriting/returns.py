@@ -11,6 +11,7 @@ from collections import Counter
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from functools import cached_property, lru_cache
 
+from scaffold import lazy_re
 from scaffold.record import NamedTuple
 from scaffold.types.rewriting.callbacks import function_body
 from scaffold.types.rewriting.results import expression_at, imports, plain_result
@@ -23,38 +24,38 @@ _DEFINITIONS = f"""
 from collections.abc import Generator as {_YIELDING}
 from ty_extensions._internal import TypeOf as {_TYPE_OF}
 """
-_FUNCTION = re.compile(
+_FUNCTION = lazy_re.compile(
     r"^(?P<indent> *)(?P<async>async )?def (?P<name>[^\W\d]\w*)"
     r"(?P<parameters>\((?:[^()#]|\([^()#]*\)){0,800}\))(?P<end> *): *(?:#[^\n]*)?\n"
     r"(?=\n*(?P<inner> +)\S)",
     re.MULTILINE,
 )
 """Matches the head of a function without a return annotation."""
-_NAMED = re.compile(r"^[ ]*(?:async )?def (\w+)\(", re.MULTILINE)
-_ANY_WORD = re.compile(r"(?<![\w.'\"#])(?:return|yield)\b(?![\w'\"])")
-_OTHER_SCOPES = re.compile(r"^ *(?:(?:async )?def|class)\b", re.MULTILINE)
-_DOCSTRING = re.compile(r"\s*[rRuU]?(\"\"\"|''').*?\1", re.DOTALL)
+_NAMED = lazy_re.compile(r"^[ ]*(?:async )?def (\w+)\(", re.MULTILINE)
+_ANY_WORD = lazy_re.compile(r"(?<![\w.'\"#])(?:return|yield)\b(?![\w'\"])")
+_OTHER_SCOPES = lazy_re.compile(r"^ *(?:(?:async )?def|class)\b", re.MULTILINE)
+_DOCSTRING = lazy_re.compile(r"\s*[rRuU]?(\"\"\"|''').*?\1", re.DOTALL)
 _KEEPING = frozenset(
     {"property", "staticmethod", "classmethod", "cached_property", "contextmanager"}
 )
 """Decorators whose effect on the return type is known."""
-_UNSUITED = re.compile(r"\b(?:lambda|await|yield)\b|:=|#|'''|\"\"\"|\\\n|^from\b")
-_EITHER = re.compile(r"\b(?:else|or|and)\b")
+_UNSUITED = lazy_re.compile(r"\b(?:lambda|await|yield)\b|:=|#|'''|\"\"\"|\\\n|^from\b")
+_EITHER = lazy_re.compile(r"\b(?:else|or|and)\b")
 """Matches expressions with alternatives, such as conditions."""
-_ITSELF = re.compile(r"\bself\s*(?:$|[,)\]}])")
-_CALL = re.compile(r"([^\W\d]\w*)(?:\.\w+)*\(")
+_ITSELF = lazy_re.compile(r"\bself\s*(?:$|[,)\]}])")
+_CALL = lazy_re.compile(r"([^\W\d]\w*)(?:\.\w+)*\(")
 _GENERIC = frozenset(
     {"abs", "dict", "enumerate", "filter", "frozenset", "getattr", "iter", "list", "map", "max"}
     | {"min", "next", "reversed", "round", "set", "sorted", "sum", "tuple", "vars", "zip", "type"}
     | {"copy", "deepcopy", "partial", "super"}
 )
 """Functions whose return type depends on their arguments."""
-_SET = re.compile(r"^([\w ,]+)(?::[^=\n]*)?[-+*/|&%]?=(?!=)([^\n]*)", re.MULTILINE)
+_SET = lazy_re.compile(r"^([\w ,]+)(?::[^=\n]*)?[-+*/|&%]?=(?!=)([^\n]*)", re.MULTILINE)
 """Matches assignments to names, and statements that start like one."""
-_BOUND = re.compile(r"\bfor ([\w, ()]{1,200}?) in\b([^\n]*)|\bas (\w+)")
-_ATTRIBUTE = re.compile(r"(?<![\w.])self\.(\w+) *(?::[^=\n]*)?=(?!=)([^\n]*)")
-_OF_SELF = re.compile(r"self\.(\w+)")
-_WORD = re.compile(r"(?<![\w.])[^\W\d]\w*")
+_BOUND = lazy_re.compile(r"\bfor ([\w, ()]{1,200}?) in\b([^\n]*)|\bas (\w+)")
+_ATTRIBUTE = lazy_re.compile(r"(?<![\w.])self\.(\w+) *(?::[^=\n]*)?=(?!=)([^\n]*)")
+_OF_SELF = lazy_re.compile(r"self\.(\w+)")
+_WORD = lazy_re.compile(r"(?<![\w.])[^\W\d]\w*")
 _MAX_VALUES = 8
 """The maximum number of returned values; a function with more has an unknown type."""
 

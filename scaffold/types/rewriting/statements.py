@@ -10,21 +10,23 @@ import re
 from collections.abc import Iterator, Sequence
 from functools import lru_cache
 
-_FIRST = re.compile(r"[ \t]*([^\W\d]\w*)")
+from scaffold import lazy_re
+
+_FIRST = lazy_re.compile(r"[ \t]*([^\W\d]\w*)")
 _BLOCKS = frozenset({"if", "for", "with"})
 _INSIDE = frozenset(
     {"elif", "else", "except", "finally", "case", "while", "and", "or", "in", "is", "not"}
     | {"def", "class", "async", "lambda", "import", "from"}
 )
 """Keywords at the start of a line before which no line can be inserted."""
-_SOMETIMES = re.compile(r"\b(?:lambda|for|if|else|and|or)\b|:=")
+_SOMETIMES = lazy_re.compile(r"\b(?:lambda|for|if|else|and|or)\b|:=")
 """Matches code that makes a call conditional or deferred."""
-_GOES_ON = re.compile(r"(?:[,(\[{\\=+\-*/%|&<>.]|\b(?:and|or|not|in|is|if|else|lambda|for))$")
-_HEAD = re.compile(
+_GOES_ON = lazy_re.compile(r"(?:[,(\[{\\=+\-*/%|&<>.]|\b(?:and|or|not|in|is|if|else|lambda|for))$")
+_HEAD = lazy_re.compile(
     r"[ \t]*(?:(?:if|elif|else|for|while|with|try|except|finally|def|class|async|match|case)\b"
     r"|[)\]])"
 )
-_IN_F_STRING = re.compile(r"""\bf(['"])[^'"\n{}]*\{$""")
+_IN_F_STRING = lazy_re.compile(r"""\bf(['"])[^'"\n{}]*\{$""")
 """Matches the text before a call in an f-string."""
 _LINES_BACK = 6
 _TRIPLE = ('"""', "'''")

@@ -13,6 +13,7 @@ import re
 import tokenize
 from collections.abc import Iterator
 
+from scaffold import lazy_re
 from scaffold.model.python.scopes import ScopeIndex
 from scaffold.model.python.syntax_tree import MAX_DEPTH
 from scaffold.types.rewriting.callbacks import STATUS
@@ -29,9 +30,9 @@ _ACCEPTING = {bool: {"bool", "int", "float"}, int: {"int", "float"}}
 """The annotations that fit a constant besides its own class."""
 _AROUND = {
     # linear: a line has 20 kB at most
-    "variable": (re.compile(r"[ \t]*:[ \t]*$"), re.compile(r"[ \t]*=")),
+    "variable": (lazy_re.compile(r"[ \t]*:[ \t]*$"), lazy_re.compile(r"[ \t]*=")),
     # linear: a line has 20 kB at most here too
-    "result": (re.compile(r"[ \t]*->[ \t]*$"), re.compile(r"[ \t]*:")),
+    "result": (lazy_re.compile(r"[ \t]*->[ \t]*$"), lazy_re.compile(r"[ \t]*:")),
 }
 """The text around an annotation that can be removed as a whole."""
 

@@ -10,6 +10,7 @@ import ast
 import re
 from collections.abc import Mapping
 
+from scaffold import lazy_re
 from scaffold.types.rewriting import results
 
 _MADE = "_Ros2Made"
@@ -20,10 +21,10 @@ from collections.abc import Callable as {_CALLABLE}
 from typing import TypeVar as _Ros2MadeVar
 {_MADE} = _Ros2MadeVar("{_MADE}")
 """
-_PARAMETER = re.compile(r"(?:^\(|,)\s*([^\W\d]\w*)")
-_HEAD = re.compile(r"def \w+(\([^\n]*)")
-_PARAMETERS = re.compile(r"[(,][ ]?(\w+)(?=[,:=) ])")
-_MAKING = re.compile(r"(?:return|=) (\w+)\(")
+_PARAMETER = lazy_re.compile(r"(?:^\(|,)\s*([^\W\d]\w*)")
+_HEAD = lazy_re.compile(r"def \w+(\([^\n]*)")
+_PARAMETERS = lazy_re.compile(r"[(,][ ]?(\w+)(?=[,:=) ])")
+_MAKING = lazy_re.compile(r"(?:return|=) (\w+)\(")
 _CALLED = r"\breturn[ \t]+{0}\(|=[ \t]*{0}\("
 
 

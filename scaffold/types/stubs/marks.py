@@ -10,6 +10,8 @@ from __future__ import annotations
 
 import re
 
+from scaffold import lazy_re
+
 MARK = "\u00b7"
 """Valid in Python identifiers, but not used in practice."""
 MARKED = rf"[^\W\d]\w*(?:{MARK}\w+)+"
@@ -57,8 +59,8 @@ def mark(text: str, module: str) -> str:
     return "\n".join([*head, *result, ""])
 
 
-_DEFINITION = re.compile(r"(class|def|async def) ([^\W\d]\w*)")
-_FIELD = re.compile(r"( +)(\w+): ((?!Final|ClassVar|TypeAlias)[^=]+[^=,])")
+_DEFINITION = lazy_re.compile(r"(class|def|async def) ([^\W\d]\w*)")
+_FIELD = lazy_re.compile(r"( +)(\w+): ((?!Final|ClassVar|TypeAlias)[^=]+[^=,])")
 _PROPERTY = (
     "{0}@_property\n{0}def {1}(self) -> {2}: ...\n"
     "{0}@{1}.setter\n{0}def {1}(self, value: {2}) -> None: ..."
@@ -85,4 +87,4 @@ def short_name(marked: str) -> str:
     return _PART.sub(r".\1", name) if where[1:2] in (["srv"], ["action"]) else name
 
 
-_PART = re.compile("_(Request|Response|Goal|Result|Feedback)$")
+_PART = lazy_re.compile("_(Request|Response|Goal|Result|Feedback)$")

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator
 
+from scaffold import lazy_re
 from scaffold.ament.finding import Finding
 from scaffold.ament.flake8.options import Options
 from scaffold.ament.python_text.logical import LogicalLine
 from scaffold.ament.python_text.text import PythonText
 from scaffold.ament.python_text.tokens import COMMENT, ERRORTOKEN, LAYOUT, OP, SILENT, STRING, Token
 
-_AFTER_PUNCTUATION = re.compile(r"[,;:]\s*(?:  |\t)")
+_AFTER_PUNCTUATION = lazy_re.compile(r"[,;:]\s*(?:  |\t)")
 _NO_OPERATORS = frozenset("()[]{},:.;@=%~") | {"..."}
 _DOCUMENTED = 72
 """The column at which a single long word may start."""

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
+from scaffold import lazy_re
 from scaffold.record import NamedTuple
 
 if TYPE_CHECKING:
@@ -16,8 +16,8 @@ if TYPE_CHECKING:
 
 _EXPRESSION = r"\$\{[^}]{0,900}\}|\$\([^)]{0,900}\)"
 _DEFAULT = rf"(?:{_EXPRESSION}|'[^']*'(?:'(?=\s|$))?|\"[^\"]*\"|(?!{_EXPRESSION})[^\s'\"])*"
-_PARAMETER = re.compile(rf"\s*([^\s:=]+)\s*:?=\s*(\^\|?)?({_DEFAULT})(?=\s|$)")
-_PARAMETER_NAME = re.compile(r"\s*(\S+)")
+_PARAMETER = lazy_re.compile(rf"\s*([^\s:=]+)\s*:?=\s*(\^\|?)?({_DEFAULT})(?=\s|$)")
+_PARAMETER_NAME = lazy_re.compile(r"\s*(\S+)")
 
 
 class Macro(NamedTuple):
