@@ -47,6 +47,10 @@ _OF_TARGETS = lazy_re.compile(
 _OF_PROJECT = lazy_re.compile(rb"(?<![/\w])\$\{PROJECT_NAME\}/?(?=[\s\")])")
 """Matches what may be the directory with the name of the package."""
 _PROJECT = lazy_re.compile(rb"\bproject\s*\([^)]{0,200}\)")
+_IN_WORD = lazy_re.compile(rb"[\w-]")
+_BEFORE_FILE = (b'"', b"'", b"/")
+_AFTER_FILE = lazy_re.compile(rb"\.py\b|[\"'/:]")
+"""What is before and after the name of a file in Python."""
 _LIST_OF_NAMES = lazy_re.compile(rb"[\s\w,()]{0,400}")
 """Matches a line that may belong to an import of several lines."""
 _TAKES_ALL = (
@@ -206,17 +210,28 @@ def is_named(package: Package, path: str, stem: str, texts: tuple[str, ...] = ()
 
 def files_naming(package: Package, path: str, stem: str, texts: tuple[str, ...]) -> Iterator[str]:
     """Yield the files that mention a name; see `is_named`."""
-    unused = ("package.xml", *(_BUILDING[1:] if _is_built_by_cmake(package) else ()))
     directory = path.rpartition("/")[0].rpartition("/")[2]
-    for item in package.files:
-        if (
-            item not in {path, *unused}
-            and (not item.endswith(_OF_CMAKE) or item in _lists(package))
-            and (item.endswith((*_NAMING, *texts)) or item.startswith("scripts/"))
-            and not item.startswith(("config/", "params/"))
-            and _is_in_code(package, item, stem, directory)
-        ):
+    for item in _naming_files(package, texts):
+        if item != path and _is_in_code(package, item, stem, directory):
             yield item
+
+
+def _naming_files(package: Package, texts: tuple[str, ...]) -> Sequence[str]:
+    """Return the files that may mention what is used."""
+
+    def find() -> list[str]:
+        unused = ("package.xml", *(_BUILDING[1:] if _is_built_by_cmake(package) else ()))
+        endings = (*_NAMING, *texts)
+        return [
+            item
+            for item in package.files
+            if item not in unused
+            and (item.endswith(endings) or item.startswith("scripts/"))
+            and not item.startswith(("config/", "params/"))
+            and (not item.endswith(_OF_CMAKE) or item in _lists(package))
+        ]
+
+    return package.remember(("files that mention names", texts), find)
 
 
 def _is_in_code(package: Package, path: str, name: str, directory: str) -> bool:
@@ -230,21 +245,35 @@ def _is_in_code(package: Package, path: str, name: str, directory: str) -> bool:
         return not path.endswith((".xml", ".yaml", ".yml", ".urdf"))
     code = code_with(data, name.encode("utf-8", "surrogateescape"))
     is_python = path.endswith(".py")
-    return _mentions(code, name, directory) and names_file(code, name, is_python=is_python)
+    return names_file(code, name, is_python=is_python) and _mentions(code, name, directory)
 
 
 def names_file(code: bytes, stem: str, *, is_python: bool) -> bool:
     """Return whether code may import or start a file; Python may use its name for a variable."""
-    word = rb"(?<![\w-])%b(?![\w-])" % re.escape(stem.encode("utf-8", "surrogateescape"))
-    if not is_python:
-        return re.search(word, code) is not None
-    if re.search(rb"[\"'/]%b|%b(?:\.py\b|[\"'/:])" % (word, word), code):
+    word = stem.encode("utf-8", "surrogateescape")
+    places = [*_places(code, word)]
+    if not is_python or not places:
+        return bool(places)
+    if any(
+        code[at - 1 : at] in _BEFORE_FILE or _AFTER_FILE.match(code, at + len(word))
+        for at in places
+    ):
         return True
     return any(
         b"import" in line or _LIST_OF_NAMES.fullmatch(line)
         for line in code.splitlines()
-        if re.search(word, line)
+        if [*_places(line, word)]
     )
+
+
+def _places(data: bytes, word: bytes) -> Iterator[int]:
+    """Yield where a word is that is not part of a longer one."""
+    at = data.find(word)
+    while at >= 0:
+        end = at + len(word)
+        if not (_IN_WORD.match(data, max(at - 1, 0), at) or _IN_WORD.match(data, end)):
+            yield at
+        at = data.find(word, at + 1)
 
 
 def _mentions_directory(data: bytes, name: str) -> bool:
@@ -254,11 +283,11 @@ def _mentions_directory(data: bytes, name: str) -> bool:
     return re.search(pattern, data) is not None
 
 
-def _mentions(data: bytes, name: str, directory: str) -> bool:
-    """Return whether a text mentions a name, not only as a file in another directory."""
+def _mentions(code: bytes, name: str, directory: str) -> bool:
+    """Return whether code with a name mentions it not only as a file in another directory."""
     word = name.encode("utf-8", "surrogateescape")
-    if word not in data:
-        return False
+    if b"/" + word not in code:
+        return True
     around = directory.encode("utf-8", "surrogateescape")
     pattern = rb"(?:(?<![\w-])([\w-]+)/)?(?<![\w-])%b(?![\w-])" % re.escape(word)
-    return any(match[1] in {None, around} for match in re.finditer(pattern, data))
+    return any(match[1] in {None, around} for match in re.finditer(pattern, code))
