@@ -311,7 +311,8 @@ class TypeCheck:
     def _confirm(self) -> list[_File]:
         """Keep the reports that also appear without the annotations of the user's code.
 
-        The second run is skipped for files whose reports lead to no finding.
+        The second run is skipped for files whose reports lead to no finding, and for those without
+        annotations.
 
         Returns:
             The files that were confirmed.
@@ -324,16 +325,26 @@ class TypeCheck:
         ]
         if not files:
             return []
-        self._project = self._started("unannotated", files, is_annotated=False)
-        for file in files:
+        annotated = [file for file in files if self._is_annotated(file)]
+        if annotated:
+            self._project = self._started("unannotated", annotated, is_annotated=False)
+        for file in annotated:
+            assert self._project is not None  # noqa: S101  it was started for these files
             again = {item[:3] for item in self._project.reports(file.checked)}
             file.diagnostics = [
                 item
                 for item in file.diagnostics or ()
                 if item[:3] in again or not _may_be_annotated(item)
             ]
+        for file in files:
             file.is_confirmed = True
         return files
+
+    def _is_annotated(self, file: _File) -> bool:
+        """Return whether a file, or one that it depends on, has annotations of the user."""
+        annotated, unannotated = (rewriting(self._cache, is_annotated=is_) for is_ in (True, False))
+        reached = file.checked.reached.values()
+        return any(unannotated(source).text != annotated(source).text for source in reached)
 
     def _is_wrong(self, file: _File) -> bool:
         source = file.checked.source
