@@ -100,8 +100,7 @@ def _write(path: str, data: bytes) -> bool:
     directory = os.path.dirname(path)
     aside = os.path.join(directory, temporary.name())
     try:
-        os.makedirs(directory, exist_ok=True)
-        with open(temporary.create(aside), "wb") as file:
+        with open(_created(aside), "wb") as file:
             try:
                 file.write(data)
                 file.flush()
@@ -112,6 +111,17 @@ def _write(path: str, data: bytes) -> bool:
     except OSError:
         return False
     return True
+
+
+def _created(path: str) -> int:
+    """Create a file, and its directory if it does not exist yet, as only one of many does."""
+    from scaffold.files import temporary
+
+    try:
+        return temporary.create(path)
+    except FileNotFoundError:
+        os.makedirs(os.path.dirname(path), exist_ok=True)
+        return temporary.create(path)
 
 
 def trim(kept: str, most: int) -> None:

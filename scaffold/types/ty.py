@@ -15,6 +15,8 @@ from functools import lru_cache
 
 from scaffold import distributions, lazy_re
 from scaffold.errors import ScaffoldError
+from scaffold.files import cache
+from scaffold.files.disk import digest
 from scaffold.programs import bundled
 from scaffold.record import NamedTuple
 
@@ -22,6 +24,9 @@ VERSION = "0.0.105"
 """The version whose messages the rules parse; pinned in pyproject.toml as well."""
 SECONDS = 60.0
 """The timeout for ty after everything else is done; the largest workspaces take 8 seconds."""
+_VERSIONS = "types_programs"
+"""The kind of cached files that tell which programs have that version."""
+_MOST_VERSIONS = 16
 MAX_OUTPUT = 64_000_000
 MOST_CRASHES = 40
 """The maximum number of crashes in one run, while searching for the file that causes them."""
@@ -305,18 +310,24 @@ def executable() -> str:
 
 
 @lru_cache(maxsize=1)
-def _require_version(_identity: str) -> None:
+def _require_version(identity: str) -> None:
     """Check that the program has the expected version, once for each program.
 
     Raises:
         UnavailableError: it has another version.
     """
+    kept = cache.directory(_VERSIONS)
+    place = kept and os.path.join(kept, digest(identity.encode("utf-8", "surrogateescape")))
+    if place and cache.read_sealed(place, VERSION.encode()) is not None:
+        return
     output = _Process(["--version"], os.sep).output(SECONDS)
     version = (output.decode(errors="replace").split() or [""])[-1]
     if output.split()[:2] != [b"ty", VERSION.encode()]:
         raise UnavailableError(
             f"{executable()} is version {version or 'unknown'}; pip install 'ty=={VERSION}'"
         )
+    if kept and place and cache.write_sealed(place, VERSION.encode(), b""):
+        cache.trim(kept, _MOST_VERSIONS)
 
 
 def identity() -> str:
