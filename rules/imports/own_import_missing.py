@@ -41,7 +41,7 @@ class OwnImportMissing(Rule):
     when the node is started: the Python package is on the path, but not its modules. A program that
     CMake installs also finds modules that are installed next to it, in ``lib/<package>``.
 
-    **Fix.** Write the full name: ``from talker.text import make``. Install modules that programs
+    **Fix.** Write the full name: ``from talker.text import make``. Install modules that executables
     share as a Python package, with ``ament_python_install_package``.
 
     **Source.** Python documentation, "The import system"; ROS 2 documentation, "Writing a simple

@@ -16,7 +16,7 @@ _FILES = {"CMakeLists.txt": _LISTS, "talker/__init__.py": "", "talker/text.py": 
 
 
 class RelativeImportInScript(Rule):
-    """A program that is executed as a file uses a relative import.
+    """A script that is executed as a file uses a relative import.
 
     **Why.** In ``lib/<package>`` it is not part of a Python package: ``ImportError: attempted
     relative import with no known parent package``.
@@ -35,7 +35,7 @@ class RelativeImportInScript(Rule):
         Example(
             "a relative import",
             {**_FILES, "talker/node.py": "from .text import TEXT\n"},
-            "talker/node.py:1:1: relative import in an installed program, which is not part of a "
+            "talker/node.py:1:1: relative import in an installed script, which is not part of a "
             "package: ImportError; use the full module name",
         ),
         Example(
@@ -59,7 +59,7 @@ class RelativeImportInScript(Rule):
             for item in module.imports:
                 if item.level and not item.guarded and not item.conditional:
                     message = (
-                        "relative import in an installed program, which is not part of a package: "
+                        "relative import in an installed script, which is not part of a package: "
                         "ImportError; use the full module name"
                     )
                     yield self.report(item, message)

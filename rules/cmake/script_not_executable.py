@@ -36,7 +36,7 @@ ENV_WORDS = 2
 """``/usr/bin/env python3``."""
 
 
-class ProgramNotExecutable(Rule):
+class ScriptNotExecutable(Rule):
     """An installed script is not executable, is installed with FILES, or has no valid shebang.
 
     **Why.** Only ``PROGRAMS`` sets the executable bit, and ``colcon build --symlink-install`` links
@@ -52,7 +52,7 @@ class ProgramNotExecutable(Rule):
     """
 
     code = "CM014"
-    name = "program-not-executable"
+    name = "script-not-executable"
     examples = (
         Example(
             "executable",
@@ -64,7 +64,7 @@ class ProgramNotExecutable(Rule):
             {"CMakeLists.txt": _LISTS, "talker/node.py": "def rate():\n    return 2.0\n"},
         ),
         Example(
-            "a module without main() that an installed program imports",
+            "a module without main() that an installed script imports",
             {
                 "CMakeLists.txt": _LISTS.replace(".py", ".py talker/words.py"),
                 "talker/node.py": f"{_NODE}from words import *\n",
@@ -92,19 +92,19 @@ class ProgramNotExecutable(Rule):
             {"CMakeLists.txt": _LISTS, "talker/node.py": _NODE},
             Report(
                 "talker/node.py:1:1",
-                "installed as a program, but not executable: after `colcon build "
+                "installed script is not executable: after `colcon build "
                 "--symlink-install`, `ros2 run` finds no executable",
                 fix="Make talker/node.py executable",
             ),
             fixed={"talker/node.py": _NODE},
         ),
         Example(
-            "installed as a program",
+            "installed with PROGRAMS",
             {"CMakeLists.txt": _LISTS_KIND.format("PROGRAMS"), "talker/node.py": _NODE_KIND},
             executable=("talker/node.py",),
         ),
         Example(
-            "not installed as a program, but run by CMake itself",
+            "not installed with PROGRAMS, but run by CMake itself",
             {
                 "CMakeLists.txt": _LISTS_KIND.format("FILES"),
                 "cmake/generate.cmake": "set(SCRIPT ${talker_DIR}/../../../lib/talker/node.py)\n",
@@ -113,7 +113,7 @@ class ProgramNotExecutable(Rule):
             executable=("talker/node.py",),
         ),
         Example(
-            "a module with a demo, next to the program that imports it",
+            "a module with a demo, next to the script that imports it",
             {
                 "CMakeLists.txt": _LISTS_KIND.format("FILES").replace(
                     "ament_p", "install(PROGRAMS talker/run.py DESTINATION lib/talker)\nament_p"
@@ -161,7 +161,7 @@ class ProgramNotExecutable(Rule):
             executable=("talker/node.py",),
         ),
         Example(
-            "a module with a demo, installed with the program that imports it",
+            "a module with a demo, installed with the script that imports it",
             {
                 "CMakeLists.txt": _LISTS.replace("node.py", "node.py talker/run.py"),
                 "talker/node.py": "RATE = 2\n\nif __name__ == '__main__':\n    print(RATE)\n",
@@ -174,8 +174,8 @@ class ProgramNotExecutable(Rule):
             {"CMakeLists.txt": _LISTS, "talker/node.py": "import rclpy\n"},
             Report(
                 "talker/node.py:1:1",
-                "installed as a program, but has no shebang: `ros2 run` fails with "
-                "'Exec format error'; start with #!/usr/bin/env python3",
+                "installed script has no shebang: `ros2 run` fails with 'Exec format "
+                "error'; start with #!/usr/bin/env python3",
                 fix="Start with #!/usr/bin/env python3",
             ),
             fixed={"talker/node.py": f"{SHEBANG}\nimport rclpy\n"},
@@ -251,7 +251,7 @@ class ProgramNotExecutable(Rule):
             ):
                 continue
             message = (
-                "installed as a program, but not executable: after `colcon build "
+                "installed script is not executable: after `colcon build "
                 "--symlink-install`, `ros2 run` finds no executable"
             )
             fix = Fix(f"Make {path} executable", (MakeExecutable(path),))
@@ -331,7 +331,7 @@ class ProgramNotExecutable(Rule):
             elif not line.startswith("#!"):
                 end = 0
                 problem = (
-                    f"installed as a program, but has no shebang: `ros2 run` fails with "
+                    f"installed script has no shebang: `ros2 run` fails with "
                     f"'Exec format error'; start with {SHEBANG}"
                 )
             elif line.rstrip().endswith(("/python", "/python2", "env python", "env python2")):
@@ -356,13 +356,13 @@ class ProgramNotExecutable(Rule):
 
 
 def _imported(package: Package) -> tuple[str, ...]:
-    """Return the ends of the paths of modules that installed programs import."""
+    """Return the ends of the paths of modules that installed scripts import."""
     paths = {program.path for program in programs(package)}
     return tuple(f"/{path}" for path in paths_imported_by(package, paths))
 
 
 def _has_main(package: Package, path: str) -> bool:
-    """Return whether a file may be a program: it has ``main()`` or a main guard, or is broken."""
+    """Return whether a file may be a script: it has ``main()`` or a main guard, or is broken."""
     try:
         module = package.module(path)
     except ViewError:

@@ -67,7 +67,7 @@ _XML_DEPRECATED = (
 )
 
 
-class ProgramOrOptionRemoved(Rule):
+class ExecutableOrOptionRemoved(Rule):
     """A launch file starts a removed or deprecated executable, or passes a removed option.
 
     **Why.** The executable exits at once with ``ambiguous option`` or ``unrecognized arguments``,
@@ -81,7 +81,7 @@ class ProgramOrOptionRemoved(Rule):
     """
 
     code = "LF083"
-    name = "program-or-option-removed"
+    name = "executable-or-option-removed"
     is_fixed_for_all = True
     since = "0.2"
     is_deprecation = True
@@ -150,7 +150,7 @@ class ProgramOrOptionRemoved(Rule):
             },
         ),
         Example(
-            "the old name of a program",
+            "the old name of an executable",
             {
                 "launch/a.launch.py": _CREATE.replace("ros_gz_sim", "controller_manager")
                 .replace("create", "spawner.py")
@@ -160,11 +160,11 @@ class ProgramOrOptionRemoved(Rule):
             "453)",
         ),
         Example(
-            "a program that is not deprecated yet",
+            "an executable that is not deprecated yet",
             {"launch/a.launch.py": _LAUNCH_DEPRECATED.format("component_container_mt")},
         ),
         Example(
-            "programs that are not deprecated",
+            "executables that are not deprecated",
             {"launch/a.launch.py": _LAUNCH_DEPRECATED.format("component_container")},
             distro="lyrical",
         ),
@@ -272,7 +272,7 @@ def _edit(package: Package, line: CommandLine, word: Word, old: str, new: str) -
 
 
 def _started(package: Package) -> Iterator[tuple[str, Location]]:
-    """Yield the programs started by launch files, as ``package/program``, with the place."""
+    """Yield the executables started by launch files, as ``package/executable``, with the place."""
     for use in package_uses(package):
         yield f"{use.name}/{use.executable}", use.executable_location
     for file in markup_files(package):

@@ -10,7 +10,7 @@ from scaffold.api.install import is_started, paths_imported_by
 from scaffold.api.launch import package_uses
 
 _TRIALS = ("test", "example")
-"""Prefixes of programs that are only meant for the author."""
+"""Prefixes of executables that are only meant for the author."""
 _NODE = (
     "#!/usr/bin/env python3\nimport rclpy\n\n\ndef main():\n    rclpy.init()\n\n\n"
     "if __name__ == '__main__':\n    main()\n"
@@ -31,7 +31,7 @@ _LISTS_TARGETS = (
 )
 
 
-class ProgramNotInstalled(Rule):
+class ExecutableNotInstalled(Rule):
     """A node or an executable is not installed.
 
     **Why.** ``ros2 run`` fails with ``No executable found``.
@@ -44,15 +44,15 @@ class ProgramNotInstalled(Rule):
     """
 
     code = "CM012"
-    name = "program-not-installed"
+    name = "executable-not-installed"
     other_severities = {
         Severity.WARNING: "it may not be meant for users: no launch file starts it, and no other "
-        "program in its directory is installed, its name contains test or "
+        "executable in its directory is installed, its name contains test or "
         "example, it imports rospy, or nothing mentions it",
     }
     examples = (
         Example(
-            "both installed, and a module that is not a program",
+            "both installed, and a module that is not an executable",
             {
                 "CMakeLists.txt": _LISTS.format("    talker/other.py\n"),
                 "talker/node.py": _NODE,
@@ -149,7 +149,7 @@ class ProgramNotInstalled(Rule):
             ),
         ),
         Example(
-            "a node of a launch file and a test, in a package that installs no programs",
+            "a node of a launch file and a test, in a package that installs no executables",
             {
                 "package.xml": "<package><name>talker</name></package>\n",
                 "CMakeLists.txt": "project(talker)\nfind_package(ament_cmake_pytest REQUIRED)\n"
@@ -263,7 +263,7 @@ class ProgramNotInstalled(Rule):
 
 
 def _is_named(package: Package, path: str) -> bool:
-    """Return whether anything that users start or read mentions a program."""
+    """Return whether anything that users start or read mentions an executable."""
     name = path.rpartition("/")[2].encode()
     return any(name in package.data(item) for item in package.files if item.endswith(_FOR_USERS))
 
