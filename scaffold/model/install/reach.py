@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
+from scaffold import lazy_re
 from scaffold.formats.hash_comments import code_with
 from scaffold.model.contents.ament_cmake import programs
 from scaffold.model.discovery.texts_above import names_above
@@ -29,7 +29,7 @@ from scaffold.source import ViewError
 if TYPE_CHECKING:
     from scaffold.model.package import Package
 
-_IMPORTS_RELATIVELY = re.compile(rb"(?m)^[ \t]*from[ \t]+\.")
+_IMPORTS_RELATIVELY = lazy_re.compile(rb"(?m)^[ \t]*from[ \t]+\.")
 _CPP = (".cpp", ".hpp")
 _NAMING = (".py", ".cfg", ".toml", *_CPP)
 """The endings of files of other packages that may import a module, or tell who does."""

@@ -7,6 +7,7 @@ import re
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
+from scaffold import lazy_re
 from scaffold.formats.hash_comments import without_comments
 from scaffold.model.contents.dead_code import is_dead
 from scaffold.model.discovery.texts_above import names_above
@@ -27,12 +28,12 @@ _NAMING = (
 """The endings of files that start nodes, build a robot, or tell people how to."""
 _WITH_HASHES = (".py", ".yaml", ".yml", ".sh", ".txt", ".cmake")
 _WITH_MARKUP = (".xml", ".launch", ".urdf", ".xacro", ".sdf", ".world")
-_JOINED = re.compile(rb"([\"'])\s*\+\s*\1")
+_JOINED = lazy_re.compile(rb"([\"'])\s*\+\s*\1")
 """Matches what separates two literals that are added."""
 _DYNAMIC = rb"(?:\{[^{}\n]{0,99}\}|\$\([^()\n]{0,99}\)|%[sd]|\$\w{1,99}|\$\{[^{}\n]{0,99}\})"
 """Matches the part of a name that is only known when a launch file runs."""
-_COMPUTED = re.compile(rb"[\w.-]{0,99}(?:%b[\w.-]{0,99}){1,9}" % _DYNAMIC)
-_ADDED = re.compile(rb"(?:\+\s*[\"'](?![\w.-]*/)|[\"'](?=[._-]))([\w.-]+)[\"']")
+_COMPUTED = lazy_re.compile(rb"[\w.-]{0,99}(?:%b[\w.-]{0,99}){1,9}" % _DYNAMIC)
+_ADDED = lazy_re.compile(rb"(?:\+\s*[\"'](?![\w.-]*/)|[\"'](?=[._-]))([\w.-]+)[\"']")
 """Matches a literal that is added to the first part of a name, or is no name by itself."""
 _MARKUP = (".py", ".xml", ".yaml", ".yml")
 

@@ -7,6 +7,7 @@ import re
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
+from scaffold import lazy_re
 from scaffold.files.limits import most_bytes
 from scaffold.formats.hash_comments import without_comments
 from scaffold.model.contents.parts import GUARD, TOP, nodes_of, part_at, parts_mentioning
@@ -23,11 +24,11 @@ if TYPE_CHECKING:
     from scaffold.model.python.module import PythonModule
     from scaffold.model.python.scopes import FunctionNode
 
-_CALLBACK = re.compile(r"(?i)call_?back$|_cb$")
+_CALLBACK = lazy_re.compile(r"(?i)call_?back$|_cb$")
 """Matches the names of methods that are passed on and unknown to a base class."""
-_COMPUTED = re.compile(r"\bgetattr\([^,\n]{0,200},\s{0,9}(?![\"'\s])")
+_COMPUTED = lazy_re.compile(r"\bgetattr\([^,\n]{0,200},\s{0,9}(?![\"'\s])")
 """Matches the computation of the name of an attribute."""
-_OF_PYTEST = re.compile(
+_OF_PYTEST = lazy_re.compile(
     r"(?i)_?test|setup|teardown|set_?up|tear_?down|pytest_|generate_|load_tests"
 )
 """Matches the names of functions that pytest, unittest or launch_testing call."""
@@ -46,7 +47,7 @@ _MOST_PARTS = 200
 """More functions and classes that only use each other are not followed."""
 _LOOKUPS = ("globals(", "locals(", "vars(", "__dict__", "eval(", "exec(")
 """Functions that look up names computed at run time."""
-_TEST_OF_NAME = re.compile(r"[\"']\w+[\"'] (?:not )?in (?:globals|locals|vars)\(\)")
+_TEST_OF_NAME = lazy_re.compile(r"[\"']\w+[\"'] (?:not )?in (?:globals|locals|vars)\(\)")
 """Matches a test whether a variable is set, ``'node' in locals()``."""
 _MODULES = ("sys.modules", "import_module", "__import__")
 """Expressions that return a module, whose functions are its attributes."""
