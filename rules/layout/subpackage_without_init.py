@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
 
 from scaffold.api import (
     CreateFile,
@@ -10,6 +11,7 @@ from scaffold.api import (
     Effect,
     Example,
     Fix,
+    Location,
     Package,
     Report,
     Rule,
@@ -28,8 +30,18 @@ _FILES = {
 }
 
 
+class _Use(NamedTuple):
+    """A use of modules in a directory."""
+
+    directory: str
+    at: Location
+    verb: str
+    is_certain: bool
+    """Whether the user may run."""
+
+
 class SubpackageWithoutInit(Rule):
-    """A directory with imported modules has no ``__init__.py``.
+    """A directory with modules that are imported or started has no ``__init__.py``.
 
     **Why.** setuptools does not install the directory: the import works in the source tree, but
     fails after installation: ``ModuleNotFoundError: No module named 'talker.text'``.
@@ -52,6 +64,23 @@ class SubpackageWithoutInit(Rule):
                 "setup.py": "from setuptools import find_packages, setup\n\n"
                 "setup(packages=find_packages(), package_data={'talker': ['text/*']})\n",
             },
+        ),
+        Example(
+            "programs",
+            {
+                "setup.py": "from setuptools import find_packages, setup\n\n"
+                "setup(\n    packages=find_packages(),\n"
+                "    entry_points={'console_scripts': ['talk = talker.nodes.talk:main']},\n)\n",
+                "talker/__init__.py": "",
+                "talker/nodes/talk.py": "def main():\n    pass\n",
+            },
+            Report(
+                "talker/nodes/__init__.py:1:1",
+                "missing: without it talker/nodes/ is not installed, but setup.py:5 "
+                "starts a program in it",
+                fix="Create talker/nodes/__init__.py",
+            ),
+            fixed={"talker/nodes/__init__.py": ""},
         ),
         Example(
             "tests, which run in the source tree",
@@ -109,27 +138,23 @@ class SubpackageWithoutInit(Rule):
         packages = package.setup_py.packages
         if package.build_type != "ament_python" or packages is UNKNOWN:
             return
-        missing: dict[str, tuple[Import, str, bool]] = {}
-        for path, imports in imports_by_path(package):
-            for item in (imported for imported in imports if not imported.in_tests):
-                for directory in _directories(package, path, item):
-                    init = f"{directory}/__init__.py"
-                    earlier = missing.get(init)
-                    if package.has(init) or (earlier and earlier[2]):
-                        continue
-                    if self._is_listed(packages, directory) or _is_data(package, directory):
-                        continue
-                    is_used = not is_never_run(package, path)
-                    if is_used or earlier is None:
-                        missing[init] = (item, directory, is_used)
-        for init, (item, directory, is_used) in missing.items():
-            at = item.location
+        missing: dict[str, _Use] = {}
+        for use in _uses(package):
+            init = f"{use.directory}/__init__.py"
+            earlier = missing.get(init)
+            if package.has(init) or (earlier and earlier.is_certain):
+                continue
+            if self._is_listed(packages, use.directory) or _is_data(package, use.directory):
+                continue
+            if use.is_certain or earlier is None:
+                missing[init] = use
+        for init, use in missing.items():
             message = (
-                f"missing: without it {directory}/ is not installed, but {at.path}:{at.line} "
-                f"imports from it"
+                f"missing: without it {use.directory}/ is not installed, but "
+                f"{use.at.path}:{use.at.line} {use.verb} it"
             )
             fix = Fix(f"Create {init}", (CreateFile(init, ""),))
-            severity = None if is_used else Severity.WARNING
+            severity = None if use.is_certain else Severity.WARNING
             yield self.report(package.start_of(init), message, fix, severity=severity)
 
     def _is_listed(self, packages: object, directory: str) -> bool:
@@ -144,6 +169,19 @@ def _is_data(package: Package, directory: str) -> bool:
     return any(matches(pattern, modules) for pattern in package_data(package) or ())
 
 
+def _uses(package: Package) -> Iterator[_Use]:
+    """Yield the uses of directories below import packages: by imports, then by entry points."""
+    for path, imports in imports_by_path(package):
+        for item in (imported for imported in imports if not imported.in_tests):
+            for directory in _directories(package, path, item):
+                is_used = not is_never_run(package, path)
+                yield _Use(directory, item.location, "imports from", is_used)
+    for script in package.setup_py.console_scripts:
+        parts = script.module.split(".")
+        for directory in _below(package, parts[:-1]):
+            yield _Use(directory, script.location, "starts a program in", is_certain=True)
+
+
 def _directories(package: Package, path: str, node: Import) -> Iterator[str]:
     """Yield the directories of an import below an import package."""
     if node.level:
@@ -151,13 +189,24 @@ def _directories(package: Package, path: str, node: Import) -> Iterator[str]:
         parts = [*base, *(node.module.split(".") if node.module else ())]
     else:
         parts = node.module.split(".")
-    if not parts or parts[0] in _TESTS or not package.has(f"{parts[0]}/__init__.py"):
+    yield from _below(package, parts)
+    if not _is_package(package, parts[:1]):
         return
-    for depth in range(2, len(parts) + 1):
-        directory = "/".join(parts[:depth])
-        if package.glob(f"{directory}/*.py") and not package.has(f"{directory}.py"):
-            yield directory
     for name in node.names:
         directory = "/".join([*parts, name.name])
         if package.glob(f"{directory}/*.py"):
             yield directory
+
+
+def _below(package: Package, parts: Sequence[str]) -> Iterator[str]:
+    """Yield the directories of a module below its import package."""
+    for depth in range(2, len(parts) + 1) if _is_package(package, parts[:1]) else ():
+        directory = "/".join(parts[:depth])
+        if package.glob(f"{directory}/*.py") and not package.has(f"{directory}.py"):
+            yield directory
+
+
+def _is_package(package: Package, parts: Sequence[str]) -> bool:
+    return bool(parts) and all(
+        part not in _TESTS and package.has(f"{part}/__init__.py") for part in parts
+    )
