@@ -20,6 +20,8 @@ from scaffold.api.cmake import Install, InstallItem, generations, is_made_by_bui
 from scaffold.api.interfaces import SECTIONS, closest_word
 from scaffold.api.workspace import is_untracked
 
+from ._globs import patterns_without_files
+
 _INSTALL = "project(talker)\ninstall({} DESTINATION share/${{PROJECT_NAME}})\n"
 _ENDINGS = (".cpp", ".cc", ".cxx", ".c", ".py")
 _MAKERS = (
@@ -27,6 +29,8 @@ _MAKERS = (
     *("fetchcontent_declare", "include"),
 )
 """Commands that may create files that git does not have."""
+_MAKING = ("configure_file", "execute_process", "add_custom_command", "fetchcontent_declare")
+"""Commands that may create interfaces before CMake collects them."""
 _MAKERS_OF_SOURCES = (
     *_MAKERS,
     *("add_custom_command", "add_custom_target", "generate_parameter_library"),
@@ -42,6 +46,11 @@ _TESTING = ("ament_add_pytest_test", "add_launch_test", "add_ros_test")
 _LISTS_TESTS = "project(talker)\nament_add_pytest_test(talk test/{})\n"
 _LISTS_INTERFACES = (
     "project(my_msgs)\nset(files %s)\nrosidl_generate_interfaces(${PROJECT_NAME} ${files})\n"
+)
+_GLOB = (
+    "project(my_msgs)\nset(directory ${CMAKE_CURRENT_SOURCE_DIR}/%s)\n"
+    'file(GLOB files RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} "${directory}/*.msg")\n'
+    "rosidl_generate_interfaces(${PROJECT_NAME} ${files} DEPENDENCIES std_msgs)\n"
 )
 _LISTS_PACKAGE = "project(talker)\nament_python_install_package({})\n"
 
@@ -200,6 +209,16 @@ class NamedFileMissing(Rule):
             "CMakeLists.txt:2:30: the Python package directory talkers/ does not exist: CMake "
             "stops",
         ),
+        Example(
+            "interfaces collected by a pattern",
+            {"CMakeLists.txt": _GLOB % "msg", "msg/Bet.msg": "int8 x\n"},
+        ),
+        Example(
+            "a pattern that no interface matches",
+            {"CMakeLists.txt": _GLOB % "msg", "msgs/Bet.msg": "int8 x\n"},
+            "CMakeLists.txt:3:54: no file matches 'msg/*.msg': CMake stops without interfaces; "
+            "they are in msgs/",
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
@@ -310,6 +329,12 @@ class NamedFileMissing(Rule):
         ]
         made = [command.values for command in package.cmake.find("configure_file", "file")]
         for call in generations(package):
+            globbed = [] if package.cmake.find(*_MAKING) else patterns_without_files(package, call)
+            for argument, pattern in globbed[:1]:
+                places = {path.rpartition("/")[0] for path in interfaces}
+                hint = f"; they are in {places.pop()}/" if len(places) == 1 else ""
+                message = f"no file matches {pattern!r}: CMake stops without interfaces{hint}"
+                yield self.report(argument, message)
             for file in call.files:
                 path, ending = file.path, file.path.rpartition(".")[2]
                 if package.has(path) and ending not in {*SECTIONS, "idl"}:
