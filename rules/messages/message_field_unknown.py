@@ -12,6 +12,7 @@ from scaffold.api.messages import PARTS, MessageClass, MessageTypes, is_error_ex
 from scaffold.api.python import is_handled
 
 _CLASS_PARTS = frozenset({"Request", "Response", "Event", "Goal", "Result", "Feedback", "Impl"})
+_RAISED = frozenset({"AttributeError"})
 _NODE = (
     "from rclpy.node import Node\nfrom std_msgs.msg import String\n\n\n"
     "class Listener(Node):\n"
@@ -143,13 +144,24 @@ class MessageFieldUnknown(MessageRule):
             "24:21: this wrapper has only 'result' and 'status', not 'sequence': AttributeError; "
             "use .result.sequence",
         ),
+        Example(
+            "next to handlers of this error and of another one",
+            {
+                "talker/node.py": "from std_srvs.srv import SetBool\n\n\n"
+                "def flag():\n    try:\n        return int(SetBool.request.data)\n"
+                "    except ValueError:\n        return 0\n\n\n"
+                "def old_flag():\n    try:\n        return SetBool.request.data\n"
+                "    except AttributeError:\n        return 0\n"
+            },
+            "6:28: std_srvs/srv/SetBool has no 'request': AttributeError; did you mean 'Request'?",
+        ),
     )
 
     def check_file(self, types: MessageTypes) -> Iterator[Diagnostic]:
         yield from self._check_wrapped(types)
         for node in types.module.walk(ast.Attribute):
             message = _problem(types, node)
-            if message and not is_error_expected(types.module, node):
+            if message and not is_error_expected(types.module, node, _RAISED):
                 start, end = types.module.span(node)
                 at = types.module.source.location(max(start, end - len(node.attr)), end)
                 cause = f"fields of {message.partition(' has no ')[0]}"
