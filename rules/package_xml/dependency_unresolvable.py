@@ -15,6 +15,7 @@ from scaffold.api.catalog import (
     similar_key,
     similar_package,
 )
+from scaffold.api.distributions import removed_package, target
 
 KINDS = frozenset(
     {"depend", "build_depend", "buildtool_depend", "exec_depend", "run_depend", "test_depend"}
@@ -72,6 +73,14 @@ class DependencyUnresolvable(Rule):
             rosdep_keys=_KEYS,
         ),
         Example(
+            "a package of another distribution",
+            {"package.xml": _MANIFEST.format("turtlebot4_desktop")},
+            "3:11: unknown dependency 'turtlebot4_desktop': rosdep has no rule for it, and it is "
+            "not a package in the workspace or AMENT_PREFIX_PATH; Jazzy lacks it, other "
+            "distributions have it",
+            rosdep_keys=_KEYS,
+        ),
+        Example(
             "another spelling",
             {"package.xml": _MANIFEST.format("Serial")},
             "3:11: unknown dependency 'Serial': rosdep has no rule for it, and it is not a "
@@ -97,12 +106,14 @@ class DependencyUnresolvable(Rule):
                     f"unknown dependency {name!r}: rosdep has no rule for it, and it is not a "
                     f"package in the workspace or AMENT_PREFIX_PATH{_hint(package, name)}"
                 )
-                yield self.report(dependency, message)
+                yield self.report(dependency, message, cause=f"dependency {name}")
 
 
 def _is_known(package: Package, name: str) -> bool:
     """Return whether a name is a known package, or another rule reports it."""
-    if is_released(name) or name in {*ROS_PACKAGES, *ROS1_PACKAGES, *OTHER_NAMES, package.name}:
+    if name in {*ROS_PACKAGES, *ROS1_PACKAGES, *OTHER_NAMES, package.name}:
+        return True
+    if removed_package(name) is not None:
         return True
     if (
         similar_package(name)
@@ -119,6 +130,8 @@ def _is_known(package: Package, name: str) -> bool:
 
 
 def _hint(package: Package, name: str) -> str:
+    if is_released(name):
+        return f"; {target().title} lacks it, other distributions have it"
     rosdep = package.workspace.rosdep
     plain = name.replace("_", "-").lower()
     for guess in (f"python3-{plain.removeprefix('python-')}", plain, f"{plain}-dev"):
