@@ -284,7 +284,8 @@ class FoundUndeclared(Rule):
         )
         for found in always_first:
             name = found.name
-            is_required = found.required or name == "ament_cmake"
+            is_used = name == "ament_cmake" and not found.command.has("QUIET")
+            is_required = found.required or is_used
             if name in reported or not is_required or package.cmake.is_off(found.command):
                 continue
             other = manifest.left_out({name}, "build", "build_export", "run", "test")
