@@ -86,6 +86,31 @@ class InterfaceNotGenerated(Rule):
             fixed={"CMakeLists.txt": _LISTS_FILES % '"msg/Beat.msg"\n  "srv/Add.srv"'},
         ),
         Example(
+            "not listed, and only named by another one that is not listed",
+            {
+                "package.xml": "<package><name>walker</name></package>\n",
+                "CMakeLists.txt": _LISTS_FILES % '"msg/Beat.msg"',
+                "msg/Beat.msg": "int32 count\n",
+                "msg/Arm.msg": "walker/Hand[] hands\n",
+                "msg/Hand.msg": "int32 a\n",
+            },
+            Report(
+                "CMakeLists.txt:2:1",
+                "msg/Arm.msg is not listed: no code is generated for Arm; add it",
+                fix="Add msg/Arm.msg",
+                severity=Severity.WARNING,
+            ),
+            Report(
+                "CMakeLists.txt:2:1",
+                "msg/Hand.msg is not listed: no code is generated for Hand; add it",
+                fix="Add msg/Hand.msg",
+                severity=Severity.WARNING,
+            ),
+            fixed={
+                "CMakeLists.txt": _LISTS_FILES % '"msg/Beat.msg"\n  "msg/Arm.msg"\n  "msg/Hand.msg"'
+            },
+        ),
+        Example(
             "nothing is generated",
             {
                 "package.xml": "<package><name>my_msgs</name></package>\n",

@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import re
 from collections.abc import Iterator
+from collections.abc import Set as AbstractSet
 from typing import TYPE_CHECKING
 
 from scaffold import lazy_re
@@ -19,7 +20,8 @@ from scaffold.source import ViewError
 if TYPE_CHECKING:
     from scaffold.model.package import Package
 
-_USERS = (".py", ".cpp", ".hpp", ".cc", ".h", ".msg", ".srv", ".action")
+_INTERFACES = (".msg", ".srv", ".action")
+_USERS = (".py", ".cpp", ".hpp", ".cc", ".h", *_INTERFACES)
 """Extensions of files that use interfaces."""
 
 
@@ -76,7 +78,7 @@ def names_used_in_code(package: Package) -> set[str]:
     """Return the words in the workspace's code and interfaces that may name a type of a package.
 
     ``Beat`` of ``from my_msgs.msg import Beat``, ``my_msgs::msg::Beat``, ``my_msgs/Beat``, or alone
-    in an interface of the package that is generated.
+    in an interface of the package that is generated or used itself.
     """
     return package.remember("names_used_in_code", lambda: _words_of_users(package))
 
@@ -87,6 +89,7 @@ _COMMENT = lazy_re.compile(r"^[ \t]*(?://|#(?!include)).*", re.MULTILINE)
 
 def _words_of_users(package: Package) -> set[str]:
     result: set[str] = set()
+    not_generated: dict[str, AbstractSet[str]] = {}
     own: set[str] = set()
     with contextlib.suppress(ViewError):  # packages without CMake generate nothing
         own = {file.path for call in generations(package) for file in call.files}
@@ -99,8 +102,16 @@ def _words_of_users(package: Package) -> set[str]:
                     result.update(_capitalized(other.source(path).text))
                 elif path.endswith(".py"):
                     result.update(_names_used_in_python(other, path, package.name))
+                elif other.name == package.name and path.endswith(_INTERFACES):
+                    name = path.rpartition("/")[2].rpartition(".")[0]
+                    not_generated[name] = _names_used_in(other, path, package.name) - {name}
                 else:
                     result.update(_names_used_in(other, path, package.name))
+    pending = sorted(result & not_generated.keys())
+    for name in pending:  # extended during the loop
+        names = not_generated[name] - result
+        result |= names
+        pending += sorted(names & not_generated.keys())
     return result
 
 
