@@ -22,6 +22,7 @@ from scaffold.model.install.reach import is_never_run
 from scaffold.model.install.resources import own_files
 from scaffold.model.install.share import share_of
 from scaffold.model.install.unused import is_copy_of_old_code
+from scaffold.model.rclpy.uncalled import is_uncalled
 
 __all__ = [
     "absolute_name",
@@ -32,6 +33,7 @@ __all__ = [
     "is_installed_by_path",
     "is_never_run",
     "is_started",
+    "is_uncalled",
     "may_be_made",
     "modules_of",
     "moved_to",

@@ -5,7 +5,8 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, RclpyRule
+from scaffold.api import Diagnostic, Example, Package, RclpyRule, Report, Severity
+from scaffold.api.install import is_uncalled
 from scaffold.api.programs import in_constructors, phases_of, spins_elsewhere
 from scaffold.api.python import caught_around
 from scaffold.api.rclpy import (
@@ -47,6 +48,7 @@ class TransformBufferEmpty(RclpyRule):
 
     code = "ND112"
     name = "transform-buffer-empty"
+    other_severities = {Severity.WARNING: "nothing calls the methods that look transforms up"}
     examples = (
         Example("a listener", {"follower.py": _NODE.format(_LISTEN)}),
         Example(
@@ -54,6 +56,19 @@ class TransformBufferEmpty(RclpyRule):
             {"follower.py": _NODE.format("")},
             "9:23: no TransformListener fills this buffer: every lookup fails; add "
             "TransformListener(buffer, node)",
+        ),
+        Example(
+            "no listener, and a program that never looks anything up",
+            {
+                "follower.py": _NODE.format("")
+                + "\n\ndef main():\n    rclpy.init()\n    rclpy.spin(Follower())\n"
+            },
+            Report(
+                "9:23",
+                "no TransformListener fills this buffer: every lookup fails; add "
+                "TransformListener(buffer, node)",
+                severity=Severity.WARNING,
+            ),
         ),
         Example(
             "looked up in the constructor",
@@ -88,12 +103,16 @@ class TransformBufferEmpty(RclpyRule):
         if not file.module.mentions("tf2_ros") or file.module.in_tests:
             return
         for made in buffers_in(file):
-            if _is_only_asked(package, file, made):
+            lookups = _only_lookups(package, file, made)
+            if lookups:
                 message = (
                     "no TransformListener fills this buffer: every lookup fails; "
                     "add TransformListener(buffer, node)"
                 )
-                yield self.report(file.module.location(made), message)
+                path = file.module.path
+                is_unused = all(is_uncalled(package, path, item.lineno) for item in lookups)
+                severity = Severity.WARNING if is_unused else None
+                yield self.report(file.module.location(made), message, severity=severity)
             elif _is_made_to_ask(file, made):
                 message = (
                     "this buffer is created on every call, so it is empty: every lookup fails; "
@@ -132,19 +151,20 @@ def _is_made_to_ask(file: RclpyFile, made: ast.Call) -> bool:
     )
 
 
-def _is_only_asked(package: Package, file: RclpyFile, made: ast.Call) -> bool:
-    """Return whether a buffer is only used for lookups."""
+def _only_lookups(package: Package, file: RclpyFile, made: ast.Call) -> list[ast.expr]:
+    """Return the uses of a buffer if all of them look up transforms."""
     attribute, variable = file.stored_in(made)
     uses: list[ast.expr]
     if attribute:
         uses = [x for x in file.module.index.attributes(attribute) if isinstance(x.ctx, ast.Load)]
         if is_used_elsewhere(package, file, attribute):
-            return False
+            return []
     elif variable:
         uses = [x for x in file.module.index.names(variable) if isinstance(x.ctx, ast.Load)]
     else:
-        return False
+        return []
     parents = [file.module.parent(use) for use in uses]
-    return bool(parents) and all(
+    is_asked = all(
         isinstance(parent, ast.Attribute) and parent.attr.startswith(_ASKING) for parent in parents
     )
+    return uses if is_asked else []
