@@ -303,6 +303,7 @@ def test_main_guard_of_a_launch_file(package: Path, capsys: pytest.CaptureFixtur
         ("warning", "    def tell", "    @property\n    def tell"),
         ("error", "def main", "def talk"),
         ("warning", "# nothing", "# tell"),
+        ("warning", "# nothing", "\n        rclpy.tell()"),
         ("warning", "    def tell", "    def tell_all(self):\n        self.tell()\n\n    def tell"),
         ("error", "self.say)", "self.tell_all)\n\n    def tell_all(self):\n        self.tell()"),
         ("warning", "# nothing", "\n        print('node' in locals())"),

@@ -48,6 +48,8 @@ _ELSEWHERE = {
     "spin": "rclpy.spin(...)",
 }
 """Names in other libraries, and their names in rclpy."""
+_OF_NODE = frozenset({"self", "cls", "this", "node"})
+"""Names of arguments that are a node."""
 
 
 class AttributeOfNodeUnknown(RclpyRule):
@@ -124,6 +126,16 @@ class AttributeOfNodeUnknown(RclpyRule):
             "'publishers'?",
         ),
         Example(
+            "a method without self",
+            {
+                "talker.py": _NODE.format("on_timer", "pub") + "        self.heading(String())\n\n"
+                "    def heading(quaternion):\n"
+                "        return quaternion.x * quaternion.y\n"
+            },
+            "16:5: heading() lacks 'self': 'quaternion' is the node, which has no 'x': "
+            "AttributeError",
+        ),
+        Example(
             "a method that is indented too far",
             {
                 "talker.py": _NODE.format("on_timer", "pub").replace(
@@ -166,9 +178,19 @@ class AttributeOfNodeUnknown(RclpyRule):
     ) -> Iterator[Diagnostic]:
         defined = defined_by(node)
         names: set[str] = set()
+        module = node.file.module
+        without_self = _without_self(node, {*defined, *given})
+        for function, first in without_self.items():
+            message = (
+                f"{function.name}() lacks 'self': {module.text(first.value)!r} is the node, "
+                f"which has no {first.attr!r}: AttributeError"
+            )
+            yield self.report(module.location(function), message)
         for attribute in used:
             name = attribute.attr
             if name in defined or name in given or _may_fail(node.file, attribute):
+                continue
+            if module.enclosing_function(attribute) in without_self:
                 continue
             names = names or {*defined, *given, *_names_of_rclpy()}
             closest = _ELSEWHERE.get(name) or _closest(package, name, names)
@@ -177,7 +199,6 @@ class AttributeOfNodeUnknown(RclpyRule):
             if inner is not None:
                 hint = f"; the one in line {inner.lineno} is inside another method; indent it less"
             message = f"neither {node.name} nor rclpy's Node has {name!r}: AttributeError{hint}"
-            module = node.file.module
             is_late = only_while_stopping(module, attribute)
             severity = Severity.WARNING if is_late else Severity.ERROR
             cause = f"attributes of {node.name} in {module.path}"
@@ -197,6 +218,28 @@ class AttributeOfNodeUnknown(RclpyRule):
                 hint = f"; did you mean {closest!r}?" if closest else ""
                 message = f"neither {node.name} nor rclpy's Node has {name!r}: AttributeError{hint}"
                 yield self.report(module.location(call), message)
+
+
+def _without_self(node: NodeClass, known: set[str]) -> dict[ast.FunctionDef, ast.Attribute]:
+    """Return the methods that take the node for another object, with an attribute they read.
+
+    Their first argument has another name than ``self``, and nothing that they read of it is known.
+    """
+    result: dict[ast.FunctionDef, ast.Attribute] = {}
+    known = {*known, *_names_of_rclpy()}
+    for function in node.node.body:
+        if not isinstance(function, ast.FunctionDef) or function.decorator_list:
+            continue
+        read = [
+            item
+            for item in node.file.module.below(function, ast.Attribute)
+            if isinstance(item.value, ast.Name)
+            and item.value.id not in _OF_NODE
+            and node.file.evaluator.self_class(item.value) is node.node
+        ]
+        if read and known.isdisjoint(item.attr for item in read):
+            result[function] = read[0]
+    return result
 
 
 def _inner_function(node: NodeClass, name: str) -> ast.FunctionDef | None:

@@ -46,9 +46,9 @@ class MethodNotCalled(RclpyRule):
     """A method of rclpy or of the node is not called, because its parentheses are missing.
 
     **Why.** ``AttributeError: 'function' object has no attribute 'now'``; as a condition, a
-    method is always true; as a statement, it does nothing.
+    method is always true, like a generator; as a statement, it does nothing.
 
-    **Fix.** Add the parentheses.
+    **Fix.** Add the parentheses; pass the generator to ``any()`` or ``all()``.
 
     **Source.** The classes of rclpy 7.1 (ROS 2 Jazzy).
     """
@@ -151,6 +151,18 @@ class MethodNotCalled(RclpyRule):
             "13:12: self.stopped is an Event, which is always true; write self.stopped.is_set()",
         ),
         Example(
+            "generators, as a condition and in one",
+            {
+                "home.py": "import rclpy\n\nnode = rclpy.create_node('home')\n"
+                "places = [1.0, None]\n"
+                "if (place is not None for place in places):\n"
+                "    node.get_logger().info('home')\n"
+                "if all(place is not None for place in places):\n"
+                "    node.get_logger().info('home')\n"
+            },
+            "5:4: a generator is always true; write any(...) or all(...) around it",
+        ),
+        Example(
             "in parts of conditions",
             {"talker.py": _PARTS},
             "8:16: 'service_is_ready' is a method that is not called; write service_is_ready()",
@@ -163,6 +175,7 @@ class MethodNotCalled(RclpyRule):
     def check_in(self, package: Package, file: RclpyFile) -> Iterator[Diagnostic]:
         if package.name == "rclpy":
             return
+        yield from self._check_generators(file)
         for node in file.module.walk(ast.Attribute):
             if type(file.module.parent(node)) not in _PLACES or not isinstance(node.ctx, ast.Load):
                 continue
@@ -184,6 +197,12 @@ class MethodNotCalled(RclpyRule):
             elif _is_method_of_rclpy(file, node) or _is_own_method(file, node):
                 message = f"{node.attr!r} is a method that is not called; write {node.attr}()"
                 yield self.report(file.module.location(node), message, severity=_level(file, node))
+
+    def _check_generators(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        for generator in file.module.walk(ast.GeneratorExp):
+            if _is_condition(file, generator):
+                message = "a generator is always true; write any(...) or all(...) around it"
+                yield self.report(file.module.location(generator), message)
 
 
 _PLACES = frozenset(

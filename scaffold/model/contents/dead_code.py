@@ -83,6 +83,8 @@ def _may_use(name: str, node: ast.AST) -> bool:
 def _truth(package: Package, module: PythonModule, test: ast.expr) -> bool | None:
     """Return whether a condition is true; ``None`` if unknown."""
     match test:
+        case ast.GeneratorExp():
+            return True
         case ast.UnaryOp(op=ast.Not(), operand=operand):
             value = _truth(package, module, operand)
             return None if value is None else not value

@@ -79,7 +79,7 @@ def _mentioning(module: PythonModule, part: str) -> Iterator[ast.AST]:
     owner, _, name = part.rpartition(".")
     attributes = module.index.attributes(name)
     if owner:
-        yield from attributes
+        yield from (use for use in attributes if not _is_module(module, use.value))
         yield from (
             use
             for use in module.index.names(name)
@@ -103,6 +103,19 @@ def _mentioning(module: PythonModule, part: str) -> Iterator[ast.AST]:
         is_docstring = isinstance(module.parent(constant), ast.Expr)
         if not is_docstring and (f"{name}(" in text or code.fullmatch(text)):
             yield constant
+
+
+def _is_module(module: PythonModule, node: ast.expr) -> bool:
+    """Return whether an expression is a module, ``import math``, whose attributes are its own."""
+    if not isinstance(node, ast.Name):
+        return False
+    _, bindings = module.index.lookup(node.id, node) or (None, ())
+    names = {
+        alias.asname or alias.name.partition(".")[0]
+        for statement in module.walk(ast.Import)
+        for alias in statement.names
+    }
+    return bool(bindings) and all(item.kind == "import" for item in bindings) and node.id in names
 
 
 def _is_global(module: PythonModule, use: ast.Name) -> bool:

@@ -36,6 +36,8 @@ def is_dead_at(text: str, others: dict[str, str] | None = None) -> bool:
         (True, "def talk():\n    raise OSError\n    if talk:\n        print('here')\n"),
         (False, "def talk():\n    if talk:\n        return\n    print('here')\n"),
         (False, "def talk():\n    return\n\n\ndef say():\n    print('here')\n"),
+        (True, "if (x for x in y):\n    pass\nelse:\n    print('here')\n"),
+        (False, "if any(x for x in y):\n    pass\nelse:\n    print('here')\n"),
     ],
 )
 def test_code_after_a_return(text: str, *, dead: bool) -> None:
