@@ -24,9 +24,9 @@ from scaffold.api.types import (
 )
 
 from ._arguments import (
-    has_too_many,
     instead,
     is_int_as_well,
+    is_miscounted,
     is_one_of_publishers,
     is_uncallable,
     is_unpacked,
@@ -44,8 +44,12 @@ _ANY_VALUE = {
     *((name, "emulate_tty") for name in ("ExecuteLocal()", "ExecuteProcess()", "Node()")),
 }
 """Arguments that `ros2 launch --show-args` only prints, or that are only tested for truth."""
-_UNNOTICED = {("DeclareLaunchArgument()", "name"): "no argument of this name is declared"}
-"""Arguments that are only compared with others, with the consequence of a wrong one."""
+_UNNOTICED = {
+    ("DeclareLaunchArgument()", "name"): "no argument of this name is declared",
+    ("add_action()", "action"): "the launch stops when it comes to it",
+    ("add_entity()", "entity"): "the launch stops when it comes to it",
+}
+"""Arguments that the function only keeps, with the consequence of a wrong one."""
 _ENTITY = "LaunchDescriptionEntity"
 """What the callbacks of event handlers return."""
 _COUNTED_ELSEWHERE = frozenset(
@@ -99,7 +103,7 @@ def _argument(finding: TypeFinding, callee: str, expected: str, given: str) -> s
     if not is_misfit or callee.endswith(_UNCHECKED) or is_unpacked(finding):
         return ""
     is_set_elsewhere = given == "None" and isinstance(finding.expression(), ast.Attribute)
-    is_for_others = is_set_elsewhere or has_too_many(finding, callee)  # which TY004 reports
+    is_for_others = is_set_elsewhere or is_miscounted(finding, callee)  # which TY004 reports
     is_for_others = is_for_others or is_one_of_publishers(finding)
     is_for_others = is_for_others or (given == "float" and is_int_as_well(finding))
     if is_for_others:

@@ -34,10 +34,10 @@ def when_sent(expected: str) -> str:
     return _SENT.get(name_of(expected), "it cannot be published")
 
 
-def has_too_many(finding: TypeFinding, callee: str) -> bool:
-    """Return whether the call has too many positional arguments."""
+def is_miscounted(finding: TypeFinding, callee: str) -> bool:
+    """Return whether the call lacks an argument, or has one too many, which shifts the others."""
     call = finding.enclosing_call
-    return call is not None and overload_problem(finding.package, callee, call).startswith("takes")
+    return call is not None and overload_problem(finding.package, callee, call) != ""
 
 
 def is_one_of_publishers(finding: TypeFinding) -> bool:

@@ -123,6 +123,22 @@ class ArgumentTypeUnfit(TypeRule):
             "geometry_msgs.msg.Quaternion: euler_from_quaternion() fails",
         ),
         Example(
+            "a list of actions added at once; a call that lacks an argument",
+            {
+                "launch/a.launch.py": "from launch import LaunchDescription\n"
+                "from launch.actions import LogInfo\n\n\n"
+                "def generate_launch_description():\n"
+                "    description = LaunchDescription()\n"
+                "    description.add_action([LogInfo(msg='a'), LogInfo(msg='b')])\n"
+                "    return description\n",
+                "record.py": "from rosbag2_py import TopicMetadata\n\n"
+                "topic = TopicMetadata('/data', 'std_msgs/msg/String', 'cdr')\n",
+            },
+            "launch/a.launch.py:7:28: 'action' of add_action() must be a "
+            "launch.launch_description_entity.LaunchDescriptionEntity, not a list: the launch "
+            "stops when it comes to it",
+        ),
+        Example(
             "path of an address that may be None, str passed to a method of bytes",
             {
                 "upload.py": "import os\nfrom urllib.parse import urlparse\n\nimport rclpy\n\n"

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, RclpyRule, Report, Safety
 from scaffold.api.parameters import declared_by
-from scaffold.api.python import UNKNOWN, is_handled
+from scaffold.api.python import UNKNOWN, conditions_on, is_handled
 from scaffold.api.rclpy import FIELDS, RclpyFile, is_listed_parameter, name_asked, parameter_read
 
 _NUMBERS = ("double", "integer")
@@ -143,6 +143,13 @@ class ParameterValueUnfit(RclpyRule):
             },
         ),
         Example(
+            "another field, if the parameter has its type",
+            {
+                "talker.py": _VARIABLES.format("double_value")
+                + "        self.names = value.string_value if value.type == 4 else None\n"
+            },
+        ),
+        Example(
             "another field",
             {"talker.py": _NODE_FIELDS.format("integer_value")},
             Report(
@@ -206,12 +213,23 @@ class ParameterValueUnfit(RclpyRule):
                 parents = file.module.parents(field)
                 if any(isinstance(parent, ast.ExceptHandler) for parent in parents):
                     continue  # a fallback
+                if _is_of_asked_type(file, field):
+                    continue
                 _, end = file.module.span(field)
                 edit = Edit(file.module.path, end - len(field.attr), end, f"{declared}_value")
                 message = f"{read!r} is declared as {declared}: {field.attr} is always empty; "
                 message += f"use {declared}_value"
                 fix = Fix("Read the field of the declared type", (edit,), Safety.UNSAFE)
                 yield self.report(file.module.location(field), message, fix)
+
+
+def _is_of_asked_type(file: RclpyFile, field: ast.Attribute) -> bool:
+    """Return whether a field is only read if the parameter has some type."""
+    return any(
+        isinstance(part, ast.Attribute) and part.attr in {"type", "type_"}
+        for condition in conditions_on(file.module, field)
+        for part in ast.walk(condition)
+    )
 
 
 def _problems(package: Package, file: RclpyFile) -> Iterator[tuple[ast.expr, str]]:
