@@ -126,6 +126,13 @@ class DependencyWithoutKey(Rule):
             "3:16: 'threading' is a module of Python itself: rosdep stops; remove it",
         ),
         Example(
+            "a C++ library with the name of a module",
+            {
+                "package.xml": _MANIFEST.format("argparse"),
+                "CMakeLists.txt": "project(talker)\nfind_package(argparse REQUIRED)\n",
+            },
+        ),
+        Example(
             "a Python package in the package",
             {
                 "package.xml": _MANIFEST.format("helpers").replace("</package>", _PYTHON),
@@ -274,7 +281,7 @@ def _why_unknown(package: Package, name: str) -> str:
         return ""
     if name in LIBRARY_KEYS:
         return f"{name!r} is not a rosdep key: rosdep stops; the key is {LIBRARY_KEYS[name]!r}"
-    if name in sys.stdlib_module_names and name not in _KEYS_LIKE_MODULES:
+    if _is_of_python(package, name):
         return f"{name!r} is a module of Python itself: rosdep stops; remove it"
     if _is_own_module(package, name):
         return f"{name!r} is a Python package in this package: rosdep stops; remove it"
@@ -289,6 +296,13 @@ def _problem_of_python_2(name: str) -> str:
     is_known = rest in _OF_PYTHON_2 or key in module_keys()
     advice = f"use {key!r}" if is_known else "use the key for Python 3"
     return f"{name!r} is a Python 2 package: rosdep stops; {advice}"
+
+
+def _is_of_python(package: Package, name: str) -> bool:
+    """Return whether a name is that of a module of the standard library, which is not a key."""
+    is_module = name in sys.stdlib_module_names and name not in _KEYS_LIKE_MODULES
+    # ``argparse`` and others are also C++ libraries.
+    return is_module and not _is_found_by_cmake(package, name) and not _is_of_cpp(package, name)
 
 
 def _is_own_module(package: Package, name: str) -> bool:

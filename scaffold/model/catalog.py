@@ -260,9 +260,10 @@ LIBRARY_KEYS = {
     "PCL": "libpcl-all-dev",
     "eigen3": "eigen",
     "nlohmann_json": "nlohmann-json-dev",
+    "tkinter": "python3-tk",
     "yaml_cpp": "yaml-cpp",
 }
-"""Names that CMake and C++ have for libraries, with their rosdep keys."""
+"""Names that CMake, C++ and Python have for libraries, with their rosdep keys."""
 
 
 def keys_of_module(root: str) -> tuple[str, ...]:
