@@ -8,7 +8,7 @@ from collections.abc import Collection
 from scaffold.model.python.handlers import is_tested_to_fail, last_names
 from scaffold.model.python.module import PythonModule
 
-_CAUGHT = frozenset({"AttributeError", "TypeError", "AssertionError", "ValueError"})
+_CAUGHT = ("AssertionError", "AttributeError", "TypeError", "ValueError")
 
 
 def is_error_expected(
