@@ -832,6 +832,27 @@ def test_script_of_another_interpreter(package: Path, capsys: pytest.CaptureFixt
     assert severities(capsys, "E999") == {"talker/start.py": "warning", "talker/stop.py": "error"}
 
 
+@pytest.mark.parametrize(
+    ("path", "loading", "severity"),
+    [
+        ("talker/routes/__init__.py", "import_module(f'{__name__}.{name}')", "error"),
+        ("talker/node.py", "import_module('talker.routes.' + name)", "error"),
+        ("talker/node.py", "import_module(name, 'talker.routes')", "error"),
+        ("talker/node.py", "import_module('numpy')", "warning"),
+        ("talker/node.py", "import_module('talker.hops.' + name)", "warning"),
+    ],
+)
+def test_module_that_is_loaded_by_a_computed_name(
+    package: Path, capsys: pytest.CaptureFixture[str], path: str, loading: str, severity: str
+) -> None:
+    write(package / "setup.py", CONSOLE_SCRIPT)
+    write(package / "talker" / "routes" / "__init__.py", "")
+    write(package / "talker" / "routes" / "plan.py", f"class Plan:\n    {UNDEFINED}")
+    load = f"from importlib import import_module\n\n\ndef main(name):\n    {loading}\n"
+    write(package / path, load)
+    assert severities(capsys, "F821") == {"talker/routes/plan.py": severity}
+
+
 def test_undefined_name_in_the_first_line_of_an_uncalled_function(
     package: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

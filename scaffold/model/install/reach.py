@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
+from contextlib import suppress
 from typing import TYPE_CHECKING
 
-from scaffold import lazy_re
 from scaffold.formats.hash_comments import code_with
 from scaffold.model.contents.ament_cmake import programs
 from scaffold.model.discovery.texts_above import names_above
@@ -29,7 +30,12 @@ from scaffold.source import ViewError
 if TYPE_CHECKING:
     from scaffold.model.package import Package
 
-_IMPORTS_RELATIVELY = lazy_re.compile(rb"(?m)^[ \t]*from[ \t]+\.")
+_IMPORTS_RELATIVELY = re.compile(rb"(?m)^[ \t]*from[ \t]+\.")
+_LOADS = re.compile(
+    rb"\b(?:import_module|__import__)\(\s{0,99}(?![\"'][\w.]{1,99}[\"']\s{0,99}[,)])"
+    rb"|\b(?:iter_modules|walk_packages|exec_module)\("
+)
+"""Matches code that imports modules whose names are computed."""
 _CPP = (".cpp", ".hpp")
 _NAMING = (".py", ".cfg", ".toml", *_CPP)
 """The endings of files of other packages that may import a module, or tell who does."""
@@ -87,7 +93,7 @@ def _texts_about(package: Package, path: str, *, from_sources: bool) -> tuple[st
         return None
     if is_apart(package, path):
         return TEXTS if from_sources else ()
-    if _is_root(path) or not has_programs(package):
+    if _is_root(path) or not has_programs(package) or may_be_loaded(package, path):
         return None
     try:
         text = package.data(path) if package.has(path) else b""
@@ -130,16 +136,38 @@ def _users(package: Package, path: str, texts: tuple[str, ...]) -> Iterator[tupl
 def _code_naming(user: Package, package: Package, module: str, stem: str) -> Iterator[str]:
     """Yield the code of a package that names a module; other packages name its package as well."""
     is_own = user is package
+    word = stem.encode("utf-8", "surrogateescape")
     names = [name.encode() for name in (package.name, module.partition("/")[0])]
     for path in user.files:
         try:
             data = user.data(path) if path.endswith(_CPP if is_own else _NAMING) else b""
         except ViewError:  # too large for code that calls Python
             continue
-        if is_own or any(name in data for name in names):
-            code = code_with(data, stem.encode("utf-8", "surrogateescape"))
-            if names_file(code, stem, is_python=path.endswith(".py")):
-                yield path
+        is_about = word in data and (is_own or any(name in data for name in names))
+        if is_about and names_file(code_with(data, word), stem, is_python=path.endswith(".py")):
+            yield path
+
+
+def may_be_loaded(package: Package, path: str) -> bool:
+    """Return whether code next to a module, or about its directory, imports computed names."""
+    directory = path.rpartition("/")[0]
+    name = directory.rpartition("/")[2].encode("utf-8", "surrogateescape")
+    return any(
+        place == directory or (bool(name) and name in data) for place, data in _loading(package)
+    )
+
+
+def _loading(package: Package) -> list[tuple[str, bytes]]:
+    """Return the Python files that import computed names: their directories and contents."""
+
+    def find() -> Iterator[tuple[str, bytes]]:
+        for path in package.python_files:
+            with suppress(ViewError):
+                data = package.data(path)
+                if _LOADS.search(data):
+                    yield path.rpartition("/")[0], data
+
+    return package.remember("files with computed imports", lambda: [*find()])
 
 
 def is_only_importable(package: Package, path: str) -> bool:

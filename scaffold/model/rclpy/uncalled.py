@@ -9,11 +9,16 @@ from typing import TYPE_CHECKING
 
 from scaffold import lazy_re
 from scaffold.files.limits import most_bytes
-from scaffold.formats.hash_comments import without_comments
+from scaffold.formats.hash_comments import code_with
 from scaffold.model.contents.parts import GUARD, TOP, nodes_of, part_at, parts_mentioning
 from scaffold.model.contents.python_facts import paths_importing
 from scaffold.model.facts import fact
-from scaffold.model.install.reach import has_programs, is_only_importable, is_unreached
+from scaffold.model.install.reach import (
+    has_programs,
+    is_only_importable,
+    is_unreached,
+    may_be_loaded,
+)
 from scaffold.model.install.unused import TEXTS, is_named
 from scaffold.model.rclpy.api import NODE, has
 from scaffold.model.rclpy.own_modules import OwnModules
@@ -145,7 +150,9 @@ def _is_used_by_name(package: Package, path: str, part: str) -> bool:
     """Return whether whatever uses a function, method or class has to mention its name."""
     module = package.module(path)
     nodes = nodes_of(module, part)
-    if not nodes or _looks_up_names(module) or not _is_for_programs(package, module):
+    if not nodes or _looks_up_names(module) or may_be_loaded(package, path):
+        return False
+    if not _is_for_programs(package, module):
         return False
     return all(
         _has_known_users(package, module, node)
@@ -279,7 +286,7 @@ def _files_with(package: Package, word: bytes) -> Iterator[str]:
             continue
         data = _data_of(package, path)
         pattern = in_python if is_python else in_cpp if path.endswith(_CPP) else in_data
-        if word in data and pattern.search(without_comments(data)):
+        if word in data and pattern.search(code_with(data, word)):
             yield path
 
 
