@@ -46,6 +46,8 @@ _OF_TESTS = frozenset({"LY020", "LY021", "PX050"})
 """Codes that are errors only if a test of the package checks the file."""
 _QUOTED = lazy_re.compile(r"'([^']+)'")
 _UNDEFINED = "F821"
+_OF_CALLS = "never call"
+"""Part of messages about code that is not called, but should be."""
 _OF_FORMATS = ("F50", "F52")
 """The first parts of codes about the format of a text."""
 _UNDECLARED = "PX020"
@@ -227,6 +229,8 @@ def _is_uncalled(package: Package, diagnostic: Diagnostic) -> bool:
 
     An undefined name in the first line of a function is evaluated when that is defined.
     """
+    if _OF_CALLS in diagnostic.message:
+        return False
     is_undefined = diagnostic.code == _UNDEFINED
     is_early = is_undefined and any(
         any(isinstance(item, ast.arguments) for item in module.parents(name))

@@ -838,6 +838,7 @@ def test_script_of_another_interpreter(package: Path, capsys: pytest.CaptureFixt
         ("talker/routes/__init__.py", "import_module(f'{__name__}.{name}')", "error"),
         ("talker/node.py", "import_module('talker.routes.' + name)", "error"),
         ("talker/node.py", "import_module(name, 'talker.routes')", "error"),
+        ("talker/node.py", "import_module(name)", "error"),
         ("talker/node.py", "import_module('numpy')", "warning"),
         ("talker/node.py", "import_module('talker.hops.' + name)", "warning"),
     ],
@@ -850,7 +851,29 @@ def test_module_that_is_loaded_by_a_computed_name(
     write(package / "talker" / "routes" / "plan.py", f"class Plan:\n    {UNDEFINED}")
     load = f"from importlib import import_module\n\n\ndef main(name):\n    {loading}\n"
     write(package / path, load)
+    route = "talker.routes.plan" if loading == "import_module(name)" else "walk"
+    write(package / "config" / "routes.yaml", f"route: {route}\n")
     assert severities(capsys, "F821") == {"talker/routes/plan.py": severity}
+
+
+@pytest.mark.parametrize(
+    ("code", "methods"),
+    [
+        ("ND001", "    def _init_(self):\n        super().__init__('talker')\n"),
+        (
+            "ND066",
+            "    def on_configure(self, state): ...\n\n    def on_activate(self, state): ...\n",
+        ),
+    ],
+)
+def test_method_that_should_be_called(
+    package: Path, capsys: pytest.CaptureFixture[str], code: str, methods: str
+) -> None:
+    write(package / "setup.py", CONSOLE_SCRIPT)
+    node = f"import rclpy\nfrom rclpy.node import Node\n\n\nclass Talker(Node):\n{methods}\n\n"
+    node += "def main():\n    rclpy.init()\n    rclpy.spin(Talker('talker'))\n"
+    write(package / "talker" / "node.py", node)
+    assert severities(capsys, code) == {"talker/node.py": "error"}
 
 
 def test_undefined_name_in_the_first_line_of_an_uncalled_function(

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from contextlib import suppress
 from typing import TYPE_CHECKING
 
 from scaffold.formats.hash_comments import code_with
@@ -36,6 +35,7 @@ _LOADS = re.compile(
     rb"|\b(?:iter_modules|walk_packages|exec_module)\("
 )
 """Matches code that imports modules whose names are computed."""
+_OF_NAMES = (".yaml", ".yml", ".json")
 _CPP = (".cpp", ".hpp")
 _NAMING = (".py", ".cfg", ".toml", *_CPP)
 """The endings of files of other packages that may import a module, or tell who does."""
@@ -64,23 +64,30 @@ def is_unreached(package: Package, path: str, *, from_sources: bool = True) -> b
     """
 
     def find() -> bool:
-        if path == "setup.py":
-            return is_unused_setup_py(package)
-        pending = [(package, path)]
-        for owner, item in pending:  # which grows
-            texts = _texts_about(owner, item, from_sources=from_sources)
-            if texts is None:
-                return False
-            for user, naming in _users(owner, item, texts):
-                if not naming.endswith(".py"):
-                    if item.endswith(INIT):
-                        continue  # which may mean the ROS package
-                    return False
-                if (user, naming) not in pending:
-                    pending.append((user, naming))
-        return True
+        try:
+            return _is_unreached(package, path, from_sources=from_sources)
+        except ViewError:  # of setup.py, for example
+            return False
 
     return package.remember(("unreached", path, from_sources), find)
+
+
+def _is_unreached(package: Package, path: str, *, from_sources: bool) -> bool:
+    if path == "setup.py":
+        return is_unused_setup_py(package)
+    pending = [(package, path)]
+    for owner, item in pending:  # which grows
+        texts = _texts_about(owner, item, from_sources=from_sources)
+        if texts is None:
+            return False
+        for user, naming in _users(owner, item, texts):
+            if not naming.endswith(".py"):
+                if item.endswith(INIT):
+                    continue  # which may mean the ROS package
+                return False
+            if (user, naming) not in pending:
+                pending.append((user, naming))
+    return True
 
 
 def _texts_about(package: Package, path: str, *, from_sources: bool) -> tuple[str, ...] | None:
@@ -95,10 +102,7 @@ def _texts_about(package: Package, path: str, *, from_sources: bool) -> tuple[st
         return TEXTS if from_sources else ()
     if _is_root(path) or not has_programs(package) or may_be_loaded(package, path):
         return None
-    try:
-        text = package.data(path) if package.has(path) else b""
-    except ViewError:
-        return None
+    text = package.data(path) if package.has(path) else b""
     has_guard = b"__main__" in text and not _IMPORTS_RELATIVELY.search(text)
     if not has_guard and b"def main(" not in text:
         return ()
@@ -139,22 +143,35 @@ def _code_naming(user: Package, package: Package, module: str, stem: str) -> Ite
     word = stem.encode("utf-8", "surrogateescape")
     names = [name.encode() for name in (package.name, module.partition("/")[0])]
     for path in user.files:
-        try:
-            data = user.data(path) if path.endswith(_CPP if is_own else _NAMING) else b""
-        except ViewError:  # too large for code that calls Python
-            continue
+        data = _data(user, path) if path.endswith(_CPP if is_own else _NAMING) else b""
         is_about = word in data and (is_own or any(name in data for name in names))
         if is_about and names_file(code_with(data, word), stem, is_python=path.endswith(".py")):
             yield path
 
 
 def may_be_loaded(package: Package, path: str) -> bool:
-    """Return whether code next to a module, or about its directory, imports computed names."""
-    directory = path.rpartition("/")[0]
-    name = directory.rpartition("/")[2].encode("utf-8", "surrogateescape")
-    return any(
-        place == directory or (bool(name) and name in data) for place, data in _loading(package)
+    """Return whether a package imports computed names that may result in a module.
+
+    The code is next to the module, it is about its directory, or a file with data has its name.
+    """
+    directory, _, name = path.rpartition("/")
+    above, stem = (
+        text.encode("utf-8", "surrogateescape")
+        for text in (directory.rpartition("/")[2], name.removesuffix(".py"))
     )
+    loading = _loading(package)
+    return any(place == directory or (above and above in data) for place, data in loading) or (
+        bool(loading)
+        and any(stem in _data(package, x) for x in package.files if x.endswith(_OF_NAMES))
+    )
+
+
+def _data(package: Package, path: str) -> bytes:
+    """Return the content of a file; empty if it cannot be read."""
+    try:
+        return package.data(path)
+    except ViewError:
+        return b""
 
 
 def _loading(package: Package) -> list[tuple[str, bytes]]:
@@ -162,10 +179,9 @@ def _loading(package: Package) -> list[tuple[str, bytes]]:
 
     def find() -> Iterator[tuple[str, bytes]]:
         for path in package.python_files:
-            with suppress(ViewError):
-                data = package.data(path)
-                if _LOADS.search(data):
-                    yield path.rpartition("/")[0], data
+            data = _data(package, path)
+            if _LOADS.search(data):
+                yield path.rpartition("/")[0], data
 
     return package.remember("files with computed imports", lambda: [*find()])
 
