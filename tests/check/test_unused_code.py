@@ -849,6 +849,7 @@ def test_module_that_is_loaded_by_a_computed_name(
     write(package / "setup.py", CONSOLE_SCRIPT)
     write(package / "talker" / "routes" / "__init__.py", "")
     write(package / "talker" / "routes" / "plan.py", f"class Plan:\n    {UNDEFINED}")
+    write(package / "talker" / "node.py", "import talker.routes\n")
     load = f"from importlib import import_module\n\n\ndef main(name):\n    {loading}\n"
     write(package / path, load)
     route = "talker.routes.plan" if loading == "import_module(name)" else "walk"

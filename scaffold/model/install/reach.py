@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
+from scaffold import lazy_re
 from scaffold.formats.hash_comments import code_with
 from scaffold.model.contents.ament_cmake import programs
 from scaffold.model.discovery.texts_above import names_above
@@ -29,8 +29,8 @@ from scaffold.source import ViewError
 if TYPE_CHECKING:
     from scaffold.model.package import Package
 
-_IMPORTS_RELATIVELY = re.compile(rb"(?m)^[ \t]*from[ \t]+\.")
-_LOADS = re.compile(
+_IMPORTS_RELATIVELY = lazy_re.compile(rb"(?m)^[ \t]*from[ \t]+\.")
+_LOADS = lazy_re.compile(
     rb"\b(?:import_module|__import__)\(\s{0,99}(?![\"'][\w.]{1,99}[\"']\s{0,99}[,)])"
     rb"|\b(?:iter_modules|walk_packages|exec_module)\("
 )
@@ -100,7 +100,7 @@ def _texts_about(package: Package, path: str, *, from_sources: bool) -> tuple[st
         return None
     if is_apart(package, path):
         return TEXTS if from_sources else ()
-    if _is_root(path) or not has_programs(package) or may_be_loaded(package, path):
+    if _is_root(path) or not has_programs(package):
         return None
     text = package.data(path) if package.has(path) else b""
     has_guard = b"__main__" in text and not _IMPORTS_RELATIVELY.search(text)
@@ -131,7 +131,7 @@ def _users(package: Package, path: str, texts: tuple[str, ...]) -> Iterator[tupl
     if is_in_tests(path):
         return  # its own tests are apart too
     stem = path.removesuffix(f"/{INIT}").rpartition("/")[2].removesuffix(".py")
-    for naming in files_naming(package, path, stem, texts):
+    for naming in (*files_naming(package, path, stem, texts), *loaders(package, path)):
         yield package, naming
     for user in package.workspace:
         yield from ((user, naming) for naming in _code_naming(user, package, path, stem))
@@ -149,21 +149,24 @@ def _code_naming(user: Package, package: Package, module: str, stem: str) -> Ite
             yield path
 
 
-def may_be_loaded(package: Package, path: str) -> bool:
-    """Return whether a package imports computed names that may result in a module.
+def loaders(package: Package, path: str) -> Iterator[str]:
+    """Yield the files of a package that import computed names, which may result in a module.
 
-    The code is next to the module, it is about its directory, or a file with data has its name.
+    They are next to the module, or about its directory, or a file with data has its name.
     """
     directory, _, name = path.rpartition("/")
     above, stem = (
         text.encode("utf-8", "surrogateescape")
         for text in (directory.rpartition("/")[2], name.removesuffix(".py"))
     )
-    loading = _loading(package)
-    return any(place == directory or (above and above in data) for place, data in loading) or (
-        bool(loading)
-        and any(stem in _data(package, x) for x in package.files if x.endswith(_OF_NAMES))
+    loading = [(item, data) for item, data in _loading(package) if item != path]
+    is_in_data = bool(loading) and any(
+        stem in _data(package, item) for item in package.files if item.endswith(_OF_NAMES)
     )
+    for item, data in loading:
+        is_beside = item.rpartition("/")[0] == directory
+        if is_beside or is_in_data or (above and above in data):
+            yield item
 
 
 def _data(package: Package, path: str) -> bytes:
@@ -175,13 +178,13 @@ def _data(package: Package, path: str) -> bytes:
 
 
 def _loading(package: Package) -> list[tuple[str, bytes]]:
-    """Return the Python files that import computed names: their directories and contents."""
+    """Return the Python files that import computed names, with their contents."""
 
     def find() -> Iterator[tuple[str, bytes]]:
         for path in package.python_files:
             data = _data(package, path)
             if _LOADS.search(data):
-                yield path.rpartition("/")[0], data
+                yield path, data
 
     return package.remember("files with computed imports", lambda: [*find()])
 

@@ -17,7 +17,7 @@ from scaffold.model.install.reach import (
     has_programs,
     is_only_importable,
     is_unreached,
-    may_be_loaded,
+    loaders,
 )
 from scaffold.model.install.unused import TEXTS, is_named
 from scaffold.model.rclpy.api import NODE, has
@@ -150,7 +150,7 @@ def _is_used_by_name(package: Package, path: str, part: str) -> bool:
     """Return whether whatever uses a function, method or class has to mention its name."""
     module = package.module(path)
     nodes = nodes_of(module, part)
-    if not nodes or _looks_up_names(module) or may_be_loaded(package, path):
+    if not nodes or _looks_up_names(module) or any(loaders(package, path)):
         return False
     if not _is_for_programs(package, module):
         return False
