@@ -16,7 +16,7 @@ from scaffold.api import (
     Rule,
     closest_name,
 )
-from scaffold.api.cmake import Install, InstallItem, generations, is_made_by_build, runs_if_exists
+from scaffold.api.cmake import Command, Install, InstallItem, generations, is_made_by_build
 from scaffold.api.interfaces import SECTIONS, closest_word
 from scaffold.api.workspace import is_untracked
 
@@ -244,7 +244,7 @@ class NamedFileMissing(Rule):
         path = item.path
         if not path or not self._is_own(path) or is_made_by_build(package, path):
             return None
-        if runs_if_exists(install.command) or _is_elsewhere(package, path):
+        if _runs_if_exists(install.command) or _is_elsewhere(package, path):
             return None
         nested = [f"{directory}/" for directory in package.tree.nested]
         if any(f"{path}/".startswith(item) or item.startswith(f"{path}/") for item in nested):
@@ -394,3 +394,14 @@ def _is_linked(package: Package, path: str) -> bool:
     disk, at = package.outside, os.path.join(package.place, path)
     is_own = disk.real(at) == os.path.join(disk.real(package.place), path)
     return not is_own and disk.exists(at)
+
+
+def _runs_if_exists(command: Command) -> bool:
+    """Return whether a command runs only if a file exists: ``if(EXISTS ...)``."""
+    at = command
+    while at.parent is not None and at.branch is not None:
+        asked = [at.branch, at.parent] if at.branch.name == "else" else [at.branch]
+        if any("EXISTS" in item.values for item in asked):
+            return True
+        at = at.parent
+    return False

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 from collections.abc import Iterator
 
 from scaffold.api import (
@@ -16,7 +17,7 @@ from scaffold.api import (
     Safety,
     ViewError,
 )
-from scaffold.api.cmake import Install, is_only_imported, programs, runs_with_python
+from scaffold.api.cmake import Install, programs, runs_with_python
 from scaffold.api.install import paths_imported_by
 
 _LISTS = "project(talker)\ninstall(PROGRAMS talker/node.py DESTINATION lib/${PROJECT_NAME})\n"
@@ -246,7 +247,7 @@ class ScriptNotExecutable(Rule):
                 package.is_executable(path)
                 or not path.endswith(".py")
                 or path.endswith("__init__.py")
-                or is_only_imported(package, path)
+                or _is_only_imported(package, path)
                 or (f"/{path}".endswith(imported) and not _has_main(package, path))
             ):
                 continue
@@ -316,7 +317,7 @@ class ScriptNotExecutable(Rule):
         for path in sorted(paths):
             if not path.endswith(".py") or path.endswith("__init__.py") or not package.has(path):
                 continue
-            if is_only_imported(package, path) or runs_with_python(package, path):
+            if _is_only_imported(package, path) or runs_with_python(package, path):
                 continue
             if f"/{path}".endswith(imported) and "rclpy" not in package.imports(path):
                 continue
@@ -391,3 +392,34 @@ def _starts_python(line: str) -> bool:
     if words[:1] == ["/bin/env"]:
         return words[1:] == ["python3"]
     return words[:1] in (["/usr/bin/python3"], ["/usr/bin/python3.12"], ["/bin/python3"])
+
+
+def _is_only_imported(package: Package, path: str) -> bool:
+    """Return whether an installed Python file only has definitions for import."""
+    try:
+        module = package.module(path)
+    except ViewError:
+        return False
+    if module.has_main_guard or "main" in module.functions:
+        return False  # an uncalled main is meant to be started
+    if not module.functions and not module.classes:
+        return False
+    return all(_only_defines(statement) for statement in module.tree.body)
+
+
+def _only_defines(statement: ast.stmt) -> bool:
+    match statement:
+        case ast.Expr(value=ast.Constant() | ast.Call(func=ast.Name(id="setattr"))):
+            return True
+        case ast.For(body=body, orelse=orelse) | ast.If(body=body, orelse=orelse):
+            return all(map(_only_defines, [*body, *orelse]))
+    return isinstance(
+        statement,
+        ast.Import
+        | ast.ImportFrom
+        | ast.FunctionDef
+        | ast.AsyncFunctionDef
+        | ast.ClassDef
+        | ast.Assign
+        | ast.AnnAssign,
+    )

@@ -10,7 +10,6 @@ from scaffold.api.install import (
     file_of,
     intended_module,
     may_be_made,
-    modules_of,
     moved_to,
     own_roots,
     uninstalled_import,
@@ -202,7 +201,7 @@ class OwnImportMissing(Rule):
             yield from self._check_names(package, node, name, path)
         elif root in roots:
             if not may_be_made(package, name):
-                modules = [item for item in modules_of(package, root) if "__init__" not in item]
+                modules = [item for item in _modules_of(package, root) if "__init__" not in item]
                 closest = closest_name(package, name, modules, 0.6)
                 hint = f"; did you mean {closest!r}?" if closest else ""
                 message = f"the package has no module {name!r}: ModuleNotFoundError{hint}"
@@ -242,3 +241,12 @@ def _cause(package: Package, where: str, node: Import, name: str) -> str:
         is_moved = file_of(package, absolute_name(f"{above}/{file}", node)) != ""
         directory = where.rpartition("/")[0] if is_moved else ""
     return f"moved to {directory}" if directory else ""
+
+
+def _modules_of(package: Package, root: str) -> list[str]:
+    """Return the names of the modules in a directory and below it."""
+    return [
+        path.removesuffix(".py").replace("/", ".")
+        for path in package.python_files
+        if path.startswith(f"{root}/") and path.endswith(".py")
+    ]

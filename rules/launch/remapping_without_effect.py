@@ -13,15 +13,7 @@ from scaffold.api import (
     closest_name,
     listed_names,
 )
-from scaffold.api.launch import (
-    Remapped,
-    has_name,
-    is_reversed,
-    misses_namespace,
-    misses_privacy,
-    names_of,
-    remapped_nodes,
-)
+from scaffold.api.launch import Remapped, code_of, is_known, markup_files, names_of, started_nodes
 
 _FILES = {
     "package.xml": "<package><name>demo</name>"
@@ -43,6 +35,10 @@ _LAUNCH = (
     "        Node(package='demo', executable='talk',{}\n"
     "             remappings=[('{}', 'other')]),\n    ])\n"
 )
+
+
+_ALWAYS = frozenset({"clock", "parameter_events", "rosout", "tf", "tf_static"})
+"""Topics of any node, also through tf2."""
 
 
 class RemappingWithoutEffect(Rule):
@@ -156,7 +152,7 @@ class RemappingWithoutEffect(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for node in remapped_nodes(package):
+        for node in _remapped_nodes(package):
             names = names_of(node, package)
             for source, target, location in node.remappings if names is not None else ():
                 problem = _problem(package, node, names or set(), (source, target))
@@ -169,24 +165,24 @@ def _problem(
 ) -> str:
     """Return why a remapping has no effect; empty if it may have one."""
     source, target = remapping
-    full_name = misses_namespace(names, source, node.namespace)
+    full_name = _misses_namespace(names, source, node.namespace)
     if full_name:
         return (
             f"{node.program!r} uses {full_name!r} in its namespace: nothing is remapped; write "
             f"{source.removeprefix('/')!r}"
         )
-    private = misses_privacy(names, source)
+    private = _misses_privacy(names, source)
     if private:
         return (
             f"{node.program!r} uses the private name {private!r}: nothing is remapped; write "
             f"{private!r}"
         )
-    if is_reversed(names, source, target, node.name):
+    if _is_reversed(names, source, target, node.name):
         return (
             f"{node.program!r} uses {target!r}, not {source!r}: nothing is remapped; the name in "
             f"the code comes first"
         )
-    if has_name(names, source, node.name):
+    if _has_name(names, source, node.name):
         return ""
     return (
         f"{node.program!r} has no topic, service or action {source!r}: "
@@ -199,3 +195,81 @@ def _hint(package: Package, source: str, names: set[str]) -> str:
     if closest:
         return f"did you mean {closest!r}?"
     return f"it has {listed_names(names, source)}"
+
+
+def _remapped_nodes(package: Package) -> Iterator[Remapped]:
+    """Yield the nodes with remappings in launch files of a package."""
+    for started in started_nodes(package):
+        owner = started.owner(package) if started.remappings else None
+        if owner is not None:
+            given = {item.name for item in started.parameters}
+            yield Remapped(
+                owner,
+                str(started.executable),
+                started.name(package),
+                started.namespace,
+                started.remappings,
+                None if started.has_more_parameters else given,
+            )
+    for file in markup_files(package):
+        for node in file.nodes:
+            attributes = [attribute for attribute in node.remappings if is_known(attribute)]
+            if not attributes or node.package is None or node.executable is None:
+                continue
+            owner = code_of(package, node.package.value, node.executable.value)
+            if owner is not None:
+                name = node.name.value if node.name is not None else owner.node_name
+                yield Remapped(
+                    owner,
+                    node.executable.value,
+                    name,
+                    None,
+                    [(attribute.value, None, attribute.location) for attribute in attributes],
+                    node.parameter_names,
+                )
+
+
+def _misses_privacy(names: set[str], source: str) -> str:
+    """Return the private name that a node has, if a remapping names it without its ``~/``."""
+    is_plain = "/" not in source and "~" not in source and ":" not in source
+    others = {name.rpartition("/")[2] for name in names if name != f"~/{source}"}
+    return f"~/{source}" if is_plain and f"~/{source}" in names and source not in others else ""
+
+
+def _has_name(names: set[str], source: str, node: object) -> bool:
+    """Return whether a remapping may apply to a name of a node."""
+    wanted = source.rpartition(":")[2].partition("/_action/")[0].removeprefix("~").strip("/")
+    last = wanted.rpartition("/")[2]
+    if (
+        wanted in _ALWAYS
+        or source.startswith(("__", "rosservice", "rostopic"))
+        or "parameter" in last
+    ):
+        return True
+    plain = {name.removeprefix("~").strip("/") for name in names}
+    plain |= {f"{node}/{name}" for name in plain}
+    return any(
+        name == wanted or name.endswith(f"/{wanted}") or wanted.endswith(f"/{name}")
+        for name in plain
+    )
+
+
+def _is_reversed(names: set[str], source: str, target: str | None, node: object) -> bool:
+    """Return whether a remapping is reversed: the node has the target, not the source."""
+    if target is None or any(name.startswith("/") for name in names):
+        return False
+    plain = {name.removeprefix("~").strip("/") for name in names}
+    wanted = {source, source.removeprefix("~/"), source.removeprefix(f"{node}/")}
+    if wanted & plain or source.startswith("/") or source.strip("/") in _ALWAYS:
+        return False
+    return target in names
+
+
+def _misses_namespace(names: set[str], source: str, namespace: object) -> str:
+    """Return the name that a node has in its namespace, if a remapping names it without that."""
+    name = source.removeprefix("/")
+    if not isinstance(namespace, str) or not namespace.strip("/") or name == source:
+        return ""
+    if name in _ALWAYS or name not in names or source in names:
+        return ""
+    return f"/{namespace.strip('/')}/{name}"

@@ -2,18 +2,12 @@
 
 from __future__ import annotations
 
+import errno
+import warnings
 from collections.abc import Iterator, Sequence
 
 from scaffold.api import Diagnostic, Effect, Example, Package, Rule
-from scaffold.api.interfaces import (
-    ProblemKind,
-    escape_problem,
-    interface_files,
-    problems,
-    reserved,
-    reserved_constant,
-    reserved_type,
-)
+from scaffold.api.interfaces import ProblemKind, interface_files, problems, reserved
 
 _LISTS = "project(my_msgs)\nrosidl_generate_interfaces(${PROJECT_NAME} msg/Beat.msg srv/Add.srv)\n"
 _LISTS_NAMES = {
@@ -28,6 +22,15 @@ _KINDS = (
 )
 _LISTS_KEYWORDS = "project(my_msgs)\nrosidl_generate_interfaces(${PROJECT_NAME} msg/Beat.msg)\n"
 _LISTS_ESCAPES = "project(my_msgs)\nrosidl_generate_interfaces(${PROJECT_NAME} msg/Beat.msg)\n"
+
+
+_C_MACROS = frozenset(
+    {"BUFSIZ", "CLOCKS_PER_SEC", "EOF", "EXIT_FAILURE", "EXIT_SUCCESS", "NULL", "RAND_MAX"}
+    | {"SEEK_CUR", "SEEK_END", "SEEK_SET", "SIZE_MAX"}
+    | {f"{kind}{bits}_MAX" for kind in ("INT", "UINT") for bits in (8, 16, 32, 64)}
+    | {f"INT{bits}_MIN" for bits in (8, 16, 32, 64)}
+)
+"""Macros of the headers that generated C++ code includes."""
 
 
 class InterfaceMalformed(Rule):
@@ -202,7 +205,7 @@ class InterfaceMalformed(Rule):
 
     def _check_keywords(self, package: Package) -> Iterator[Diagnostic]:
         for file in interface_files(package):
-            message = reserved_type(file.name)
+            message = _reserved_type(file.name)
             if message:
                 yield self.report(package.start_of(file.path), message)
             for section in file.definition.sections:
@@ -211,7 +214,7 @@ class InterfaceMalformed(Rule):
                     if message:
                         yield self.report(field, message)
                 for constant in section.constants:
-                    message = reserved_constant(constant.name)
+                    message = _reserved_constant(constant.name)
                     if message:
                         yield self.report(constant, message)
 
@@ -223,11 +226,11 @@ class InterfaceMalformed(Rule):
             declared = _last_declaration(lines)
             for number, line in enumerate(lines):
                 text, mark, comment = line.rstrip().partition("#")
-                problem = escape_problem(comment.lstrip("#")) if mark else ""
+                problem = _escape_problem(comment.lstrip("#")) if mark else ""
                 if problem and number <= declared:
                     at = source.location(start + len(text), start + len(line.rstrip()))
                     yield self.report(at, f"rosidl cannot read the comment: {problem}")
-                problem = escape_problem(text)
+                problem = _escape_problem(text)
                 if problem:
                     at = source.location(start, start + len(text))
                     yield self.report(at, f"rosidl cannot read the value: {problem}")
@@ -238,3 +241,32 @@ def _last_declaration(lines: Sequence[str]) -> int:
     """Return the index of the last declaration: comments after it are dropped."""
     stated = [n for n, line in enumerate(lines) if line.partition("#")[0].strip(" \t\r\n-")]
     return stated[-1] if stated else -1
+
+
+def _escape_problem(text: str) -> str:
+    """Return the problem with the backslashes of a text, which rosidl reads as escapes."""
+    if "\\" not in text:
+        return ""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # of \d, which is kept
+        try:
+            read = text.encode().decode("unicode_escape")
+        except UnicodeDecodeError as error:
+            return error.reason
+    return "its \\n ends the line in the middle of a text" if "\n" in read else ""
+
+
+def _reserved_constant(name: str) -> str:
+    """Return why a constant cannot have a name; empty if it can."""
+    if name in _C_MACROS or name in errno.errorcode.values():
+        return f"{name!r} is a macro of C: the generated C++ code does not compile"
+    return ""
+
+
+def _reserved_type(name: str) -> str:
+    """Return why an interface cannot have a name; empty if it can."""
+    if name in {"None", "True", "False"}:
+        return f"{name!r} is a keyword of Python: the generated module is a SyntaxError"
+    if name in _C_MACROS:
+        return f"{name!r} is a macro of C: the generated C++ code does not compile"
+    return ""

@@ -3,16 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from difflib import SequenceMatcher
 
 from scaffold.api import Diagnostic, Effect, Example, Package, Report, Rule, Severity
-from scaffold.api.launch import (
-    StartedNode,
-    markup_files,
-    names_alike,
-    node_names,
-    started_nodes,
-    use_of,
-)
+from scaffold.api.launch import StartedNode, markup_files, node_names, started_nodes, use_of
 from scaffold.api.parameters import (
     ParameterFile,
     Section,
@@ -46,6 +40,9 @@ _CREATED = (
 )
 """Packages whose node creates others, with the beginnings of their names: controllers, costmaps."""
 _MANIFEST = '<package format="3"><name>demo</name></package>\n'
+
+
+_ALIKE = 0.75
 
 
 def _files(section: str) -> dict[str, str]:
@@ -246,7 +243,7 @@ class NodeUnknown(Rule):
             name = section.name
             if section.is_pattern or name in names or _may_be_created(use.nodes, name):
                 continue
-            alike = names_alike(file, names, name)
+            alike = _names_alike(file, names, name)
             is_renamed = name not in everywhere or name in codes
             renamed = _renamed(package, file, name) if use.complete else []
             if alike or renamed or (useless and use.complete and is_renamed):
@@ -267,7 +264,7 @@ class NodeUnknown(Rule):
         everywhere = node_names(package)
         for section in file.sections if complete else ():
             name = section.name
-            alike = names_alike(file, names, name)
+            alike = _names_alike(file, names, name)
             if not alike or name in everywhere or section.is_pattern:
                 continue
             message = f"no node of this package is named {name!r}"
@@ -347,3 +344,19 @@ def _other_node(package: Package, section: Section, nodes: list[StartedNode]) ->
     if None in names or any(node.is_scoped or node.namespace for node in named):
         return None
     return named[0] if named and not any(section.fits(str(name)) for name in names) else None
+
+
+def _names_alike(file: ParameterFile, names: set[str], name: str) -> list[str]:
+    """Return the nodes without a section that one for ``name`` may be meant for."""
+    given = {section.name for section in file.sections}
+    return [other for other in sorted(names - given) if _is_alike(name, other)]
+
+
+def _is_alike(name: str, other: str) -> bool:
+    """Return whether one node name may be a misspelling of the other."""
+    first, second = name.replace("_", "").lower(), other.replace("_", "").lower()
+    if first == second:
+        return name != other
+    if first in {second + "node", "node" + second} or second in {first + "node", "node" + first}:
+        return True
+    return SequenceMatcher(None, first, second).ratio() >= _ALIKE

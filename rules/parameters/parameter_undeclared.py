@@ -26,17 +26,10 @@ from scaffold.api.launch import (
     nodes_for,
     started_nodes,
 )
-from scaffold.api.parameters import (
-    Declared,
-    comparable,
-    comparable_in_file,
-    declared_by,
-    own_texts,
-    own_values,
-    parameter_files,
-    plain_name,
-)
+from scaffold.api.parameters import Declared, declared_by, parameter_files
 from scaffold.api.programs import KnownNode
+
+from ._own_values import comparable, comparable_in_file, own_texts, own_values, plain_name
 
 _NODE = (
     "from rclpy.node import Node\n\n\n"

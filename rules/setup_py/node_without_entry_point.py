@@ -6,8 +6,9 @@ import re
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity, ViewError, fact
-from scaffold.api.install import names_imported
+from scaffold.api.install import absolute_name
 from scaffold.api.launch import launch_files
+from scaffold.api.python import imports_by_path
 from scaffold.api.rclpy import rclpy_file, rclpy_paths
 from scaffold.api.setup_py import SetupPy
 
@@ -85,7 +86,7 @@ class NodeWithoutEntryPoint(Rule):
         if keyword is None or not _is_complete(package, setup):
             return
         started = {entry.module for entry in setup.entry_points}
-        used = names_imported(package)
+        used = _names_imported(package)
         copied = _started_classes(package, started)
         for path, classes, is_program in _nodes(package):
             name = path.removesuffix(".py").replace("/", ".")
@@ -158,3 +159,13 @@ def _is_complete(package: Package, setup: SetupPy) -> bool:
     ):
         return False
     return not any(str(data.destination).startswith("lib") for data in setup.data_files)
+
+
+def _names_imported(package: Package) -> set[str]:
+    """Return the full names imported by modules of the package: modules and names in them."""
+    result: set[str] = set()
+    for path, imports in imports_by_path(package):
+        for item in imports:
+            base = absolute_name(path, item)
+            result |= {base, *(f"{base}.{name.name}" for name in item.names)}
+    return result

@@ -6,12 +6,12 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Rule
-from scaffold.api.python import PythonModule
+from scaffold.api.python import FunctionNode, PythonModule
 from scaffold.api.tests import (
     constructed_class,
+    fixture_decorator,
     node_tests,
     own_fixtures,
-    runs_around_tests,
     test_functions,
 )
 
@@ -23,6 +23,9 @@ _TEST = (
     "import rclpy\nfrom rclpy.node import Node\n\n\ndef test_node():\n    rclpy.init()\n"
     "    node = Node('node')\n    {}\n    assert node.get_name() == 'node'\n"
 )
+
+
+_AROUND = ("setup", "teardown")
 
 
 class TestNeverEnds(Rule):
@@ -141,4 +144,28 @@ def _is_shut_down(module: PythonModule) -> bool:
     """
     names: list[tuple[ast.AST, str]] = [(node, node.id) for node in module.walk(ast.Name)]
     names += [(node, node.attr) for node in module.walk(ast.Attribute)]
-    return any("shutdown" in name and not runs_around_tests(module, node) for node, name in names)
+    return any("shutdown" in name and not _runs_around_tests(module, node) for node, name in names)
+
+
+def _runs_around_tests(module: PythonModule, node: ast.AST) -> bool:
+    """Return whether a node is in a test, a fixture, or a setup or teardown function.
+
+    Nested functions and lambdas may run at any time.
+    """
+    for parent in module.parents(node):
+        match parent:
+            case ast.Lambda():
+                return False
+            case ast.FunctionDef() | ast.AsyncFunctionDef():
+                is_test = parent.name.startswith("test")
+                is_around = parent.name.lower().startswith(_AROUND)
+                is_fixture = fixture_decorator(module, parent) is not None
+                return (is_test or is_around or is_fixture) and not _is_nested(module, parent)
+    return False
+
+
+def _is_nested(module: PythonModule, function: FunctionNode) -> bool:
+    return any(
+        isinstance(parent, ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda)
+        for parent in module.parents(function)
+    )

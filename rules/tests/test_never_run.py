@@ -13,9 +13,9 @@ from scaffold.api.tests import (
     is_named_elsewhere,
     is_test_case,
     methods,
+    settings_or_tests_mention,
     test_functions,
     test_modules,
-    uses_pytest_plugins,
 )
 
 _TEST = "def test_text():\n    assert True\n\n\n{}"
@@ -25,6 +25,10 @@ _OWN = "    class Case:\n        def test_more(self):\n            pass\n\n    a
 _MORE = "    assert ready()\n\n    def test_more():\n        assert ready()\n"
 _CLASS = "class TextTests:\n    def test_more(self):\n        assert True\n"
 _TEST_BODIES = "{}def test_text():\n    {}\n"
+
+
+_PLUGINS = ("pytestmark", "asyncio_mode", "anyio", "pytest_pyfunc_call", "python_functions")
+"""Words that indicate other ways to run tests."""
 
 
 class TestNeverRun(Rule):
@@ -101,7 +105,7 @@ class TestNeverRun(Rule):
     def _check_collected(self, package: Package) -> Iterator[Diagnostic]:
         for module in test_modules(package):
             yield from self._check_inner_tests(module)
-        modules = [] if uses_pytest_plugins(package) else test_modules(package)
+        modules = [] if _uses_pytest_plugins(package) else test_modules(package)
         for module in modules:
             if not module.has_main_guard:
                 yield from self._check_functions(package, module)
@@ -152,7 +156,7 @@ class TestNeverRun(Rule):
                     yield self.report(module.name_location(suite), message)
 
     def _check_bodies(self, package: Package) -> Iterator[Diagnostic]:
-        if uses_pytest_plugins(package):
+        if _uses_pytest_plugins(package):
             return
         for module in test_modules(package):
             for test in test_functions(module) if not module.has_main_guard else ():
@@ -213,3 +217,8 @@ def _problem(module: PythonModule, test: FunctionNode) -> str:
             if module.enclosing_function(node) is test:
                 return f"{test.name} is a generator: pytest does not run it; use parametrize"
     return ""
+
+
+def _uses_pytest_plugins(package: Package) -> bool:
+    """Return whether plugins or settings of pytest may run other tests."""
+    return settings_or_tests_mention(package, _PLUGINS)

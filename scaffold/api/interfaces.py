@@ -11,10 +11,7 @@ from scaffold.model.contents.interface_files import (
 )
 from scaffold.model.interfaces.definitions import KINDS, Definitions, closest_word
 from scaffold.model.interfaces.reserved_names import (
-    escape_problem,
     reserved,
-    reserved_constant,
-    reserved_type,
 )
 from scaffold.model.interfaces.syntax import SECTIONS, ProblemKind
 from scaffold.model.interfaces.types import FLOATS, INTEGER_RANGES, TEXTS, FieldType
@@ -29,13 +26,10 @@ __all__ = [
     "FieldType",
     "ProblemKind",
     "closest_word",
-    "escape_problem",
     "interface_files",
     "is_commented_out",
     "names_used_in_code",
     "problems",
     "reserved",
-    "reserved_constant",
-    "reserved_type",
     "ungenerated_candidates",
 ]

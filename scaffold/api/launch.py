@@ -44,7 +44,6 @@ from scaffold.model.launch.nodes import (
 from scaffold.model.launch.parameter_files import (
     is_loaded,
     is_only_loaded,
-    names_alike,
     node_names,
     nodes_for,
     use_of,
@@ -54,12 +53,7 @@ from scaffold.model.launch.python_file import FUNCTION, NODES, LaunchFile, launc
 from scaffold.model.launch.references import Reference, exists, meant_package, package_uses
 from scaffold.model.launch.remappings import (
     Remapped,
-    has_name,
-    is_reversed,
-    misses_namespace,
-    misses_privacy,
     names_of,
-    remapped_nodes,
 )
 from scaffold.model.launch.share_paths import (
     NamedPath,
@@ -107,7 +101,6 @@ __all__ = [
     "exists",
     "function_of",
     "given_arguments",
-    "has_name",
     "has_similar_file",
     "included",
     "is_given_as_parameters",
@@ -119,7 +112,6 @@ __all__ = [
     "is_never_used",
     "is_of_unread_argument",
     "is_only_loaded",
-    "is_reversed",
     "is_unread",
     "launch_files",
     "launch_paths",
@@ -127,10 +119,7 @@ __all__ = [
     "markup_paths",
     "may_be_set_elsewhere",
     "meant_package",
-    "misses_namespace",
-    "misses_privacy",
     "missing_in",
-    "names_alike",
     "names_of",
     "node_names",
     "nodes_for",
@@ -139,7 +128,6 @@ __all__ = [
     "parameters_given",
     "paths_of",
     "processes",
-    "remapped_nodes",
     "set_names",
     "signature",
     "start_of_value",

@@ -26,13 +26,6 @@ from scaffold.model.parameters.files import (
     scalar_type,
     value_type,
 )
-from scaffold.model.parameters.own_values import (
-    comparable,
-    comparable_in_file,
-    own_texts,
-    own_values,
-    plain_name,
-)
 from scaffold.model.parameters.topic_names import is_named_in_launch_files, keeps_default_name
 from scaffold.model.parameters.types import a_type, agreed_type, narrow_default
 
@@ -46,8 +39,6 @@ __all__ = [
     "Section",
     "a_type",
     "agreed_type",
-    "comparable",
-    "comparable_in_file",
     "declared_alone",
     "declared_by",
     "has_always",
@@ -58,13 +49,10 @@ __all__ = [
     "narrow_default",
     "number_of",
     "own_nodes",
-    "own_texts",
-    "own_values",
     "parameter_file",
     "parameter_files",
     "parameter_paths",
     "place_of",
-    "plain_name",
     "scalar_type",
     "value_type",
 ]

@@ -20,9 +20,8 @@ from scaffold.model.programs.blocking import (
 )
 from scaffold.model.programs.entry_points import Execution, paths_of, run_of, starts_of
 from scaffold.model.programs.executables import programs_of
-from scaffold.model.programs.initialization import calls_others, late_init, may_init
 from scaffold.model.programs.known_nodes import KnownNode
-from scaffold.model.programs.publishing import publish_calls, published_at_start
+from scaffold.model.programs.publishing import publish_calls
 from scaffold.model.programs.threads import (
     names_callback_group,
     names_other_executor,
@@ -49,7 +48,6 @@ __all__ = [
     "Phases",
     "Waits",
     "blocks_node",
-    "calls_others",
     "client_at",
     "client_of",
     "in_callbacks",
@@ -59,8 +57,6 @@ __all__ = [
     "is_named_in_compiled_code",
     "is_private",
     "is_remapped",
-    "late_init",
-    "may_init",
     "may_run_meanwhile",
     "named_endpoints",
     "names_callback_group",
@@ -70,7 +66,6 @@ __all__ = [
     "phases_of",
     "programs_of",
     "publish_calls",
-    "published_at_start",
     "run_of",
     "services_of",
     "share_group",

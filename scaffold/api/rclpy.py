@@ -17,10 +17,8 @@ from scaffold.model.rclpy.attributes import (
     given_from_outside,
     is_overridden,
     is_read_in_full,
-    is_unused,
     is_used_elsewhere,
     names_of_bases,
-    used_by_classes,
 )
 from scaffold.model.rclpy.callbacks import alternatives, numbers_taken, worker
 from scaffold.model.rclpy.changed_calls import changed_calls
@@ -63,11 +61,8 @@ from scaffold.model.rclpy.parameters.objects import (
     is_listed_parameter,
     is_of_node,
     name_asked,
-    names_compared,
     names_used_by,
-    parameter_read,
     parameters_set,
-    types_compared,
 )
 from scaffold.model.rclpy.qos import conflict_of
 from scaffold.model.rclpy.stopping import only_while_stopping
@@ -131,7 +126,6 @@ __all__ = [
     "is_read_in_full",
     "is_spun_by_listener",
     "is_tried",
-    "is_unused",
     "is_used_elsewhere",
     "known_names",
     "latched_topics",
@@ -139,21 +133,17 @@ __all__ = [
     "lookups_in",
     "message_made",
     "name_asked",
-    "names_compared",
     "names_of_bases",
     "names_used_by",
     "namespace_problem",
     "node_problem",
     "numbers_taken",
     "only_while_stopping",
-    "parameter_read",
     "parameters_set",
     "part_problem",
     "rclpy_file",
     "rclpy_paths",
     "read_by_name",
     "topic_problem",
-    "types_compared",
-    "used_by_classes",
     "worker",
 ]

@@ -20,11 +20,9 @@ from scaffold.model.tests import (
     methods,
     node_tests,
     own_fixtures,
-    runs_around_tests,
     settings_or_tests_mention,
     test_functions,
     test_modules,
-    uses_pytest_plugins,
 )
 
 __all__ = [
@@ -45,9 +43,7 @@ __all__ = [
     "methods",
     "node_tests",
     "own_fixtures",
-    "runs_around_tests",
     "settings_or_tests_mention",
     "test_functions",
     "test_modules",
-    "uses_pytest_plugins",
 ]

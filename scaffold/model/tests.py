@@ -20,10 +20,6 @@ if TYPE_CHECKING:
 LAUNCH = "generate_test_description"
 """The function of files for launch_testing, which runs tests in its own way."""
 
-_AROUND = ("setup", "teardown")
-_PLUGINS = ("pytestmark", "asyncio_mode", "anyio", "pytest_pyfunc_call", "python_functions")
-"""Words that indicate other ways to run tests."""
-
 
 class Fixture(NamedTuple):
     """A function that pytest calls for a parameter of a test."""
@@ -74,30 +70,6 @@ def test_functions(module: PythonModule) -> Iterator[TestFunction]:
             for node in methods(class_.node):
                 if node.name.startswith("test"):
                     yield TestFunction(node, class_.node)
-
-
-def runs_around_tests(module: PythonModule, node: ast.AST) -> bool:
-    """Return whether a node is in a test, a fixture, or a setup or teardown function.
-
-    Nested functions and lambdas may run at any time.
-    """
-    for parent in module.parents(node):
-        match parent:
-            case ast.Lambda():
-                return False
-            case ast.FunctionDef() | ast.AsyncFunctionDef():
-                is_test = parent.name.startswith("test")
-                is_around = parent.name.lower().startswith(_AROUND)
-                is_fixture = fixture_decorator(module, parent) is not None
-                return (is_test or is_around or is_fixture) and not _is_nested(module, parent)
-    return False
-
-
-def _is_nested(module: PythonModule, function: FunctionNode) -> bool:
-    return any(
-        isinstance(parent, ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda)
-        for parent in module.parents(function)
-    )
 
 
 def methods(class_: ast.ClassDef) -> list[FunctionNode]:
@@ -183,11 +155,6 @@ def marks(
         name = module.qualified_name(node) or ""
         if name.startswith("pytest.mark."):
             yield name.removeprefix("pytest.mark."), decorator
-
-
-def uses_pytest_plugins(package: Package) -> bool:
-    """Return whether plugins or settings of pytest may run other tests."""
-    return settings_or_tests_mention(package, _PLUGINS)
 
 
 def settings_or_tests_mention(package: Package, words: Sequence[str]) -> bool:

@@ -16,8 +16,6 @@ from scaffold.api.rclpy import (
     callback_arguments,
     is_listed_parameter,
     name_asked,
-    names_compared,
-    types_compared,
 )
 
 from ._callbacks import RESULT
@@ -189,7 +187,7 @@ class ParameterCallbackMisused(RclpyRule):
     ) -> Iterator[Diagnostic]:
         if not is_listed_parameter(file, attribute.value):
             return
-        for item in names_compared(file, attribute):
+        for item in _names_compared(file, attribute):
             name = item.value if isinstance(item, ast.Constant) else None
             if isinstance(name, str) and name not in declared and not has_always(name):
                 closest = closest_name(package, name, declared, 0.7)
@@ -212,7 +210,7 @@ class ParameterCallbackMisused(RclpyRule):
                 name = name_asked(file, attribute, variable) or ""
                 declared = declared_by(node, package).types.get(name)
                 asked = full.rpartition(".")[2]
-                if declared in types_compared(file, attribute, name):
+                if declared in _types_compared(file, attribute, name):
                     return  # the code handles several types
                 if declared and declared != asked.lower():
                     message = f"never true: {name!r} is declared as {declared}, not {asked}"
@@ -326,3 +324,36 @@ def _never_equal(file: RclpyFile, node: ast.Compare) -> str:
             if is_plain or name.startswith("rcl_interfaces.msg.ParameterType."):
                 return file.module.text(value)
     return ""
+
+
+def _types_compared(file: RclpyFile, attribute: ast.Attribute, name: str) -> set[str]:
+    """Return the types with which a function compares the type of one parameter."""
+    function = file.module.enclosing_function(attribute)
+    result: set[str] = set()
+    for other in file.module.index.attributes("type_"):
+        if not isinstance(other.value, ast.Name):
+            continue
+        compared = file.module.parent(other)
+        is_same = file.module.enclosing_function(other) is function
+        is_same = is_same and name_asked(file, other, other.value.id) == name
+        if is_same and isinstance(compared, ast.Compare):
+            full = file.module.qualified_name(compared.comparators[0]) or ""
+            result.add(full.rpartition(".")[2].lower())
+    return result
+
+
+def _names_compared(file: RclpyFile, attribute: ast.Attribute) -> list[ast.expr]:
+    """Return the values that a name is compared with, in order."""
+    match file.module.parent(attribute):
+        case ast.Compare(left=left, ops=[ast.Eq()], comparators=[other]) if left is attribute:
+            return [other]
+        case ast.Compare(
+            left=left,
+            ops=[ast.In()],
+            comparators=[ast.List(elts=items) | ast.Tuple(elts=items) | ast.Set(elts=items)],
+        ) if left is attribute:
+            return items
+        case ast.Match(cases=cases):
+            patterns = [item.pattern for item in cases]
+            return [pattern.value for pattern in patterns if isinstance(pattern, ast.MatchValue)]
+    return []

@@ -7,8 +7,8 @@ from collections.abc import Iterator, Mapping
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, RclpyRule, Report, Safety
 from scaffold.api.parameters import declared_by
-from scaffold.api.python import UNKNOWN, conditions_on, is_handled
-from scaffold.api.rclpy import FIELDS, RclpyFile, is_listed_parameter, name_asked, parameter_read
+from scaffold.api.python import UNKNOWN, Unknown, conditions_on, is_handled
+from scaffold.api.rclpy import FIELDS, NodeDefinition, RclpyFile, is_listed_parameter, name_asked
 
 _NUMBERS = ("double", "integer")
 _ARITHMETIC = (ast.Add, ast.Sub, ast.Mult, ast.Div, ast.FloorDiv)
@@ -53,6 +53,9 @@ _VARIABLES = (
     "        value = self.parameter.get_parameter_value()\n"
     "        self.period = value.{}\n"
 )
+
+
+_GIVING = frozenset({"get_parameter", "get_parameter_or", "declare_parameter"})
 
 
 class ParameterValueUnfit(RclpyRule):
@@ -331,7 +334,7 @@ def _declared(package: Package, file: RclpyFile, node: ast.expr) -> tuple[str, s
     """Return the name and declared type of the parameter of which an expression is the value."""
     match file.evaluator.single_value(node):
         case ast.Attribute(attr="value", value=parameter):
-            owner, name = parameter_read(file, parameter)
+            owner, name = _parameter_read(file, parameter)
             if owner is not None and isinstance(name, str):
                 return name, declared_by(owner, package).types.get(name) or ""
     return "", ""
@@ -344,7 +347,7 @@ def _read(package: Package, file: RclpyFile, field: ast.Attribute) -> tuple[str,
     """
     match file.evaluator.single_value(field.value):
         case ast.Call(func=ast.Attribute(attr="get_parameter_value", value=parameter)):
-            owner, name = parameter_read(file, parameter)
+            owner, name = _parameter_read(file, parameter)
             if isinstance(parameter, ast.Name) and is_listed_parameter(file, parameter):
                 class_ = file.module.enclosing_class(field)
                 owner = file.node_class(class_) if class_ is not None else None
@@ -353,3 +356,38 @@ def _read(package: Package, file: RclpyFile, field: ast.Attribute) -> tuple[str,
                 declared = declared_by(owner, package)
                 return name, declared.types.get(name) or ""
     return "", ""
+
+
+def _parameter_read(file: RclpyFile, node: ast.expr) -> tuple[NodeDefinition | None, str | Unknown]:
+    """Return the node and the name of the parameter of a Parameter object.
+
+    Such as ``self.get_parameter('rate')``, also through a variable or an attribute.
+
+    Returns:
+        Node and name; ``None`` and ``UNKNOWN`` if the expression is no such call.
+    """
+    made = file.evaluator.single_value(node)
+    if isinstance(made, ast.Subscript):
+        return _indexed_parameter(file, made)
+    if not isinstance(made, ast.Call):
+        return None, UNKNOWN
+    func = file.method_of(made)
+    if func is None or func.attr not in _GIVING:
+        return None, UNKNOWN
+    named = [*made.args[:1], *(word.value for word in made.keywords if word.arg == "name")]
+    return file.owner_of(func.value), file.evaluator.text(named[0]) if named else UNKNOWN
+
+
+def _indexed_parameter(
+    file: RclpyFile, node: ast.Subscript
+) -> tuple[NodeDefinition | None, str | Unknown]:
+    """Return the parameter of ``self.get_parameters(['rate', 'mode'])[0]``."""
+    call = file.evaluator.single_value(node.value)
+    index = file.evaluator.evaluate(node.slice)
+    match call:
+        case ast.Call(func=ast.Attribute(attr="get_parameters", value=receiver), args=[given]):
+            names = file.evaluator.evaluate(given)
+            if isinstance(names, list | tuple) and type(index) is int and index < len(names):
+                name = names[index]
+                return file.owner_of(receiver), name if isinstance(name, str) else UNKNOWN
+    return None, UNKNOWN

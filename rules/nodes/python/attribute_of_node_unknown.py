@@ -13,12 +13,12 @@ from scaffold.api.rclpy import (
     RclpyFile,
     defined_by,
     given_from_outside,
+    has,
     is_read_in_full,
     known_names,
     names_of_bases,
     only_while_stopping,
     read_by_name,
-    used_by_classes,
 )
 
 _NODE = (
@@ -164,7 +164,7 @@ class AttributeOfNodeUnknown(RclpyRule):
 
     def check_in(self, package: Package, file: RclpyFile) -> Iterator[Diagnostic]:
         bases, given = names_of_bases(package), given_from_outside(package)
-        used = used_by_classes(file) if file.classes else {}
+        used = _used_by_classes(file) if file.classes else {}
         for node in file.classes:
             if node.name in bases or not is_read_in_full(node):
                 continue
@@ -268,3 +268,34 @@ def _may_fail(file: RclpyFile, node: ast.Attribute) -> bool:
     return f"'{node.attr}'" in file.module.source.text or (
         f'"{node.attr}"' in file.module.source.text
     )
+
+
+def _used_by_classes(file: RclpyFile) -> dict[ast.ClassDef, list[ast.Attribute]]:
+    """Return the attributes that classes read from ``self`` and the file never sets."""
+    module = file.module
+    read: list[ast.Attribute] = []
+    stored: set[str] = set()
+    for attribute in module.walk(ast.Attribute):
+        if isinstance(attribute.ctx, ast.Load) or isinstance(
+            module.parent(attribute), ast.AugAssign
+        ):
+            read.append(attribute)
+        else:
+            stored.add(attribute.attr)
+    result: dict[ast.ClassDef, list[ast.Attribute]] = {}
+    for attribute in read:
+        if attribute.attr not in stored and not has(NODE, attribute.attr):
+            class_ = _owner(file, attribute)
+            if class_ is not None:
+                result.setdefault(class_, []).append(attribute)
+    return result
+
+
+def _owner(file: RclpyFile, attribute: ast.Attribute) -> ast.ClassDef | None:
+    """Return the class of an attribute access: that of ``self``, or of a variable."""
+    class_ = file.evaluator.self_class(attribute.value)
+    if class_ is None and isinstance(attribute.value, ast.Name):
+        made = file.evaluator.single_value(attribute.value)
+        if isinstance(made, ast.Call):
+            class_ = file.evaluator.named_class(made.func)
+    return class_

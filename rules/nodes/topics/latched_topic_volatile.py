@@ -5,8 +5,8 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Effect, Example, Package, RclpyRule, Report, Severity
-from scaffold.api.programs import publish_calls, published_at_start, topics_of
+from scaffold.api import Diagnostic, Effect, Example, Package, RclpyRule, Report, Severity, fact
+from scaffold.api.programs import publish_calls, topics_of
 from scaffold.api.rclpy import (
     Endpoint,
     NodeClass,
@@ -14,6 +14,7 @@ from scaffold.api.rclpy import (
     RclpyFile,
     Subscription,
     latched_topics,
+    rclpy_file,
 )
 
 _PUBLISHED_ONCE = frozenset({"robot_description", "tf_static"})
@@ -252,7 +253,7 @@ def _is_late(package: Package, endpoint: Subscription, topic: str) -> bool:
     return bool(endpoints.publishers) and all(
         publisher.qos is not None
         and publisher.qos.durability == "TRANSIENT_LOCAL"
-        and topic in published_at_start(package, publisher.location.path)
+        and topic in _published_at_start(package, publisher.location.path)
         for publisher in endpoints.publishers
     )
 
@@ -271,3 +272,17 @@ def _is_repeated(file: RclpyFile, node: ast.AST, depth: int) -> bool:
     name = getattr(function, "name", "")
     calls = [*module.index.names(name), *module.index.attributes(name)] if name else []
     return len(calls) > 1 or any(_is_repeated(file, call, depth + 1) for call in calls)
+
+
+@fact
+def _published_at_start(package: Package, path: str) -> tuple[str, ...]:
+    """Return the topics that are only published in constructors."""
+    file = rclpy_file(package, path)
+    result: list[str] = []
+    for publisher in file.publishers:
+        if isinstance(publisher.owner, NodeClass) and isinstance(publisher.name, str):
+            calls = publish_calls(file, publisher)
+            constructor = publisher.owner.constructor
+            if calls and all(file.function_of(call) is constructor for call in calls):
+                result.append(publisher.name.lstrip("/"))
+    return tuple(result)

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Effect, Example, MessageRule, Package, Report, Severity
 from scaffold.api.messages import MessageTypes
-from scaffold.api.rclpy import Synchronizer, is_unused
+from scaffold.api.rclpy import Entity, RclpyFile, Synchronizer, is_used_elsewhere
 
 _NODE = (
     "from message_filters import ApproximateTimeSynchronizer, Subscriber\n"
@@ -116,7 +117,7 @@ class SynchronizerMisused(MessageRule):
         if not file.module.mentions("message_filters") or file.module.in_tests:
             return
         for synchronizer in file.synchronizers:
-            if not synchronizer.callbacks and is_unused(package, file, synchronizer):
+            if not synchronizer.callbacks and _is_unused(package, file, synchronizer):
                 message = (
                     "no callback is registered: the matched messages are dropped; "
                     "call registerCallback()"
@@ -125,7 +126,7 @@ class SynchronizerMisused(MessageRule):
             yield from self._check_arguments(synchronizer)
             yield from self._check_inputs(types, synchronizer)
         filters = [x for x in file.subscriptions if x.argument("node") is not None]
-        unused = [x for x in filters if not x.callback and is_unused(package, file, x)]
+        unused = [x for x in filters if not x.callback and _is_unused(package, file, x)]
         severity = Severity.ERROR if len(unused) == len(filters) else Severity.WARNING
         for subscription in unused:
             message = (
@@ -165,3 +166,17 @@ class SynchronizerMisused(MessageRule):
                 "or ApproximateTimeSynchronizer with allow_headerless=True"
             )
             yield self.report(argument, message)
+
+
+def _is_unused(package: Package, file: RclpyFile, entity: Entity) -> bool:
+    """Return whether a stored object is never used in the package."""
+    if entity.attribute:
+        names = file.module.index.attributes(entity.attribute)
+        is_read = any(isinstance(node.ctx, ast.Load) for node in names)
+        return not is_read and not is_used_elsewhere(package, file, entity.attribute)
+    parent = file.module.parent(entity.call)
+    if entity.variable:
+        variables = file.module.index.names(entity.variable)
+        is_read = any(isinstance(name.ctx, ast.Load) for name in variables)
+        return isinstance(parent, ast.Assign) and not is_read
+    return isinstance(parent, ast.Expr)

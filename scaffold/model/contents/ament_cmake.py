@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import ast
 import posixpath
 from typing import TYPE_CHECKING
 
@@ -139,37 +138,6 @@ def _module_directories(lists: CMakeLists) -> Iterator[str]:
                 yield from lists.expand_list([argument], command) or ()
 
 
-def is_only_imported(package: Package, path: str) -> bool:
-    """Return whether an installed Python file only has definitions for import."""
-    try:
-        module = package.module(path)
-    except ViewError:
-        return False
-    if module.has_main_guard or "main" in module.functions:
-        return False  # an uncalled main is meant to be started
-    if not module.functions and not module.classes:
-        return False
-    return all(_only_defines(statement) for statement in module.tree.body)
-
-
-def _only_defines(statement: ast.stmt) -> bool:
-    match statement:
-        case ast.Expr(value=ast.Constant() | ast.Call(func=ast.Name(id="setattr"))):
-            return True
-        case ast.For(body=body, orelse=orelse) | ast.If(body=body, orelse=orelse):
-            return all(map(_only_defines, [*body, *orelse]))
-    return isinstance(
-        statement,
-        ast.Import
-        | ast.ImportFrom
-        | ast.FunctionDef
-        | ast.AsyncFunctionDef
-        | ast.ClassDef
-        | ast.Assign
-        | ast.AnnAssign,
-    )
-
-
 def programs(package: Package) -> list[Program]:
     """Return the files that are installed as programs, as far as known."""
     result: list[Program] = []
@@ -214,17 +182,6 @@ def is_made_by_build(package: Package, path: str) -> bool:
     # set(model "${PROJECT_SOURCE_DIR}/models/a.onnx"), and a command fetches it
     named = package.cmake.find("set") if makers else ()
     return any(f"/{path}/" in argument.value for item in named for argument in item.arguments)
-
-
-def runs_if_exists(command: Command) -> bool:
-    """Return whether a command runs only if a file exists: ``if(EXISTS ...)``."""
-    at = command
-    while at.parent is not None and at.branch is not None:
-        asked = [at.branch, at.parent] if at.branch.name == "else" else [at.branch]
-        if any("EXISTS" in item.values for item in asked):
-            return True
-        at = at.parent
-    return False
 
 
 def is_used_by_build(package: Package, path: str) -> bool:

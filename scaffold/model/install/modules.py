@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 from scaffold import lazy_re
 from scaffold.model.catalog import ROS_PACKAGES, keys_of_module
 from scaffold.model.contents.ament_cmake import has_unknown_commands, programs
-from scaffold.model.contents.python_facts import imports_by_path, imports_of
+from scaffold.model.contents.python_facts import imports_of
 from scaffold.model.discovery.gitignore import directories_above, is_untracked
 from scaffold.model.facts import fact
 from scaffold.model.install.package_data import installed_data
@@ -45,16 +45,6 @@ def absolute_name(path: str, node: Import) -> str:
         return node.module
     directory = path.split("/")[: -node.level]
     return ".".join([*directory, *([node.module] if node.module else [])])
-
-
-def names_imported(package: Package) -> set[str]:
-    """Return the full names imported by modules of the package: modules and names in them."""
-    result: set[str] = set()
-    for path, imports in imports_by_path(package):
-        for item in imports:
-            base = absolute_name(path, item)
-            result |= {base, *(f"{base}.{name.name}" for name in item.names)}
-    return result
 
 
 def paths_imported_by(package: Package, files: set[str]) -> list[str]:
@@ -174,15 +164,6 @@ def _names_of(path: str) -> Iterator[str]:
         parts = path.removesuffix(".py").removesuffix("/__init__").split("/")
         yield from (".".join(parts[:depth]) for depth in range(2, len(parts)))
         yield ".".join(parts)
-
-
-def modules_of(package: Package, root: str) -> list[str]:
-    """Return the names of the modules in a directory and below it."""
-    return [
-        path.removesuffix(".py").replace("/", ".")
-        for path in package.python_files
-        if path.startswith(f"{root}/") and path.endswith(".py")
-    ]
 
 
 def intended_module(package: Package, path: str, name: str) -> str:

@@ -17,13 +17,6 @@ _PYTHON_KEYWORDS = frozenset(
     pass raise with yield
     """.split()  # noqa: SIM905  likewise
 )
-_C_MACROS = frozenset(
-    {"BUFSIZ", "CLOCKS_PER_SEC", "EOF", "EXIT_FAILURE", "EXIT_SUCCESS", "NULL", "RAND_MAX"}
-    | {"SEEK_CUR", "SEEK_END", "SEEK_SET", "SIZE_MAX"}
-    | {f"{kind}{bits}_MAX" for kind in ("INT", "UINT") for bits in (8, 16, 32, 64)}
-    | {f"INT{bits}_MIN" for bits in (8, 16, 32, 64)}
-)
-"""Macros of the headers that generated C++ code includes."""
 
 
 def reserved(name: str) -> str:
@@ -33,36 +26,3 @@ def reserved(name: str) -> str:
     if name in _PYTHON_KEYWORDS:
         return f"{name!r} is a keyword of Python: 'message.{name}' is a SyntaxError"
     return ""
-
-
-def reserved_constant(name: str) -> str:
-    """Return why a constant cannot have a name; empty if it can."""
-    import errno
-
-    if name in _C_MACROS or name in errno.errorcode.values():
-        return f"{name!r} is a macro of C: the generated C++ code does not compile"
-    return ""
-
-
-def reserved_type(name: str) -> str:
-    """Return why an interface cannot have a name; empty if it can."""
-    if name in {"None", "True", "False"}:
-        return f"{name!r} is a keyword of Python: the generated module is a SyntaxError"
-    if name in _C_MACROS:
-        return f"{name!r} is a macro of C: the generated C++ code does not compile"
-    return ""
-
-
-def escape_problem(text: str) -> str:
-    """Return the problem with the backslashes of a text, which rosidl reads as escapes."""
-    import warnings
-
-    if "\\" not in text:
-        return ""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # of \d, which is kept
-        try:
-            read = text.encode().decode("unicode_escape")
-        except UnicodeDecodeError as error:
-            return error.reason
-    return "its \\n ends the line in the middle of a text" if "\n" in read else ""

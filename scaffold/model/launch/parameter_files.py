@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import contextlib
 from collections.abc import Iterator, Sequence
-from difflib import SequenceMatcher
 from typing import TYPE_CHECKING
 
 from scaffold import lazy_re
@@ -19,10 +18,9 @@ from scaffold.source import ViewError
 
 if TYPE_CHECKING:
     from scaffold.model.package import Package
-    from scaffold.model.parameters.files import Entry, ParameterFile, Section
+    from scaffold.model.parameters.files import Entry, Section
     from scaffold.model.programs.known_nodes import KnownNode
 
-_ALIKE = 0.75
 # linear: it matches from the start of a run of these characters only
 _FILE_NAME = lazy_re.compile(r"(?<![\w.-])[\w.-]+\.ya?ml")
 _LAUNCH_ENDINGS = ("launch.xml", "launch.yaml", "launch.yml", ".launch", ".py")
@@ -165,22 +163,6 @@ def node_names(package: Package) -> set[str]:
         return names | {str(node.name(package)) for node in started}
 
     return package.remember("node_names", find)
-
-
-def names_alike(file: ParameterFile, names: set[str], name: str) -> list[str]:
-    """Return the nodes without a section that one for ``name`` may be meant for."""
-    given = {section.name for section in file.sections}
-    return [other for other in sorted(names - given) if _is_alike(name, other)]
-
-
-def _is_alike(name: str, other: str) -> bool:
-    """Return whether one node name may be a misspelling of the other."""
-    first, second = name.replace("_", "").lower(), other.replace("_", "").lower()
-    if first == second:
-        return name != other
-    if first in {second + "node", "node" + second} or second in {first + "node", "node" + first}:
-        return True
-    return SequenceMatcher(None, first, second).ratio() >= _ALIKE
 
 
 def _is_mentioned(package: Package, path: str, launch_files: set[str]) -> bool:

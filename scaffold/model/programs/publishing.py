@@ -4,18 +4,12 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING
 
-from scaffold.model.facts import fact
 from scaffold.model.python.attributes import Store
 from scaffold.model.python.scopes import FunctionNode
 from scaffold.model.python.values import Unknown, is_none_literal
 from scaffold.model.rclpy.entities import Callback, Entity, Publisher, Timer
-from scaffold.model.rclpy.file import RclpyFile, rclpy_file
-from scaffold.model.rclpy.nodes import NodeClass
-
-if TYPE_CHECKING:
-    from scaffold.model.package import Package
+from scaffold.model.rclpy.file import RclpyFile
 
 _HARMLESS = frozenset(
     {
@@ -46,20 +40,6 @@ def publish_calls(file: RclpyFile, publisher: Publisher) -> Sequence[ast.Call] |
         return list(_uses(file, publisher, "publish"))
     except _Doubt:
         return None
-
-
-@fact
-def published_at_start(package: Package, path: str) -> tuple[str, ...]:
-    """Return the topics that are only published in constructors."""
-    file = rclpy_file(package, path)
-    result: list[str] = []
-    for publisher in file.publishers:
-        if isinstance(publisher.owner, NodeClass) and isinstance(publisher.name, str):
-            calls = publish_calls(file, publisher)
-            constructor = publisher.owner.constructor
-            if calls and all(file.function_of(call) is constructor for call in calls):
-                result.append(publisher.name.lstrip("/"))
-    return tuple(result)
 
 
 def publish_rates(

@@ -8,7 +8,7 @@ from contextlib import suppress
 from typing import TYPE_CHECKING
 
 from scaffold.model.facts import fact
-from scaffold.model.rclpy.api import NODE, has, known_names
+from scaffold.model.rclpy.api import known_names
 from scaffold.model.rclpy.named_attributes import set_by_name
 from scaffold.source import ViewError
 
@@ -17,40 +17,8 @@ _LIFECYCLE = "rclpy.lifecycle.node.LifecycleNode"
 if TYPE_CHECKING:
     from scaffold.model.package import Package
     from scaffold.model.python.scopes import FunctionNode
-    from scaffold.model.rclpy.entities import Entity
     from scaffold.model.rclpy.file import RclpyFile
     from scaffold.model.rclpy.nodes import NodeClass
-
-
-def used_by_classes(file: RclpyFile) -> dict[ast.ClassDef, list[ast.Attribute]]:
-    """Return the attributes that classes read from ``self`` and the file never sets."""
-    module = file.module
-    read: list[ast.Attribute] = []
-    stored: set[str] = set()
-    for attribute in module.walk(ast.Attribute):
-        if isinstance(attribute.ctx, ast.Load) or isinstance(
-            module.parent(attribute), ast.AugAssign
-        ):
-            read.append(attribute)
-        else:
-            stored.add(attribute.attr)
-    result: dict[ast.ClassDef, list[ast.Attribute]] = {}
-    for attribute in read:
-        if attribute.attr not in stored and not has(NODE, attribute.attr):
-            class_ = _owner(file, attribute)
-            if class_ is not None:
-                result.setdefault(class_, []).append(attribute)
-    return result
-
-
-def _owner(file: RclpyFile, attribute: ast.Attribute) -> ast.ClassDef | None:
-    """Return the class of an attribute access: that of ``self``, or of a variable."""
-    class_ = file.evaluator.self_class(attribute.value)
-    if class_ is None and isinstance(attribute.value, ast.Name):
-        made = file.evaluator.single_value(attribute.value)
-        if isinstance(made, ast.Call):
-            class_ = file.evaluator.named_class(made.func)
-    return class_
 
 
 def defined_by(node: NodeClass) -> set[str]:
@@ -85,20 +53,6 @@ def is_read_in_full(node: NodeClass) -> bool:
             return False
         owner = owner.base
     return True
-
-
-def is_unused(package: Package, file: RclpyFile, entity: Entity) -> bool:
-    """Return whether a stored object is never used in the package."""
-    if entity.attribute:
-        names = file.module.index.attributes(entity.attribute)
-        is_read = any(isinstance(node.ctx, ast.Load) for node in names)
-        return not is_read and not is_used_elsewhere(package, file, entity.attribute)
-    parent = file.module.parent(entity.call)
-    if entity.variable:
-        variables = file.module.index.names(entity.variable)
-        is_read = any(isinstance(name.ctx, ast.Load) for name in variables)
-        return isinstance(parent, ast.Assign) and not is_read
-    return isinstance(parent, ast.Expr)
 
 
 def is_used_elsewhere(package: Package, file: RclpyFile, attribute: str) -> bool:

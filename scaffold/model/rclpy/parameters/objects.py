@@ -7,7 +7,6 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from scaffold.model.python.given_arguments import arguments_for
-from scaffold.model.python.values import UNKNOWN, Unknown
 from scaffold.model.rclpy.entities import parameter_type
 from scaffold.model.rclpy.per_file import per_file
 from scaffold.record import NamedTuple
@@ -33,42 +32,6 @@ CALLBACKS = (
 """The methods of a node that register a callback with a list of parameters."""
 _NAMED = ("describe_parameter", "get_parameter_type", "set_descriptor", "undeclare_parameter")
 _LISTED = ("describe_parameters", "get_parameter_types", "get_parameters")
-_GIVING = frozenset({"get_parameter", "get_parameter_or", "declare_parameter"})
-
-
-def parameter_read(file: RclpyFile, node: ast.expr) -> tuple[NodeDefinition | None, str | Unknown]:
-    """Return the node and the name of the parameter of a Parameter object.
-
-    Such as ``self.get_parameter('rate')``, also through a variable or an attribute.
-
-    Returns:
-        Node and name; ``None`` and ``UNKNOWN`` if the expression is no such call.
-    """
-    made = file.evaluator.single_value(node)
-    if isinstance(made, ast.Subscript):
-        return _indexed_parameter(file, made)
-    if not isinstance(made, ast.Call):
-        return None, UNKNOWN
-    func = file.method_of(made)
-    if func is None or func.attr not in _GIVING:
-        return None, UNKNOWN
-    named = [*made.args[:1], *(word.value for word in made.keywords if word.arg == "name")]
-    return file.owner_of(func.value), file.evaluator.text(named[0]) if named else UNKNOWN
-
-
-def _indexed_parameter(
-    file: RclpyFile, node: ast.Subscript
-) -> tuple[NodeDefinition | None, str | Unknown]:
-    """Return the parameter of ``self.get_parameters(['rate', 'mode'])[0]``."""
-    call = file.evaluator.single_value(node.value)
-    index = file.evaluator.evaluate(node.slice)
-    match call:
-        case ast.Call(func=ast.Attribute(attr="get_parameters", value=receiver), args=[given]):
-            names = file.evaluator.evaluate(given)
-            if isinstance(names, list | tuple) and type(index) is int and index < len(names):
-                name = names[index]
-                return file.owner_of(receiver), name if isinstance(name, str) else UNKNOWN
-    return None, UNKNOWN
 
 
 def is_of_node(file: RclpyFile, created: Entity) -> bool:
@@ -265,36 +228,3 @@ def _passed(file: RclpyFile, name: ast.Name) -> Iterator[ast.expr]:
         match file.module.parent(value):
             case ast.Call(func=ast.Attribute(value=ast.Name(id="self"))):
                 yield value
-
-
-def types_compared(file: RclpyFile, attribute: ast.Attribute, name: str) -> set[str]:
-    """Return the types with which a function compares the type of one parameter."""
-    function = file.module.enclosing_function(attribute)
-    result: set[str] = set()
-    for other in file.module.index.attributes("type_"):
-        if not isinstance(other.value, ast.Name):
-            continue
-        compared = file.module.parent(other)
-        is_same = file.module.enclosing_function(other) is function
-        is_same = is_same and name_asked(file, other, other.value.id) == name
-        if is_same and isinstance(compared, ast.Compare):
-            full = file.module.qualified_name(compared.comparators[0]) or ""
-            result.add(full.rpartition(".")[2].lower())
-    return result
-
-
-def names_compared(file: RclpyFile, attribute: ast.Attribute) -> list[ast.expr]:
-    """Return the values that a name is compared with, in order."""
-    match file.module.parent(attribute):
-        case ast.Compare(left=left, ops=[ast.Eq()], comparators=[other]) if left is attribute:
-            return [other]
-        case ast.Compare(
-            left=left,
-            ops=[ast.In()],
-            comparators=[ast.List(elts=items) | ast.Tuple(elts=items) | ast.Set(elts=items)],
-        ) if left is attribute:
-            return items
-        case ast.Match(cases=cases):
-            patterns = [item.pattern for item in cases]
-            return [pattern.value for pattern in patterns if isinstance(pattern, ast.MatchValue)]
-    return []

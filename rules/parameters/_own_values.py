@@ -4,24 +4,13 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING
 
-from scaffold.formats.yaml import Scalar, YamlNode
-from scaffold.model.facts import fact
-from scaffold.model.parameters.files import number_of, scalar_type
-
-if TYPE_CHECKING:
-    from scaffold.model.package import Package
+from scaffold.api import Package, fact
+from scaffold.api.formats import Scalar, YamlNode
+from scaffold.api.parameters import number_of, scalar_type
 
 _TRUE = frozenset({"y", "yes", "true", "on"})
 """The words, in lower case, that rcl reads as true."""
-
-
-def comparable(value: object) -> str:
-    """Return a text that is the same for equal values, such as 1 and 1.0; empty for a list."""
-    if isinstance(value, int | float) and not isinstance(value, bool):
-        return repr(float(value))
-    return repr(value) if isinstance(value, bool | str) else ""
 
 
 def comparable_in_file(node: YamlNode) -> str:
@@ -59,11 +48,6 @@ def own_values(package: Package, path: str) -> Mapping[str, frozenset[str]]:
     return {name: frozenset(texts) for name, texts in result.items()}
 
 
-def plain_name(name: str) -> str:
-    """Return the last part of a name in lower case, without outer underscores."""
-    return name.rpartition(".")[2].lower().strip("_")
-
-
 def _named(tree: ast.AST) -> Iterator[tuple[str, ast.expr]]:
     for node in ast.walk(tree):
         match node:
@@ -82,3 +66,15 @@ def _named(tree: ast.AST) -> Iterator[tuple[str, ast.expr]]:
                 yield from (
                     (item.arg, value) for item, value in zip(with_defaults, defaults, strict=True)
                 )
+
+
+def comparable(value: object) -> str:
+    """Return a text that is the same for equal values, such as 1 and 1.0; empty for a list."""
+    if isinstance(value, int | float) and not isinstance(value, bool):
+        return repr(float(value))
+    return repr(value) if isinstance(value, bool | str) else ""
+
+
+def plain_name(name: str) -> str:
+    """Return the last part of a name in lower case, without outer underscores."""
+    return name.rpartition(".")[2].lower().strip("_")
