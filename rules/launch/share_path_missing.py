@@ -256,6 +256,13 @@ class SharePathMissing(Rule):
             {
                 **_FILES,
                 "launch/a.launch.py": _LAUNCH.format("'config', 'lights.yaml'"),
+                "launch/c.launch.py": _LAUNCH.format("'config', 'lights.yaml'")
+                .replace(
+                    "    return",
+                    "    path = os.path.join(share, 'config', 'lights.yaml')\n"
+                    "    path = [path]\n    return",
+                )
+                .replace("[os.path.join(share, 'config', 'lights.yaml')]", "path"),
                 "launch/b.launch.py": _LAUNCH.format("'config', 'lights.yaml'")
                 .replace("parameters=[", "parameters=[ParameterFile(")
                 .replace("yaml')]", "yaml'), allow_substs=True)]")
@@ -272,6 +279,11 @@ class SharePathMissing(Rule):
             ),
             "launch/b.launch.py:13:40: share/talker/config/lights.yaml does not exist: talker has "
             "no such file",
+            Report(
+                "launch/c.launch.py:10:12",
+                "share/talker/config/lights.yaml does not exist: talker has no such file",
+                severity=Severity.WARNING,
+            ),
         ),
         Example(
             "a multi-line string, in a directory that is not installed",

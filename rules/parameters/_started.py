@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from contextlib import suppress
 
@@ -15,8 +16,8 @@ _LAUNCHING = (".py", ".xml", ".launch", ".yaml", ".yml", ".sh", ".md", ".rst")
 """Ends of the names of files that start Nav2, or tell people how to."""
 _NAV2 = (b"nav2_bringup", b"RewrittenYaml")
 _WITHOUT_SERVERS = b"localization_launch"
-_WITH_SERVERS = (b"navigation_launch", b"bringup_launch", b"simulation_launch")
-"""The launch files of Nav2 that start the servers."""
+_WITH_SERVERS = re.compile(rb"nav\w*[._]launch|bringup_launch|simulation_launch")
+"""Matches the names of launch files that start the servers of Nav2."""
 
 
 def is_named_in_code(package: Package, controller: str) -> bool:
@@ -26,9 +27,11 @@ def is_named_in_code(package: Package, controller: str) -> bool:
 
 def is_server_started(package: Package, server: str) -> bool:
     """Return whether a server of Nav2 may be started: unless the workspace only localizes."""
-    words = (server.encode(), *_WITH_SERVERS)
-    return not any(_texts_with(package, _WITHOUT_SERVERS, _LAUNCHING)) or any(
-        data for word in words for data in _texts_with(package, word, _LAUNCHING)
+    if not any(_texts_with(package, _WITHOUT_SERVERS, _LAUNCHING)):
+        return True
+    name = server.encode()
+    return any(
+        name in data or _WITH_SERVERS.search(data) for data in _texts_with(package, b"", _LAUNCHING)
     )
 
 
@@ -45,5 +48,5 @@ def _texts_with(package: Package, word: bytes, endings: tuple[str, ...]) -> Iter
             if path.endswith(endings) and path not in configured:
                 with suppress(ViewError):
                     data = other.data(path)
-                    if word in data and word in without_comments(data):
-                        yield data
+                    if word in data and word in (code := without_comments(data)):
+                        yield code

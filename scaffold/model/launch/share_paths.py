@@ -282,15 +282,18 @@ def is_given_as_parameters(launch: LaunchFile, at: Location) -> bool:
     )
 
 
-def _is_given(launch: LaunchFile, node: ast.AST) -> bool:
+def _is_given(launch: LaunchFile, node: ast.AST, seen: frozenset[ast.AST] = frozenset()) -> bool:
     for parent in launch.module.parents(node):
         match parent:
             case ast.keyword(arg="parameters"):
                 return True
             case ast.Assign(targets=[ast.Name() as variable]):
                 index = launch.module.index
-                uses = [use for use in index.uses_of(variable) if use is not variable]
-                return bool(uses) and all(_is_given(launch, use) for use in uses)
+                uses = [use for use in index.uses_of(variable) if isinstance(use.ctx, ast.Load)]
+                following = seen | {variable}
+                return variable in seen or (
+                    bool(uses) and all(_is_given(launch, use, following) for use in uses)
+                )
             case ast.Call():
                 call = launch.call_of(parent)
                 if call is None or call.kind not in _PATHS:
