@@ -58,6 +58,10 @@ class SubpackageWithoutInit(Rule):
     examples = (
         Example("with __init__.py", {**_FILES, "talker/text/__init__.py": ""}),
         Example(
+            "package that setup.py does not list, so that the file changes nothing",
+            {**_FILES, "setup.py": "from setuptools import setup\n\nsetup(packages=['robot'])\n"},
+        ),
+        Example(
             "modules that are package data",
             {
                 **_FILES,
@@ -144,7 +148,7 @@ class SubpackageWithoutInit(Rule):
             earlier = missing.get(init)
             if package.has(init) or (earlier and earlier.is_certain):
                 continue
-            if self._is_listed(packages, use.directory) or _is_data(package, use.directory):
+            if _is_needless(packages, use.directory) or _is_data(package, use.directory):
                 continue
             if use.is_certain or earlier is None:
                 missing[init] = use
@@ -157,10 +161,14 @@ class SubpackageWithoutInit(Rule):
             severity = None if use.is_certain else Severity.WARNING
             yield self.report(package.start_of(init), message, fix, severity=severity)
 
-    def _is_listed(self, packages: object, directory: str) -> bool:
-        if isinstance(packages, FindPackages):
-            return packages.namespace
-        return isinstance(packages, list | tuple) and directory.replace("/", ".") in packages
+
+def _is_needless(packages: object, directory: str) -> bool:
+    """Return whether a directory is installed without the file, or not even with it."""
+    if isinstance(packages, FindPackages):
+        return packages.namespace
+    if not isinstance(packages, list | tuple):
+        return False
+    return directory.partition("/")[0] not in packages or directory.replace("/", ".") in packages
 
 
 def _is_data(package: Package, directory: str) -> bool:

@@ -53,6 +53,18 @@ class DataDestinationDiffers(Rule):
             },
         ),
         Example(
+            "files found in each directory of a loop",
+            {
+                **_FILES,
+                "robots/small/robot.yaml": "",
+                "setup.py": "from glob import glob\nfrom os.path import join\n"
+                "from setuptools import setup\n\nfiles = []\n"
+                "for directory in glob('robots/*'):\n"
+                "    entry = (join('share/talker', directory), glob(directory + '/*'))\n"
+                "    files.append(entry)\n\nsetup(name='talker', data_files=files)\n",
+            },
+        ),
+        Example(
             "without the package",
             {**_FILES, "setup.py": _SETUP.format("'share/launch'", _GLOB)},
             "setup.py:6:10: installs launch/talk.launch.py to share/launch, but ROS 2 searches "

@@ -34,6 +34,8 @@ _OF_URDF: Mapping[tuple[str, str], tuple[str, ...]] = {
     ("geometry", "mesh"): ("filename",),
     ("visual", "material"): ("name",),
 }
+_REPEATED = frozenset({"link", "joint", "visual"})
+"""Elements of which urdfdom reads more than the first one."""
 _OF_LINK = frozenset({"inertial", "visual", "geometry"})
 _OF_XACRO: Mapping[str, tuple[str, ...]] = {
     "xacro:include": ("filename",),
@@ -110,6 +112,14 @@ class ElementRefused(Rule):
             },
         ),
         Example("complete elements", {"robot.urdf": _ROBOT.format("value")}),
+        Example(
+            "second mass, which urdfdom does not read",
+            {
+                "robot.urdf": _ROBOT.format("value").replace(
+                    "    </inertial>", "      <mass>2.0</mass>\n    </inertial>"
+                )
+            },
+        ),
         Example(
             "robot file of a web application",
             {"web/package.json": "{}\n", "web/public/robot.urdf": "<robot>\n</robot>\n"},
@@ -245,6 +255,8 @@ class ElementRefused(Rule):
                 message = "<robot> has no 'name': urdfdom rejects the whole file"
                 yield self.report(robot.root, message)
         for part in filter(_is_urdf, urdf_parts(package)):
+            if _is_skipped(part):
+                continue
             holder = part.holder.tag if part.holder is not None else ""
             names = _OF_URDF.get((holder, part.tag), ())
             missing = [name for name in names if name not in part.attributes]
@@ -325,6 +337,14 @@ def _is_urdf(part: Part) -> bool:
     while holder is not None and holder.tag != "link":
         holder = holder.holder
     return holder is not None
+
+
+def _is_skipped(part: Part) -> bool:
+    """Return whether urdfdom skips a part: it only reads the first ``<mass>``, for example."""
+    if part.holder is None or part.tag in _REPEATED:
+        return False
+    alike = [child for child in part.holder.element.children if child.tag == part.tag]
+    return any(child is part.element for child in alike[1:])
 
 
 def _is_read(part: Part) -> bool:

@@ -311,11 +311,21 @@ def _is_harmless(package: Package, undefined: Diagnostic) -> bool:
     """Return whether an undefined name is not evaluated, or exists at run time.
 
     Such as annotations, modules that ``from .talk import *`` adds to their package, and names that
-    ``globals().update(...)`` adds.
+    ``globals().update(...)`` or a function adds.
     """
     return any(
-        is_unevaluated(module, name) or _is_own_module(module, name) or _adds_globals(module)
+        is_unevaluated(module, name)
+        or _is_own_module(module, name)
+        or _adds_globals(module)
+        or _is_set_by_function(module, name)
         for module, name in _names_at(package, undefined)
+    )
+
+
+def _is_set_by_function(module: PythonModule, name: ast.expr) -> bool:
+    """Return whether a function sets a global variable that the module only annotates."""
+    return isinstance(name, ast.Name) and any(
+        name.id in statement.names for statement in module.walk(ast.Global)
     )
 
 

@@ -707,6 +707,16 @@ def test_name_added_to_globals(
     assert severities(capsys, "F821") == {"talker/node.py": severity}
 
 
+def test_annotated_name_that_a_function_sets(
+    package: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    talk = "word: str\n\n\ndef talk():\n    print(word)\n\n\ntalk()\n"
+    write(package / "talker" / "node.py", talk)
+    setting = "def set_word():\n    global word\n    word = 'a'\n\n\nset_word()\n"
+    write(package / "talker" / "talk.py", talk.replace("\n\n\ntalk()", f"\n\n\n{setting}talk()"))
+    assert severities(capsys, "F821") == {"talker/node.py": "error", "talker/talk.py": "warning"}
+
+
 def test_uncalled_launch_helper(package: Path, capsys: pytest.CaptureFixture[str]) -> None:
     helper = LAUNCH.replace("generate_launch_description", "talk").replace("{}", "")
     write(package / "talker" / "parts.py", helper.replace("talk'", "nothing'"))

@@ -122,9 +122,10 @@ class Foreign:
     # -- git
 
     def _is_submodule(self, disk: Disk, path: str) -> bool:
-        return any(
-            path in self._submodules_of(disk, above) for above in _parents(os.path.dirname(path))
-        )
+        repository = self._repository_of(disk, os.path.dirname(path))
+        # git only reads the file at the top of a checkout
+        places = [repository] if repository else _parents(os.path.dirname(path))
+        return any(path in self._submodules_of(disk, place) for place in places)
 
     def _submodules_of(self, disk: Disk, directory: str) -> frozenset[str]:
         if directory not in self._submodules:

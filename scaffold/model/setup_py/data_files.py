@@ -68,6 +68,9 @@ def _evaluated(value: object, node: ast.expr, at: Location) -> DataFile:
         case (str() | Unknown() as destination, list() | tuple() as values):
             sources = tuple(map(_source, values))
             is_pair = True
+        case (str() | Unknown() as destination, Glob() | Unknown() as files):
+            sources = (_source(files),)
+            is_pair = True
     problem = "not a pair of a directory and a list of files"
     return DataFile(
         destination,

@@ -106,6 +106,15 @@ def test_foreign_packages_are_not_checked(
     assert check("own", other)[1] == []
 
 
+def test_submodules_are_named_at_the_top_of_the_checkout(workspace: Path, check: Check) -> None:
+    submodule(workspace)
+    (workspace / "other" / ".git").mkdir()
+    write(workspace / "own", {".gitmodules": '[submodule "x"]\n\tpath = deep\n'})
+    (workspace / "own" / "deep").mkdir()
+    (workspace / "own" / "node.py").rename(workspace / "own" / "deep" / "node.py")
+    assert check()[0] == ["own/deep/node.py"]
+
+
 @pytest.mark.parametrize("make", [submodule, ignored, vendored])
 def test_foreign_packages_are_checked_if_there_are_no_others(
     workspace: Path, check: Check, make: Callable[[Path], str]
