@@ -116,6 +116,17 @@ class OwnImportMissing(Rule):
             "did you mean 'talker.text'?",
         ),
         Example(
+            "an unknown module, and another one with the name of a directory",
+            {
+                **_FILES,
+                "talker/text_makers/__init__.py": "",
+                "talker/text_makers/fast.py": "",
+                "talker/node.py": "from talker.text_maker_f import make\n",
+            },
+            "talker/node.py:1:1: the package has no module 'talker.text_maker_f': "
+            "ModuleNotFoundError",
+        ),
+        Example(
             "modules moved to a subdirectory, which is reported once",
             {
                 **_FILES,
@@ -201,8 +212,7 @@ class OwnImportMissing(Rule):
             yield from self._check_names(package, node, name, path)
         elif root in roots:
             if not may_be_made(package, name):
-                modules = [item for item in _modules_of(package, root) if "__init__" not in item]
-                closest = closest_name(package, name, modules, 0.6)
+                closest = _closest_module(package, root, name)
                 hint = f"; did you mean {closest!r}?" if closest else ""
                 message = f"the package has no module {name!r}: ModuleNotFoundError{hint}"
                 yield self.report(node, message, cause=_cause(package, where, node, name))
@@ -250,3 +260,17 @@ def _modules_of(package: Package, root: str) -> list[str]:
         for path in package.python_files
         if path.startswith(f"{root}/") and path.endswith(".py")
     ]
+
+
+def _closest_module(package: Package, root: str, name: str) -> str:
+    """Return the module that is meant by a name: at another place, or with a similar name."""
+    modules = [item for item in _modules_of(package, root) if "__init__" not in item]
+    moved = [item for item in modules if item.rpartition(".")[2] == name.rpartition(".")[2]]
+    if moved:
+        return closest_name(package, name, moved, 0.0)
+    short = name.removeprefix(f"{root}.")
+    beside = [
+        item.removeprefix(f"{root}.") for item in modules if item.count(".") == name.count(".")
+    ]
+    closest = closest_name(package, short, beside, 0.8)
+    return f"{root}.{closest}" if closest else ""
