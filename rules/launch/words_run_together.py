@@ -24,7 +24,8 @@ _LAUNCH = (
 )
 _COMMAND = (
     "from launch import LaunchDescription\n"
-    "from launch.substitutions import Command, FindExecutable, PathJoinSubstitution\n"
+    "from launch.substitutions import (\n"
+    "    Command, FindExecutable, LaunchConfiguration, PathJoinSubstitution)\n"
     "from launch_ros.actions import Node\n\n\n"
     "def generate_launch_description():\n"
     "    text = Command({})\n"
@@ -42,10 +43,11 @@ class WordsRunTogether(LaunchRule):
 
     **Why.** Python joins adjacent string literals: ``'--ros-args' '-r'`` is ``--ros-args-r``.
     ``'--ros-args -r a:=b'`` is one argument with spaces in it. Most programs ignore both without an
-    error. ``Command(['xacro', path])`` searches for a program ``xacro/opt/...``.
+    error. ``Command(['xacro', path])`` searches for a program ``xacro/opt/...``. It splits what it
+    joined at spaces: ``xyz:=0 0 0`` are three words.
 
     **Fix.** Write ``['--ros-args', '-r', 'a:=b']``; add a space at the end of ``'xacro '``, or ``'
-    '`` after ``FindExecutable(...)``.
+    '`` after ``FindExecutable(...)``, and quotes around values: ``' xyz:="', xyz, '"'``.
 
     **Source.** Python documentation, "String literal concatenation";
     ``launch/descriptions/executable.py``; ``launch/substitutions/command.py``.
@@ -100,12 +102,21 @@ class WordsRunTogether(LaunchRule):
         Example(
             "a command without a space",
             _command("['xacro', 'a']"),
-            "7:12: launch concatenates the parts of a command without a space; write 'xacro '",
+            "8:12: launch concatenates the parts of a command without a space; write 'xacro '",
+        ),
+        Example(
+            "values with spaces, in quotes and without them",
+            _command(
+                "['xacro ', 'a.xacro', ' a:=\"', LaunchConfiguration('a', default='0 0'), '\"',\n"
+                "                    ' b:=', LaunchConfiguration('b', default='0 0')]"
+            ),
+            "9:29: the spaces in '0 0' split it into words: xacro expects exactly one file and "
+            "stops; put double quotes around the value",
         ),
         Example(
             "a program that is searched for",
             _command("[PathJoinSubstitution([FindExecutable(name='xacro')]), 'a']"),
-            "7:12: launch concatenates the parts of a command without a space; write ' ' after it",
+            "8:12: launch concatenates the parts of a command without a space; write ' ' after it",
         ),
     )
 
@@ -114,6 +125,13 @@ class WordsRunTogether(LaunchRule):
             problem = _joined_command(launch, call.call.args[0]) if call.call.args else ""
             if problem:
                 yield self.report(call, problem)
+            for item, text in _split_values(launch, call.call):
+                message = (
+                    f"the spaces in {text!r} split it into words: xacro expects exactly one file "
+                    "and stops; put double quotes around the value"
+                )
+                cause = f"values with spaces in {launch.path}"
+                yield self.report(launch.location(item), message, cause=cause)
         for call in launch.find(*NODES, "ExecuteProcess"):
             if "shell" in call.given:
                 continue
@@ -200,6 +218,24 @@ def _joined_command(launch: LaunchFile, node: ast.expr) -> str:
         return ""
     missing = f"'{word} '" if isinstance(first, ast.Constant) else "' ' after it"
     return f"launch concatenates the parts of a command without a space; write {missing}"
+
+
+def _split_values(launch: LaunchFile, command: ast.Call) -> Iterator[tuple[ast.expr, str]]:
+    """Yield the values of ``name:=`` for xacro with spaces that are not in quotes."""
+    match command.args:
+        case [ast.List(elts=[first, *_] as parts)]:
+            call = launch.call_of(first)
+            is_found = call is not None and launch.text(call, "name") == "xacro"
+            word = first.value if isinstance(first, ast.Constant) else ""
+            if not is_found and str(word).split()[:1] != ["xacro"]:
+                return
+        case _:
+            return
+    for before, item in pairwise(parts):
+        start = before.value if isinstance(before, ast.Constant) else ""
+        value = launch.default_of(item)
+        if isinstance(value, str) and " " in value.strip() and str(start).endswith(":="):
+            yield item, value
 
 
 def _begins_with_space(launch: LaunchFile, node: ast.expr) -> bool:
