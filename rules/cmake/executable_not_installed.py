@@ -4,10 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity, closest_name
+from scaffold.api import (
+    Diagnostic,
+    Example,
+    Package,
+    Report,
+    Rule,
+    Severity,
+    closest_name,
+    listed_names,
+)
 from scaffold.api.cmake import has_unknown_commands, is_used_by_build, programs
-from scaffold.api.install import is_started, paths_imported_by
+from scaffold.api.install import file_of, is_started, paths_imported_by
 from scaffold.api.launch import package_uses
+from scaffold.api.programs import programs_of
+from scaffold.api.setup_py import call_without_destination, configured_scripts
 
 _TRIALS = ("test", "example")
 """Prefixes of executables that are only meant for the author."""
@@ -29,6 +40,18 @@ _LISTS_TARGETS = (
     "add_executable(listen src/listen.cpp)\n"
     "install(TARGETS talk {}DESTINATION lib/${{PROJECT_NAME}})\nament_package()\n"
 )
+
+
+_CONFIGURED = {
+    "package.xml": '<package format="3"><name>talker</name><export>'
+    "<build_type>ament_cmake</build_type></export></package>\n",
+    "CMakeLists.txt": "project(talker)\nfind_package(ament_cmake_python REQUIRED)\n"
+    "ament_python_install_package(talker SCRIPTS_DESTINATION lib/${PROJECT_NAME})\n"
+    "ament_package()\n",
+    "setup.cfg": "[options.entry_points]\nconsole_scripts =\n  talk = talker.talk:main\n",
+    "talker/__init__.py": "",
+    "talker/talk.py": "def main():\n    pass\n",
+}
 
 
 class ExecutableNotInstalled(Rule):
@@ -166,6 +189,19 @@ class ExecutableNotInstalled(Rule):
             executable=("talker/node.py",),
         ),
         Example("both installed", {"CMakeLists.txt": _LISTS_TARGETS.format("listen ")}),
+        Example("console scripts of setup.cfg", _CONFIGURED),
+        Example(
+            "console scripts of setup.cfg without a destination",
+            {
+                **_CONFIGURED,
+                "CMakeLists.txt": _CONFIGURED["CMakeLists.txt"].replace(
+                    " SCRIPTS_DESTINATION lib/${PROJECT_NAME}", ""
+                ),
+            },
+            "CMakeLists.txt:3:1: setup.cfg declares talk, but ament_python_install_package() "
+            "installs no scripts: `ros2 run` does not find them; add SCRIPTS_DESTINATION "
+            "lib/${PROJECT_NAME}",
+        ),
         Example(
             "an executable that is not installed",
             {"CMakeLists.txt": _LISTS_TARGETS.format("")},
@@ -176,6 +212,7 @@ class ExecutableNotInstalled(Rule):
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         yield from self._check_targets(package)
+        yield from self._check_configured(package)
         cmake = package.cmake
         if not cmake.find("ament_package") or has_unknown_commands(package):
             return
@@ -211,6 +248,27 @@ class ExecutableNotInstalled(Rule):
             is_whole = is_whole or path.rpartition("/")[2] in launched
             severity = Severity.ERROR if is_whole else Severity.WARNING
             yield self.report(place, message, severity=severity)
+
+    def _check_configured(self, package: Package) -> Iterator[Diagnostic]:
+        """Check that console scripts of setup.cfg are installed, unless other programs run them."""
+        call = call_without_destination(package)
+        if call is None or has_unknown_commands(package):
+            return
+        programs = programs_of(package)
+        scripts = [
+            script.name
+            for script in configured_scripts(package)
+            if script.name not in programs.sources
+            and file_of(package, script.module) not in programs.sources.values()
+        ]
+        if scripts and programs.complete:
+            message = (
+                f"setup.cfg declares {listed_names(scripts, '')}, but "
+                f"ament_python_install_package() installs no scripts: `ros2 run` does not find "
+                f"them; add SCRIPTS_DESTINATION lib/${{PROJECT_NAME}}"
+            )
+            cause = "" if programs.sources else f"executables of {package.name}"
+            yield self.report(call.name_location, message, cause=cause)
 
     def _is_misspelled(self, package: Package, path: str) -> bool:
         """Return whether a missing installed file must be this one."""

@@ -20,7 +20,12 @@ from scaffold.api import (
 from scaffold.api.install import file_of, is_elsewhere, moved_to
 from scaffold.api.python import exports_of
 from scaffold.api.rclpy import rclpy_file
-from scaffold.api.setup_py import EntryPoint
+from scaffold.api.setup_py import (
+    ConfiguredScript,
+    EntryPoint,
+    configured_scripts,
+    installs_configured,
+)
 
 _MISSING = "there is no"
 _SETUP = (
@@ -38,6 +43,13 @@ _SETUP_USE = (
     "from setuptools import setup\n\nsetup(\n    name='talker',\n    packages=['talker'],\n"
     "    entry_points={{'console_scripts': ['node = {}:main']}},\n)\n"
 )
+_CONFIGURED = {
+    "package.xml": '<package format="3"><name>talker</name><export>'
+    "<build_type>ament_cmake</build_type></export></package>\n",
+    "CMakeLists.txt": "project(talker)\nfind_package(ament_cmake_python REQUIRED)\n"
+    "ament_python_install_package(talker SCRIPTS_DESTINATION lib/${PROJECT_NAME})\n"
+    "ament_package()\n",
+}
 _FILES = {"talker/__init__.py": "", "talker/node.py": "def main(args=None):\n    pass\n"}
 
 
@@ -168,6 +180,19 @@ class EntryPointUnusable(Rule):
             "setup.py:5:9: no module 'talkr.node' is installed; did you mean 'talker.node'?",
         ),
         Example(
+            "setup.cfg in a package that CMake builds",
+            {
+                **_CONFIGURED,
+                **_FILES,
+                "setup.cfg": "[options.entry_points]\nconsole_scripts =\n"
+                "  node = talker.node:main\n  talk = talker.talk:main\n"
+                "  run = talker.node:run\n",
+            },
+            "setup.cfg:4:3: `ros2 run` of 'talk' fails: there is no talker/talk.py; did you mean "
+            "talker/node.py?",
+            "setup.cfg:5:3: `ros2 run` of 'run' fails: talker/node.py has no 'run'",
+        ),
+        Example(
             "an existing function",
             {"setup.py": _SETUP_USE.format("talker.node"), **_FILES},
         ),
@@ -234,6 +259,7 @@ class EntryPointUnusable(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
+        yield from self._check_configured(package)
         is_unused = package.build_type == "ament_cmake"  # setup.py is not run there
         checks = [self._check_form, self._check_names, self._check_use]
         for check in checks if is_unused else [*checks, self._check_target]:
@@ -252,6 +278,17 @@ class EntryPointUnusable(Rule):
                 severity = Severity.WARNING if is_running else Severity.ERROR
                 cause = f"console scripts: {entry.malformed}"
                 yield self.report(entry, message, severity=severity, cause=cause)
+
+    def _check_configured(self, package: Package) -> Iterator[Diagnostic]:
+        """Check the console scripts of setup.cfg whose module lies in the package."""
+        if not installs_configured(package):
+            return
+        for script in configured_scripts(package):
+            if not package.has(f"{script.module.partition('.')[0]}/__init__.py"):
+                continue
+            if problem := self._problem_of_target(package, script):
+                message = f"`ros2 run` of {script.name!r} fails: {problem}"
+                yield self.report(script, message, cause=_MISSING if _MISSING in problem else "")
 
     def _check_names(self, package: Package) -> Iterator[Diagnostic]:
         seen: dict[str, EntryPoint] = {}
@@ -285,6 +322,11 @@ class EntryPointUnusable(Rule):
         root, *_ = entry.module.split(".")
         if not package.has_directory(root):
             return self._missing_package(package, entry.module)
+        return self._problem_of_target(package, entry)
+
+    def _problem_of_target(
+        self, package: Package, entry: EntryPoint | ConfiguredScript
+    ) -> str | None:
         base = entry.module.replace(".", "/")
         path = next((p for p in (f"{base}.py", f"{base}/__init__.py") if package.has(p)), None)
         if path is None:

@@ -6,7 +6,8 @@ import ast
 from collections.abc import Iterator
 from difflib import get_close_matches
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
+from scaffold.api import Diagnostic, Example, Location, Package, Report, Rule, Severity
+from scaffold.api.setup_py import GROUPS
 
 _KNOWN = frozenset(
     """
@@ -74,9 +75,25 @@ class KeywordMisspelled(Rule):
             "7:9: setuptools ignores the unknown group 'console_script'; did you mean "
             "'console_scripts'?",
         ),
+        Example(
+            "a misspelled group in setup.cfg",
+            {"setup.cfg": "[options.entry_points]\nconsole_script =\n  node = talker.node:main\n"},
+            "2:1: setuptools ignores the unknown group 'console_script'; did you mean "
+            "'console_scripts'?",
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
+        yield from self._check_configured(package)
+        yield from self._check_setup(package)
+
+    def _check_configured(self, package: Package) -> Iterator[Diagnostic]:
+        section = package.setup_cfg.sections.get(GROUPS) if package.has("setup.cfg") else None
+        for key, option in section.options.items() if section else ():
+            if key in _WRONG_GROUPS:
+                yield self._report_group(option.key_location, key)
+
+    def _check_setup(self, package: Package) -> Iterator[Diagnostic]:
         setup = package.setup_py
         for word in setup.call.keywords if setup.call else ():
             if word.arg is None or word.arg in _KNOWN:
@@ -94,8 +111,8 @@ class KeywordMisspelled(Rule):
         if isinstance(node, ast.Dict):
             for key in node.keys:
                 if isinstance(key, ast.Constant) and key.value in _WRONG_GROUPS:
-                    message = (
-                        f"setuptools ignores the unknown group {key.value!r}; did you mean "
-                        f"{_GROUP!r}?"
-                    )
-                    yield self.report(setup.module.location(key), message)
+                    yield self._report_group(setup.module.location(key), str(key.value))
+
+    def _report_group(self, place: Location, name: str) -> Diagnostic:
+        message = f"setuptools ignores the unknown group {name!r}; did you mean {_GROUP!r}?"
+        return self.report(place, message)

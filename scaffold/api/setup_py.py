@@ -3,6 +3,13 @@
 from __future__ import annotations
 
 from scaffold.formats.ini import IniFile, IniOption
+from scaffold.model.install.configured_scripts import (
+    GROUPS,
+    ConfiguredScript,
+    call_without_destination,
+    configured_scripts,
+    installs_configured,
+)
 from scaffold.model.install.console_scripts import node_scripts
 from scaffold.model.install.declared_pytest import (
     EXTRAS,
@@ -19,15 +26,20 @@ from scaffold.model.setup_py.setup_py import FindPackages, SetupPy
 
 __all__ = [
     "EXTRAS",
+    "GROUPS",
     "SECTION",
+    "ConfiguredScript",
     "DataFile",
     "EntryPoint",
     "FindPackages",
     "IniFile",
     "IniOption",
     "SetupPy",
+    "call_without_destination",
+    "configured_scripts",
     "has_extra",
     "installed_data",
+    "installs_configured",
     "lacks_pytest",
     "matches",
     "node_scripts",

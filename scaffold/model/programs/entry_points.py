@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from scaffold.model.contents.python_facts import imports_of
 from scaffold.model.facts import fact
+from scaffold.model.install.configured_scripts import configured_scripts, installs_configured
 from scaffold.model.rclpy.file import rclpy_file
 from scaffold.record import NamedTuple
 from scaffold.source import ViewError
@@ -80,8 +81,17 @@ def _starts(package: Package) -> Iterator[EntryPoint]:
             yield from _console_scripts(package)
         elif package.build_type == "ament_cmake":
             yield from _programs(package)
+        if installs_configured(package):
+            yield from _configured(package)
     except ViewError:
         return
+
+
+def _configured(package: Package) -> Iterator[EntryPoint]:
+    for script in configured_scripts(package):
+        path = _file_of(package, script.module)
+        if path is not None:
+            yield EntryPoint(script.name, path, script.function)
 
 
 def _console_scripts(package: Package) -> Iterator[EntryPoint]:

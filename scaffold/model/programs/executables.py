@@ -9,6 +9,12 @@ from typing import TYPE_CHECKING
 from scaffold.model.catalog import keys_of_module
 from scaffold.model.contents.ament_cmake import programs
 from scaffold.model.contents.python_facts import imports_of
+from scaffold.model.install.configured_scripts import (
+    configured_scripts,
+    installs_configured,
+    installs_unknown_scripts,
+    unknown_groups,
+)
 from scaffold.model.programs.known_nodes import KnownNode, known_nodes
 from scaffold.record import NamedTuple
 from scaffold.source import ViewError
@@ -141,21 +147,15 @@ def _by_setup(package: Package) -> Programs:
     for data in setup.data_files:
         if str(data.destination).startswith("lib"):
             complete = False
-    if package.has("setup.cfg") and "entry_points" in package.source("setup.cfg").text:
-        complete = False
-        sources.update(_configured(package))
-    return Programs(sources, complete)
+    sources.update(_configured(package))
+    return Programs(sources, complete and not unknown_groups(package))
 
 
 def _configured(package: Package) -> dict[str, str]:
     """Return the programs that setup.cfg declares."""
-    option = package.setup_cfg.option("options.entry_points", "console_scripts")
-    lines = [line.text.partition("=") for line in option.lines] if option is not None else []
-    return {
-        name.strip(): _file_of(package, target.partition(":")[0].strip())
-        for name, glue, target in lines
-        if glue
-    }
+    if not installs_configured(package):
+        return {}
+    return {script.name: _file_of(package, script.module) for script in configured_scripts(package)}
 
 
 def _file_of(package: Package, module: str) -> str:
@@ -168,7 +168,8 @@ def _file_of(package: Package, module: str) -> str:
 def _by_cmake(package: Package) -> Programs:
     cmake = package.cmake
     complete = all(command.name in _PLAIN_COMMANDS for command in cmake.commands)
-    sources: dict[str, str] = {}
+    complete = complete and (installs_configured(package) or not installs_unknown_scripts(package))
+    sources = _configured(package)
     for program in programs(package):
         destination = (program.destination or "").rstrip("/")
         if destination == f"lib/{package.name}":
