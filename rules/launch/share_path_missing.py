@@ -313,6 +313,34 @@ class SharePathMissing(Rule):
             "such file; did you mean config/talker.yaml?",
         ),
         Example(
+            "the default of a parameter, and the argument of a helper",
+            {
+                **_FILES,
+                "talker/talk.py": "import os\n\n"
+                "from ament_index_python.packages import get_package_share_directory\n"
+                "from rclpy.node import Node\nfrom talker.words import load\n\n\n"
+                "class Talk(Node):\n"
+                "    def __init__(self):\n"
+                "        super().__init__('talk')\n"
+                "        self.declare_parameter('file', 'other.json')\n"
+                "        share = get_package_share_directory('talker')\n"
+                "        name = self.get_parameter('file').value\n"
+                "        with open(os.path.join(share, 'config', name)) as stream:\n"
+                "            self.words = stream.read()\n"
+                "        self.other = [load(), load('talk.yaml')]\n",
+                "talker/words.py": "import os\n\n"
+                "from ament_index_python.packages import get_package_share_directory\n\n\n"
+                "def load(name='talker.yaml'):\n"
+                "    share = get_package_share_directory('talker')\n"
+                "    with open(os.path.join(share, 'config', name)) as stream:\n"
+                "        return stream.read()\n",
+            },
+            "talker/talk.py:14:19: share/talker/config/other.json does not exist: setup.py of "
+            "talker does not install config/other.json",
+            "talker/talk.py:16:36: share/talker/config/talk.yaml does not exist: talker has no "
+            "such file; did you mean config/talker.yaml?",
+        ),
+        Example(
             "another name; another directory; not installed",
             {
                 **_FILES,

@@ -32,6 +32,7 @@ from scaffold.model.launch.evaluator import SHARE
 from scaffold.model.launch.files import DATA_DIRECTORIES, data_files, is_named, launch_files
 from scaffold.model.launch.includes import Included, given_arguments, included
 from scaffold.model.launch.markup_file import MarkupNode, is_known, markup_files, markup_paths
+from scaffold.model.launch.module_paths import NamedPath
 from scaffold.model.launch.nodes import (
     GivenParameter,
     StartedNode,
@@ -56,7 +57,6 @@ from scaffold.model.launch.remappings import (
     names_of,
 )
 from scaffold.model.launch.share_paths import (
-    NamedPath,
     has_similar_file,
     is_given_as_parameters,
     is_left_to_the_user,

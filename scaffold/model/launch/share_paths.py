@@ -16,10 +16,9 @@ from scaffold.model.facts import fact
 from scaffold.model.install.share import share_of
 from scaffold.model.launch.files import DATA_DIRECTORIES
 from scaffold.model.launch.markup_file import markup_files
+from scaffold.model.launch.module_paths import NamedPath, paths_of_module
 from scaffold.model.launch.python_file import LaunchFile, SharePath, launch_paths
 from scaffold.model.launch.unlaunched import covers, is_never_used
-from scaffold.model.package import mentions
-from scaffold.record import NamedTuple
 from scaffold.source import ViewError
 
 if TYPE_CHECKING:
@@ -33,15 +32,7 @@ _OF_MADE_FILES = frozenset(
 )
 """Functions that create, remove or test for a file that need not exist."""
 
-_SHARE = "get_package_share_"
-"""The start of the functions that return the share directory of a package."""
 _DATABASES = (".db", ".sqlite", ".sqlite3")
-
-_READING = lazy_re.compile(
-    r"(?i:(?:im|safe_|full_)?(?:read|load)\w*|parse|fromfile|from_file|loadtxt|genfromtxt)"
-)
-"""Matches functions that read a file."""
-
 
 _PLACEHOLDER = lazy_re.compile(r"(?i:readme[^/]*|\.(?:git)?(?:keep|ignore)|\.placeholder)")
 """Matches files that keep a directory in git."""
@@ -57,14 +48,6 @@ _HINTED = 0.5
 """How similar they are if one may be meant."""
 _PATHS = frozenset({"PathJoinSubstitution", "TextSubstitution"})
 """Substitutions that are paths."""
-
-
-class NamedPath(NamedTuple):
-    """A path below the share directory of a package in a launch file."""
-
-    package: str
-    path: str
-    location: Location
 
 
 def paths_of(package: Package) -> Iterator[NamedPath]:
@@ -103,54 +86,15 @@ def _paths_of_nodes(package: Package) -> Iterator[NamedPath]:
     of_launch = {*launch_paths(package)}
     for path in package.python_files:
         with suppress(ViewError):
-            if not (path in of_launch or _is_of_tests(path)) and mentions(package, path, _SHARE):
-                yield from _paths_of_module(package, path)
-
-
-@fact
-def _paths_of_module(package: Package, path: str) -> tuple[NamedPath, ...]:
-    file = LaunchFile.of(package, path)
-    return tuple(
-        NamedPath(item.package, item.path.rstrip(), item.location)
-        for item in file.share_paths
-        if not file.is_optional(item.node) and _is_only_read(file, item.node)
-    )
+            if path in of_launch or _is_of_tests(path):
+                continue
+            for item in paths_of_module(package, path):
+                yield NamedPath(item.package, item.path.rstrip(), item.location)
 
 
 def _is_of_tests(path: str) -> bool:
     *directories, name = path.split("/")
     return not {"test", "tests", "launch"}.isdisjoint(directories) or name == "setup.py"
-
-
-def _is_only_read(file: LaunchFile, node: ast.expr) -> bool:
-    """Return whether a path is only opened for reading, and not passed to other functions."""
-    module = file.module
-    holder = module.parent(node)
-    targets = holder.targets if isinstance(holder, ast.Assign) else ()
-    texts = {module.text(target) for target in targets} or {module.text(node)}
-    calls = [
-        call
-        for call in module.walk(ast.Call)
-        if not texts.isdisjoint(map(module.text, (*call.args, *_owner(call))))
-    ]
-    return bool(calls) and all(map(_is_read, calls))
-
-
-def _owner(call: ast.Call) -> Iterator[ast.expr]:
-    """Yield the object of a method call: the path in ``path.read_text()``."""
-    if isinstance(call.func, ast.Attribute):
-        yield call.func.value
-
-
-def _is_read(call: ast.Call) -> bool:
-    """Return whether a call reads the file passed to it."""
-    name = getattr(call.func, "attr", getattr(call.func, "id", ""))
-    if name != "open":
-        return _READING.fullmatch(name) is not None
-    modes = [*call.args[1:2], *(item.value for item in call.keywords if item.arg == "mode")]
-    return all(
-        isinstance(mode, ast.Constant) and not {*"wax+"} & {*str(mode.value)} for mode in modes
-    )
 
 
 def _as_installed(package: Package, launch: LaunchFile, path: SharePath) -> Iterator[NamedPath]:
