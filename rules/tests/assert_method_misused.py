@@ -107,6 +107,16 @@ class AssertMethodMisused(TestRule):
             },
         ),
         Example(
+            "a frame that is not compared",
+            {
+                "test/test_frame.py": _TEST.format("assertEqual")
+                + "        self.assertTrue(self.got.header.frame_id, 'map')\n"
+                "        self.assertTrue(self.got.header.frame_id, 'frame is empty')\n"
+            },
+            "7:9: assertTrue only checks the first argument, the second is a message; use "
+            "assertEqual",
+        ),
+        Example(
             "not compared",
             {"test/test_text.py": _TEST.format("assertTrue").replace("'A'", "['A']")},
             "6:9: assertTrue only checks the first argument, the second is a message; use "
@@ -197,6 +207,10 @@ def _makes_function(module: PythonModule, func: ast.expr) -> bool:
     )
 
 
+_TEXT_FIELDS = frozenset({"frame_id", "child_frame_id"})
+"""Fields of messages that are compared with a name, not tested for being set."""
+
+
 def _compares(given: list[ast.expr]) -> bool:
     """Return whether a second argument is certainly a value to compare with, not a message."""
     if len(given) != 2:  # noqa: PLR2004  a value and a message
@@ -204,6 +218,8 @@ def _compares(given: list[ast.expr]) -> bool:
     first, second = given
     if isinstance(second, ast.Constant) and not isinstance(second.value, str):
         return second.value is not None
+    if isinstance(first, ast.Attribute) and first.attr in _TEXT_FIELDS:
+        return isinstance(second, ast.Constant) and " " not in str(second.value)
     return isinstance(second, ast.List | ast.Dict | ast.Tuple) or (
         isinstance(first, ast.Constant) and isinstance(first.value, str)
     )

@@ -3,16 +3,24 @@
 from __future__ import annotations
 
 import ast
+import re
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Severity, TestRule, ViewError
-from scaffold.api.python import PythonModule
+from scaffold.api.python import FunctionNode, PythonModule
 from scaffold.api.rclpy import LOG_METHODS
 from scaffold.api.tests import test_functions
+
+from ._received import appended_lists
 
 _MOCKED = ("called_once", "called_with", "called_once_with", "not_called", "has_calls")
 _ASSERTION = "def ready():\n    return False\n\n\ndef test_text():\n    assert {}\n"
 _TEST = "import pytest\n\n\ndef ready():\n    return False\n\n\ndef test_text():\n{}"
+_RECEIVED = (
+    "import rclpy\nfrom std_msgs.msg import String\n\n\ndef test_talker(node):\n    got = []\n"
+    "    node.create_subscription(String, 'talk', got.append, 10)\n"
+    "    rclpy.spin_once(node, timeout_sec=1.0)\n{}\n        assert got[0].data == 'hi'\n"
+)
 _ENDS = frozenset({"pytest.fail", "pytest.skip", "pytest.xfail"})
 
 
@@ -20,7 +28,8 @@ class AssertionWithoutEffect(TestRule):
     """A test compares without asserting, or asserts something that is always true.
 
     **Why.** The test always passes: a comparison without ``assert``, ``pytest.raises`` without a
-    block, ``assert`` in a ``try`` that discards the AssertionError. A function that is not called
+    block, ``assert`` in a ``try`` that discards the AssertionError, all assertions in a branch that
+    needs a message. A function that is not called
     is always true, and so is a string that is not compared.
 
     **Fix.** Write ``assert``, or ``with pytest.raises(...):``; call the function; compare with the
@@ -74,6 +83,15 @@ class AssertionWithoutEffect(TestRule):
                 ),
             },
             "test/test_text.py:11:5: this discards the AssertionError: the test always passes",
+        ),
+        Example(
+            "an assertion about a message that may not arrive",
+            {
+                "test/test_a.py": _RECEIVED.format("    assert got\n    if got:"),
+                "test/test_b.py": _RECEIVED.format("    if got:"),
+            },
+            "test/test_b.py:9:5: asserts only if got is not empty: the test passes if no message "
+            "arrives; assert got first",
         ),
         Example(
             "a length compared with zero",
@@ -135,12 +153,47 @@ class AssertionWithoutEffect(TestRule):
 
     def check_in(self, package: Package, module: PythonModule) -> Iterator[Diagnostic]:
         for test in test_functions(module):
+            only = _only_if_received(test.node)
+            if only is not None:
+                name = module.text(only.test)
+                message = (
+                    f"asserts only if {name} is not empty: the test passes if no message arrives; "
+                    f"assert {name} first"
+                )
+                yield self.report(module.location(only), message)
             for node in ast.walk(test.node):
                 at, problem = _problem(module, node)
                 if isinstance(node, ast.Assert) and not problem:
                     problem = _uncalled(package, module, node.test)
                 if problem:
                     yield self.report(module.location(at), problem)
+
+
+def _only_if_received(test: FunctionNode) -> ast.If | None:
+    """Return the condition around all assertions that is false if no message was received."""
+    filled = {
+        name
+        for call in ast.walk(test)
+        if isinstance(call, ast.Call)
+        for name in appended_lists(call)
+    }
+    for statement in test.body:
+        match statement:
+            case ast.If(test=ast.Name(id=name), orelse=[]) if name in filled:
+                inside = sum(map(_asserts, ast.walk(statement)))
+                if inside and inside == sum(map(_asserts, ast.walk(test))):
+                    return statement
+    return None
+
+
+def _asserts(node: ast.AST) -> bool:
+    """Return whether a node may fail the test."""
+    match node:
+        case ast.Assert() | ast.Raise():
+            return True
+        case ast.Call(func=ast.Attribute(attr=name) | ast.Name(id=name)):
+            return re.search(r"assert|fail|raises|skip|wait|expect|check", name) is not None
+    return False
 
 
 def _problem(module: PythonModule, node: ast.AST) -> tuple[ast.AST, str]:

@@ -114,6 +114,18 @@ class FixtureMisused(Rule):
             "8:5: text() is not a fixture: the test fails; add @pytest.fixture",
         ),
         Example(
+            "the name of the variable that a fixture yields",
+            {
+                "test/test_text.py": _TEST.format("text_a = 'a'\n    yield text_a", "text", "text")
+                .replace("def text()", "def words()")
+                .replace(
+                    "test_text(text)",
+                    "test_words(words):\n    assert words == 'a'\n\n\ndef test_text(text_a)",
+                )
+            },
+            "14:5: there is no fixture 'text_a': the test fails; 'words' provides it",
+        ),
+        Example(
             "nothing returned",
             {"test/test_text.py": _TEST.format("print('a')", "text", "text.lower()")},
             "10:12: the fixture text returns nothing, so this is None",
@@ -227,8 +239,24 @@ def _missing(
     closest = get_close_matches(name, available, 1, 0.75)
     if closest:
         return f"unknown fixture {name!r}: the test fails; did you mean {closest[0]!r}?"
-    unused = _unused(module) if name not in _OF_PLUGINS else []
+    return "" if name in _OF_PLUGINS else _undefined(module, name)
+
+
+def _undefined(module: PythonModule, name: str) -> str:
+    """Return the problem with a fixture whose name no plugin has; empty if it may exist."""
+    makers = [it.name for it in own_fixtures(module) if name in _given(it)]
+    if makers:
+        return f"there is no fixture {name!r}: the test fails; {makers[0]!r} provides it"
+    unused = _unused(module)
     return f"there is no fixture {name!r}; no test uses {unused[0]!r}" if unused else ""
+
+
+def _given(fixture: Fixture) -> set[str]:
+    """Return the variables that a fixture returns or yields."""
+    given = [
+        node.value for node in ast.walk(fixture.node) if isinstance(node, ast.Return | ast.Yield)
+    ]
+    return {node.id for node in given if isinstance(node, ast.Name)}
 
 
 def _unused(module: PythonModule) -> list[str]:

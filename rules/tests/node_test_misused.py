@@ -7,15 +7,19 @@ from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Rule
 from scaffold.api.parameters import own_nodes
-from scaffold.api.python import PythonModule
+from scaffold.api.python import FunctionNode, PythonModule
 from scaffold.api.tests import (
+    Fixture,
     TestFunction,
     arguments,
     constructed_class,
+    fixtures,
     node_tests,
     own_fixtures,
     test_functions,
 )
+
+from ._received import appended_lists
 
 _TEST = (
     "import rclpy\nfrom rclpy.node import Node\nfrom std_msgs.msg import String\n\n\n"
@@ -101,8 +105,25 @@ class NodeTestMisused(Rule):
             "sleeps until the message arrives",
             {"test/test_a.py": _TEST_SPIN.format("time.sleep(0.5)")},
             "11:5: this test never spins the node, so the callback is never called",
-            "12:5: the node is not spun while the test sleeps: no callback runs, and line "
-            "{node.lineno} fails; call rclpy.spin_once() in a loop instead",
+            "12:5: the node is not spun while the test sleeps: no callback runs, and line 13 "
+            "fails; call rclpy.spin_once() in a loop instead",
+        ),
+        Example(
+            "a test that does not request the fixture with init()",
+            {
+                "package.xml": "<package><name>demo</name></package>\n",
+                "demo/__init__.py": "",
+                "demo/talker.py": "from rclpy.node import Node\n\n\nclass Talker(Node):\n"
+                "    def __init__(self):\n        super().__init__('talker')\n",
+                "test/test_talker.py": "import pytest\nimport rclpy\n\n"
+                "from demo.talker import Talker\n\n\n"
+                "@pytest.fixture\ndef context():\n    rclpy.init()\n    yield\n"
+                "    rclpy.shutdown()\n\n\n"
+                "def test_name(context):\n    assert Talker().get_name() == 'talker'\n\n\n"
+                "def test_space():\n    assert Talker().get_namespace() == '/'\n",
+            },
+            "test/test_talker.py:19:12: rclpy.init() is not called before this node is "
+            "constructed: NotInitializedException",
         ),
         Example(
             "a fixture for two tests that does not shut rclpy down",
@@ -132,8 +153,10 @@ class NodeTestMisused(Rule):
                     if problem:
                         yield self.report(module.location(node), problem)
             makers = [test.node for test in test_functions(module) if test.class_ is None]
-            makers += [it.node for it in own_fixtures(module)]
-            for maker in makers if "init" not in texts and "patch" not in texts else ():
+            fixtures_made = [it.node for it in own_fixtures(module)] if "init" not in texts else []
+            for maker in [*makers, *fixtures_made] if "patch" not in texts else ():
+                if "init" in texts and not _is_without_init(package, module, maker):
+                    continue
                 for call in _calls(maker):
                     if _is_own_node(package, module, call):
                         yield self.report(module.location(call), _NO_INIT)
@@ -158,7 +181,7 @@ class NodeTestMisused(Rule):
                 continue
             for test in test_functions(module):
                 sleeps = [call for call in _calls(test.node) if _is_sleep(module, call)]
-                filled = {name for call in _calls(test.node) for name in _filled(call)}
+                filled = {name for call in _calls(test.node) for name in appended_lists(call)}
                 for node in ast.walk(test.node):
                     if not isinstance(node, ast.Assert) or not sleeps:
                         continue
@@ -166,7 +189,7 @@ class NodeTestMisused(Rule):
                     if names & filled and sleeps[0].lineno < node.lineno:
                         message = (
                             "the node is not spun while the test sleeps: no callback runs, and "
-                            "line {node.lineno} fails; call rclpy.spin_once() in a loop instead"
+                            f"line {node.lineno} fails; call rclpy.spin_once() in a loop instead"
                         )
                         yield self.report(module.location(sleeps[0]), message)
                         break
@@ -194,6 +217,41 @@ def _problem(
         if is_node and "spin" not in texts and _is_awaited(test, call):
             return "this test never spins the node, so the callback is never called"
     return ""
+
+
+def _is_without_init(package: Package, module: PythonModule, test: FunctionNode) -> bool:
+    """Return whether only fixtures that a test does not request call init(), and shut down again.
+
+    Any other mention of an initialization may take effect in the test.
+    """
+    available = fixtures(package, module)
+    requested, pending = {test}, arguments(test)
+    while pending:
+        fixture = available.get(pending.pop())
+        if fixture is None:
+            return False
+        if fixture.node not in requested:
+            requested.add(fixture.node)
+            pending += arguments(fixture.node)
+    ending = {
+        it.node: it.module
+        for it in available.values()
+        if it.node not in requested and _is_ended(it)
+    }
+    modules = {module, *(it.module for it in available.values())}
+    return all(
+        any(parent in ending for parent in other.parents(node))
+        for other in modules
+        for node in (*other.walk(ast.Name), *other.walk(ast.Attribute))
+        if "init" in str(getattr(node, "attr", getattr(node, "id", ""))).lower()
+    )
+
+
+def _is_ended(fixture: Fixture) -> bool:
+    """Return whether a fixture that only some tests use also shuts rclpy down."""
+    text = fixture.module.text(fixture.node)
+    is_for_all = "autouse" in text or fixture.scope != "function"
+    return "shutdown" in text and not is_for_all
 
 
 def _is_own_node(package: Package, module: PythonModule, call: ast.Call) -> bool:
@@ -231,14 +289,3 @@ def _calls(function: ast.AST) -> Iterator[ast.Call]:
 
 def _is_sleep(module: PythonModule, call: ast.Call) -> bool:
     return module.qualified_name(call.func) == "time.sleep"
-
-
-def _filled(call: ast.Call) -> Iterator[str]:
-    """Yield the lists that a subscription appends to."""
-    if isinstance(call.func, ast.Attribute) and call.func.attr == "create_subscription":
-        for node in (*call.args, *(word.value for word in call.keywords)):
-            match node:
-                case ast.Attribute(value=ast.Name(id=name), attr="append"):
-                    yield name
-                case ast.Lambda(body=body):
-                    yield from (item.id for item in ast.walk(body) if isinstance(item, ast.Name))
