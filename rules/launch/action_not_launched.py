@@ -18,6 +18,8 @@ from scaffold.api.launch import (
     is_unread,
 )
 
+from ._late_settings import late_settings
+
 _EXECUTED = frozenset({*NODES, "IncludeLaunchDescription", "ExecuteProcess"})
 _ASSIGNED = _EXECUTED | {"GroupAction", "OpaqueFunction", "RegisterEventHandler", "TimerAction"}
 _LAUNCH = (
@@ -30,6 +32,10 @@ _LAUNCH = (
     "    return description{}\n"
 )
 _RIGHT = ("", "description.add_action(Node(package='talker', executable='other'))", "")
+_SET = (
+    "SetParameter('use_sim_time', True)",
+    "Node(package='talker', executable='node')",
+)
 _PROCESSES = (*NODES, "ExecuteProcess")
 _LAUNCH_ONCE = (
     "from launch import LaunchDescription\nfrom launch.actions import RegisterEventHandler\n"
@@ -43,12 +49,13 @@ _LAUNCH_ONCE = (
 
 
 class ActionNotLaunched(LaunchRule):
-    """A launch file does not return an action, or returns it twice, or its function has parameters.
+    """A launch file does not return an action, returns it twice, or puts a setting after the nodes.
 
     **Why.** An action that is not in a list is never executed, without an error, even if it is a
-    ``target_action``; an action in two lists stops the launch: ``executed more than once``. ``ros2
-    launch`` calls ``generate_launch_description`` without arguments, and ``add_action`` returns
-    ``None``. It is a warning if a variable holds the action, which may be used later.
+    ``target_action``; an action in two lists stops the launch: ``executed more than once``.
+    ``SetParameter`` and ``SetRemap`` only apply to nodes that follow them. ``ros2 launch`` calls
+    ``generate_launch_description`` without arguments, and ``add_action`` returns ``None``. It is a
+    warning if a variable holds the action, which may be used later.
 
     **Fix.** Put the action in one list; take no arguments; return the LaunchDescription.
 
@@ -100,6 +107,36 @@ class ActionNotLaunched(LaunchRule):
             Report(
                 "8:13",
                 "Node is not in the LaunchDescription: it is never launched",
+                severity=Severity.WARNING,
+            ),
+        ),
+        Example(
+            "settings before and after a node",
+            {
+                f"launch/{name}.launch.py": "from launch import LaunchDescription\n"
+                "from launch_ros.actions import Node, SetParameter\n\n\n"
+                "def generate_launch_description():\n    return LaunchDescription([\n"
+                f"        {first},\n        {second},\n    ])\n"
+                for name, first, second in (("right", *_SET), ("wrong", *_SET[::-1]))
+            },
+            "launch/wrong.launch.py:8:9: SetParameter comes after all nodes: none of them gets "
+            "it; put it first",
+        ),
+        Example(
+            "a list that a function does not return",
+            {
+                "launch/a.launch.py": "from launch import LaunchDescription\n"
+                "from launch.actions import OpaqueFunction\n"
+                "from launch_ros.actions import Node\n\n\n"
+                "def set_up(context):\n"
+                "    nodes = [\n        Node(package='talker', executable='first'),\n"
+                "        Node(package='talker', executable='second'),\n    ]\n\n\n"
+                "def generate_launch_description():\n"
+                "    return LaunchDescription([OpaqueFunction(function=set_up)])\n"
+            },
+            Report(
+                "7:5",
+                "nodes is not in the LaunchDescription: its actions are never launched",
                 severity=Severity.WARNING,
             ),
         ),
@@ -176,6 +213,9 @@ class ActionNotLaunched(LaunchRule):
     def check_file(self, launch: LaunchFile) -> Iterator[Diagnostic]:
         yield from self._check_returned(launch)
         yield from self._check_once(launch)
+        for setting in late_settings(launch):
+            message = f"{setting.kind} comes after all nodes: none of them gets it; put it first"
+            yield self.report(setting, message)
 
     def _check_returned(self, launch: LaunchFile) -> Iterator[Diagnostic]:
         function = launch.function
@@ -188,6 +228,12 @@ class ActionNotLaunched(LaunchRule):
                     f"the parameters"
                 )
                 yield self.report(function, message)
+        unread = dict.fromkeys(_unread_list(launch, call.call) for call in launch.calls)
+        for variable in unread:
+            if variable is not None:
+                message = f"{variable.id} is not in the LaunchDescription: its actions are "
+                message += "never launched"
+                yield self.report(launch.location(variable), message, severity=Severity.WARNING)
         for call in launch.calls:
             is_dropped = isinstance(launch.module.parent(call.call), ast.Expr)
             is_dropped = is_dropped and call.kind in _EXECUTED
@@ -229,17 +275,30 @@ class ActionNotLaunched(LaunchRule):
                 yield self.report(launch.location(made), message, severity=severity)
 
 
-def _is_only_stored(launch: LaunchFile, call: ast.Call) -> bool:
-    """Return whether a call is assigned to a variable that is not read afterwards.
+def _is_only_stored(launch: LaunchFile, node: ast.expr) -> bool:
+    """Return whether an action is assigned to a variable that is not read afterwards."""
+    return _unread_variable(launch, node) is not None
+
+
+def _unread_list(launch: LaunchFile, call: ast.Call) -> ast.Name | None:
+    """Return the variable of a list with an action, if it is not read afterwards."""
+    made, holder = launch.call_of(call), launch.module.parent(call)
+    if made is None or made.kind not in _EXECUTED or not isinstance(holder, ast.List):
+        return None
+    return _unread_variable(launch, holder)
+
+
+def _unread_variable(launch: LaunchFile, node: ast.expr) -> ast.Name | None:
+    """Return the variable that is set to a value and not read afterwards.
 
     A variable in a comment is disabled on purpose.
     """
-    match launch.module.parent(call):
+    match launch.module.parent(node):
         case ast.Assign(targets=[ast.Name() as variable]):
             pattern = rf"#.*\b{re.escape(variable.id)}\b"
             is_disabled = re.search(pattern, launch.module.source.text)
-            return not is_disabled and is_unread(launch, variable)
-    return False
+            return variable if not is_disabled and is_unread(launch, variable) else None
+    return None
 
 
 def _nodes(launch: LaunchFile) -> Iterator[tuple[str, ast.Call, list[ast.Name]]]:

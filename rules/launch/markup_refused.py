@@ -19,7 +19,7 @@ from scaffold.api import (
 )
 from scaffold.api.formats import Element, xml_reader
 from scaffold.api.install import share_of
-from scaffold.api.launch import BY_LAUNCH, may_be_set_elsewhere
+from scaffold.api.launch import BY_LAUNCH, markup_files, may_be_set_elsewhere
 
 from ._markup import ACTIONS, OF_PYTHON, PARTS, REQUIRED, SUBSTITUTIONS, attributes_of
 
@@ -51,7 +51,7 @@ _LAUNCH = "<launch>\n  <node pkg='talker' {}='node' name='{}'/>\n</launch>\n"
 
 
 class MarkupRefused(Rule):
-    """A launch file in XML uses an element, attribute or substitution that launch does not know.
+    """A launch file in XML or YAML uses a name that launch does not know.
 
     Often one of ROS 1, or an argument of a launch file in Python.
 
@@ -81,6 +81,15 @@ class MarkupRefused(Rule):
             "an element of ROS 1",
             {"launch/a.launch.xml": "<launch>\n  <rosparam file='a.yaml'/>\n</launch>\n"},
             "2:4: <rosparam> is ROS 1 syntax: the launch stops; use <param from='...'/>",
+        ),
+        Example(
+            "arguments of Python in YAML",
+            {
+                "launch/a.launch.yaml": "launch:\n- node:\n    package: talker\n"
+                "    executable: talk\n- node:\n    pkg: talker\n    exec: hear\n"
+            },
+            "3:5: 'node' has no key 'package', which belongs to Python; YAML has pkg",
+            "4:5: 'node' has no key 'executable', which belongs to Python; YAML has exec",
         ),
         Example(
             "everything in its place",
@@ -145,6 +154,7 @@ class MarkupRefused(Rule):
     def check(self, package: Package) -> Iterator[Diagnostic]:
         if not package.build_type.startswith("ament"):
             return
+        yield from self._check_yaml(package)
         for path in package.files:
             if not path.endswith(".launch.xml") or {"test", "tests"} & set(path.split("/")):
                 continue
@@ -161,6 +171,24 @@ class MarkupRefused(Rule):
                     yield self.report(at, problem, severity=severity, cause=cause)
             for at, problem in _unset(package, path, document.root):
                 yield self.report(at, problem, severity=severity)
+
+    def _check_yaml(self, package: Package) -> Iterator[Diagnostic]:
+        """Check for keys that are arguments of launch files in Python."""
+        for file in markup_files(package):
+            if file.path.endswith(".xml"):
+                continue
+            for element in file.elements:
+                known = attributes_of(element.tag) if element.tag in ACTIONS else None
+                for name, key in element.attributes.items():
+                    if known is not None and name in OF_PYTHON and name not in known:
+                        message = f"{element.tag!r} has no key {name!r}, which belongs to Python"
+                        message = f"{message}; YAML has {_in_yaml(OF_PYTHON[name])}"
+                        yield self.report(key.name_location, message)
+
+
+def _in_yaml(markup: str) -> str:
+    """Return the key of YAML for an attribute or element of XML."""
+    return markup.removeprefix("<").split(" ")[0].rstrip("/>")
 
 
 def _unset(package: Package, path: str, root: Element) -> Iterator[tuple[Location, str]]:

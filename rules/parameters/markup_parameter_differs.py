@@ -6,7 +6,8 @@ import re
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Rule, closest_name
-from scaffold.api.launch import MarkupNode, code_of, is_known, markup_files
+from scaffold.api.formats import Attribute
+from scaffold.api.launch import MarkupFile, MarkupNode, code_of, is_known, markup_files
 from scaffold.api.parameters import declared_by, place_of
 from scaffold.api.programs import KnownNode
 
@@ -61,6 +62,20 @@ class MarkupParameterDiffers(Rule):
             {**_FILES, "launch/a.launch.xml": _LAUNCH.format("rate", "$(var rate)")},
         ),
         Example(
+            "the default of a launch argument",
+            {
+                **_FILES,
+                "launch/a.launch.xml": _LAUNCH.format("rate", "$(var rate)").replace(
+                    "<launch>", "<launch>\n  <arg name='rate' default='2'/>"
+                ),
+                "launch/b.launch.xml": _LAUNCH.format("rate", "$(var rate)").replace(
+                    "<launch>", "<launch>\n  <arg name='rate' default='2.0'/>"
+                ),
+            },
+            "launch/a.launch.xml:4:31: 'rate' is declared as double (demo/talk.py:7), but the "
+            "default of 'rate' is an integer: InvalidParameterTypeException",
+        ),
+        Example(
             "an integer for a double, in XML and YAML",
             {
                 **_FILES,
@@ -99,13 +114,14 @@ class MarkupParameterDiffers(Rule):
                             f"node declares no parameter {name.value!r}: the value is ignored{hint}"
                         )
                         yield self.report(name, message)
-                    kind, given = declared.types.get(name.value), _type(value.value)
+                    kind, (argument, given) = declared.types.get(name.value), _given(file, value)
                     if kind and given and kind != given:
                         place = declared.places[name.value]
                         where = place_of(place.package, place.location, package)
+                        subject = f"the default of {argument!r}" if argument else "this"
                         article = "an" if given == "integer" else "a"
-                        message = f"{name.value!r} is declared as {kind} ({where}), but this is "
-                        message += f"{article} {given}: InvalidParameterTypeException"
+                        message = f"{name.value!r} is declared as {kind} ({where}), but {subject} "
+                        message += f"is {article} {given}: InvalidParameterTypeException"
                         yield self.report(value, message)
 
 
@@ -113,6 +129,15 @@ def _owner(package: Package, node: MarkupNode) -> KnownNode | None:
     if node.package is None or node.executable is None:
         return None
     return code_of(package, node.package.value, node.executable.value)
+
+
+def _given(file: MarkupFile, value: Attribute) -> tuple[str, str | None]:
+    """Return the type of a value, and the launch argument whose default it is, if any."""
+    reference = re.fullmatch(r"\$\(var ([\w-]+)\)", value.value)
+    if reference is None:
+        return "", _type(value.value)
+    default = file.default_of(reference[1])
+    return reference[1], _type(default.value) if default is not None else None
 
 
 def _type(text: str) -> str | None:

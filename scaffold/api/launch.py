@@ -31,7 +31,13 @@ from scaffold.model.launch.configurations import (
 from scaffold.model.launch.evaluator import SHARE
 from scaffold.model.launch.files import DATA_DIRECTORIES, data_files, is_named, launch_files
 from scaffold.model.launch.includes import Included, given_arguments, included
-from scaffold.model.launch.markup_file import MarkupNode, is_known, markup_files, markup_paths
+from scaffold.model.launch.markup_file import (
+    MarkupFile,
+    MarkupNode,
+    is_known,
+    markup_files,
+    markup_paths,
+)
 from scaffold.model.launch.module_paths import NamedPath
 from scaffold.model.launch.nodes import (
     GivenParameter,
@@ -86,6 +92,7 @@ __all__ = [
     "Included",
     "LaunchCall",
     "LaunchFile",
+    "MarkupFile",
     "MarkupNode",
     "NamedPath",
     "Reference",

@@ -76,6 +76,18 @@ class MarkupFile(NamedTuple):
     """The command lines of ``<executable cmd="…"/>``."""
     containers: list[MarkupNode]
     """Each ``<node_container pkg="…" exec="…"/>``."""
+    elements: list[_Element]
+    """All elements of the file."""
+
+    def default_of(self, argument: str) -> Attribute | None:
+        """Return the default of a launch argument that nothing else in the file sets."""
+        setters = [
+            element.attributes
+            for element in self.elements
+            if element.tag in {"arg", "let"} and element.attributes.get("name") is not None
+        ]
+        named = [given for given in setters if given["name"].value == argument]
+        return named[0].get("default") if len(named) == 1 else None
 
 
 def markup_files(package: Package) -> list[MarkupFile]:
@@ -120,7 +132,7 @@ def _read(package: Package, path: str) -> MarkupFile | None:
         if element.tag == "executable" and "cmd" in element.attributes:
             commands.append(element.attributes["cmd"])
     paths = [item for attribute in attributes for item in _paths(attribute)]
-    return MarkupFile(path, nodes, paths, attributes, commands, containers)
+    return MarkupFile(path, nodes, paths, attributes, commands, containers, elements)
 
 
 def _node(path: str, element: _Element) -> MarkupNode:
