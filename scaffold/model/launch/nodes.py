@@ -9,6 +9,7 @@ from contextlib import suppress
 from typing import TYPE_CHECKING
 
 from scaffold.model.facts import fact
+from scaffold.model.launch.actions import function_of
 from scaffold.model.launch.calls import LaunchCall
 from scaffold.model.launch.evaluator import share_path
 from scaffold.model.launch.markup_file import changes_name
@@ -23,7 +24,7 @@ if TYPE_CHECKING:
     from scaffold.model.package import Package
     from scaffold.model.programs.known_nodes import KnownNode
 
-_SCOPES = ("GroupAction", "PushRosNamespace", "PushROSNamespace", "OpaqueFunction")
+_SCOPES = ("GroupAction", "PushRosNamespace", "PushROSNamespace")
 _PUSHES = ("PushRosNamespace", "PushROSNamespace")
 _LISTS = ("LaunchDescription", "add_action")
 _ARGUMENTS = frozenset({"arguments", "ros_arguments"})
@@ -43,6 +44,8 @@ class GivenParameter(NamedTuple):
     """The name of the launch configuration that is the value, if it is one."""
     has_choices: bool
     """Whether it has choices, all of which are strings in YAML."""
+    later_files: tuple[str, ...]
+    """The files of the own package that follow, and override it; see ``parameter_files``."""
 
 
 class StartedNode(NamedTuple):
@@ -148,8 +151,13 @@ def _started_by(package: Package, path: str) -> tuple[StartedNode, ...]:
 
 
 def _started(launch: LaunchFile, call: LaunchCall) -> StartedNode:
-    is_scoped = bool(launch.find(*_SCOPES))
-    is_doubtful = is_scoped or "condition" in call.given or call.is_open
+    is_scoped = bool(launch.find(*_SCOPES)) or _runs_code_of_others(launch)
+    is_doubtful = (
+        is_scoped
+        or bool(launch.find("OpaqueFunction"))
+        or "condition" in call.given
+        or call.is_open
+    )
 
     def place(name: str) -> Location:
         node = call.given.get(name)
@@ -169,11 +177,17 @@ def _started(launch: LaunchFile, call: LaunchCall) -> StartedNode:
         not is_doubtful and _is_listed(launch, call.call),
         "parameters" in call.given,
         tuple(_parameter_files(launch, call)),
-        tuple(_given(launch, *item) for item in parameters_given(launch, call)),
+        tuple(_given(launch, call, *item) for item in parameters_given(launch, call)),
         _has_more_parameters(launch, call),
         tuple(_remappings(launch, call)),
         _default_namespace(launch, call),
     )
+
+
+def _runs_code_of_others(launch: LaunchFile) -> bool:
+    """Return whether a launch file executes functions that it does not define."""
+    calls = launch.find("OpaqueFunction")
+    return any(function_of(launch, call.given.get("function")) is None for call in calls)
 
 
 def _default_namespace(launch: LaunchFile, call: LaunchCall) -> str:
@@ -239,7 +253,9 @@ def _given_in(
             yield f"{prefix}{name}", key, value
 
 
-def _given(launch: LaunchFile, name: str, key: ast.expr, value: ast.expr) -> GivenParameter:
+def _given(
+    launch: LaunchFile, node: LaunchCall, name: str, key: ast.expr, value: ast.expr
+) -> GivenParameter:
     call = launch.call_of(value)
     is_configuration = call is not None and call.kind == "LaunchConfiguration"
     configuration = launch.text(call, "variable_name") if call and is_configuration else None
@@ -250,7 +266,19 @@ def _given(launch: LaunchFile, name: str, key: ast.expr, value: ast.expr) -> Giv
         value_given(launch, value),
         configuration,
         call is not None and is_configuration and _has_choices(launch, call),
+        tuple(_files_after(launch, node, key)),
     )
+
+
+def _files_after(launch: LaunchFile, call: LaunchCall, key: ast.expr) -> Iterator[str]:
+    """Yield the parameter files after the dictionary with a key."""
+    items = parameter_items(launch, call)
+    literals = [launch.module.index.only_value(item) or item for item in items]
+    holders = (index for index, item in enumerate(literals) if key in ast.walk(item))
+    for item in items[next(holders, len(items)) :]:
+        path = share_path(_file_of(launch, item))
+        if path is not None and path[0] == launch.package_name:
+            yield path[1]
 
 
 def _has_more_parameters(launch: LaunchFile, call: LaunchCall) -> bool:
