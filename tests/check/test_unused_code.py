@@ -712,8 +712,8 @@ def test_annotated_name_that_a_function_sets(
 ) -> None:
     talk = "word: str\n\n\ndef talk():\n    print(word)\n\n\ntalk()\n"
     write(package / "talker" / "node.py", talk)
-    setting = "def set_word():\n    global word\n    word = 'a'\n\n\nset_word()\n"
-    write(package / "talker" / "talk.py", talk.replace("\n\n\ntalk()", f"\n\n\n{setting}talk()"))
+    setting = "\n\n\ndef set_word():\n    global word\n    word = 'a'\n\n\nset_word()\n"
+    write(package / "talker" / "talk.py", talk.replace("\n", setting, 1))
     assert severities(capsys, "F821") == {"talker/node.py": "error", "talker/talk.py": "warning"}
 
 
