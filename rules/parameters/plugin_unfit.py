@@ -21,6 +21,7 @@ from scaffold.api import (
 from scaffold.api.distributions import target
 from scaffold.api.formats import Scalar
 from scaffold.api.formats import Sequence as YamlSequence
+from scaffold.api.manifest import declared
 from scaffold.api.parameters import Entry, Section, parameter_files
 
 from ._started import is_server_started
@@ -58,6 +59,11 @@ _PLUGINS: Mapping[str, str] = {
     "SpatioTemporalVoxelLayer": "spatio_temporal_voxel_layer/SpatioTemporalVoxelLayer",
 }
 """The names of plugins of released packages by class; other packages also use '/'."""
+_OWNERS: Mapping[str, str] = {
+    _PLUGINS["NonPersistentVoxelLayer"]: "nonpersistent_voxel_layer",
+    _PLUGINS["SpatioTemporalVoxelLayer"]: "spatio_temporal_voxel_layer",
+}
+"""The packages of plugins that Nav2 does not depend on."""
 _SERVERS = frozenset(
     {"behavior_server", "controller_server", "global_costmap", "local_costmap", "planner_server"}
     | {"smoother_server", "waypoint_follower"}
@@ -152,6 +158,20 @@ class PluginUnfit(Rule):
             },
         ),
         Example(
+            "plugins of packages that are declared and not declared",
+            {
+                "package.xml": "<package><name>bringup</name>"
+                "<exec_depend>nonpersistent_voxel_layer</exec_depend></package>\n",
+                "config/planner.yaml": _PLANNER.format("nav2_costmap_2d/NonPersistentVoxelLayer"),
+                "config/other.yaml": _PLANNER.format(
+                    "spatio_temporal_voxel_layer/SpatioTemporalVoxelLayer"
+                ),
+            },
+            "config/other.yaml:5:15: no package.xml declares 'spatio_temporal_voxel_layer', which "
+            "has this plugin: the server fails; add "
+            "<exec_depend>spatio_temporal_voxel_layer</exec_depend>",
+        ),
+        Example(
             "a plugin of another package with the wrong package",
             {"config/planner.yaml": _PLANNER.format("nav2_costmap_2d/SpatioTemporalVoxelLayer")},
             "5:15: Jazzy has no plugin 'nav2_costmap_2d/SpatioTemporalVoxelLayer': the server "
@@ -209,6 +229,8 @@ class PluginUnfit(Rule):
     def _check_names(self, package: Package, section: Section) -> Iterator[Diagnostic]:
         if not target().fact("nav2.has_colons_in_plugins"):
             return
+        lists = [entry for entry in section.entries if entry.name.endswith("plugins")]
+        listed = {name for entry in lists for name, _ in _listed(entry)}
         for entry in section.entries:
             value = entry.value
             is_plugin = isinstance(value, Scalar) and entry.name.endswith(".plugin")
@@ -217,6 +239,12 @@ class PluginUnfit(Rule):
             old = _OF_NAV2.fullmatch(value.text)
             is_known = old is not None and old[1] in _PACKAGES
             new = _PLUGINS.get(old[2], value.text) if old and is_known else value.text
+            holder = _OWNERS.get(value.text, "")
+            is_loaded = entry.name.removesuffix(".plugin") in listed
+            if holder and is_loaded and not _is_brought(package, holder):
+                message = f"no package.xml declares {holder!r}, which has this plugin"
+                message += f": the server fails; add <exec_depend>{holder}</exec_depend>"
+                yield self.report(value, message, cause=f"dependency {holder}")
             if new == value.text or _is_declared(package, value.text):
                 continue
             message = f"{target().title} has no plugin {value.text!r}: the server fails"
@@ -262,6 +290,20 @@ def _is_costmap(section: Section) -> bool:
     """Return whether a section is for the node of a costmap, whose namespace is its name."""
     *_, above, _ = ["", *section.node.split("/")]
     return above == section.name or "*" in section.node
+
+
+def _is_brought(package: Package, name: str) -> bool:
+    """Return whether a package is in the workspace, declared in it, or may come along."""
+    if package.workspace.get(name) is not None or not package.has("package.xml"):
+        return True
+    for other in package.workspace:
+        with suppress(ViewError):
+            dependencies = declared(other, for_tests=True)
+            if name in other.manifest.declared_names | dependencies.along:
+                return True
+            if dependencies.may_use(other, name):
+                return True
+    return False
 
 
 def _is_declared(package: Package, plugin: str) -> bool:
