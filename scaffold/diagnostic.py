@@ -21,24 +21,27 @@ class Severity(Enum):
 
 
 class Effect(IntEnum):
-    """The effect of a flaw; the screen sorts findings of one severity by it."""
+    """The effect of a flaw; the screen sorts findings of one severity by it.
 
-    STOPS_BUILD = 0
-    """A file cannot be read, or the package is not built."""
-    STOPS_ROSDEP = 1
+    The order is that of somebody who downloads the package: rosdep, build, start, use, test.
+    """
+
+    STOPS_ROSDEP = 0
     """rosdep stops at a name, so that it installs nothing for any package."""
-    STOPS_START = 2
-    """A program or a launch file does not start."""
-    STOPS_PROGRAM = 3
+    STOPS_BUILD = 1
+    """The package is not built, maybe only on machines without a dependency."""
+    STOPS_PACKAGE = 2
+    """No program of the package starts."""
+    STOPS_START = 3
+    """A program or a launch file does not start, maybe only on machines without a dependency."""
+    STOPS_PROGRAM = 4
     """A program stops or hangs, maybe only later or in some cases."""
-    SPOILS_INSTALL = 4
-    """The build or installation is incomplete; a program that needs it stops later."""
-    MISSING_ELSEWHERE = 5
-    """A program or the build stops on a machine that lacks a package."""
+    SPOILS_INSTALL = 5
+    """The installation is incomplete; a program that needs it stops later."""
     WRONG_BEHAVIOR = 6
-    """A program runs, but does the wrong thing, such as waiting for messages that never arrive."""
-    IGNORED = 7
-    """Code or a setting has no effect."""
+    """A program does the wrong thing, such as ignoring a setting."""
+    INFERRED = 7
+    """A program stops or does the wrong thing, according to inferred types and values."""
     DECLARED_WRONG = 8
     """The manifest, a name or a test is wrong; nothing stops here."""
     UNPUBLISHABLE = 9
@@ -58,6 +61,8 @@ class Diagnostic(NamedTuple):
     """Shared by findings of one package, of any code, that one edit would resolve."""
     distributions: tuple[str, ...] = ()
     """The affected distributions, if several were checked for; empty for a single one."""
+    effect: Effect | None = None
+    """The effect, if it is not the usual one of its rule."""
 
     def __hash__(self) -> int:
         """Ignore the fix, which may be long, while place and message differ first."""

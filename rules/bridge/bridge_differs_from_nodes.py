@@ -9,7 +9,6 @@ from contextlib import suppress
 
 from scaffold.api import (
     Diagnostic,
-    Effect,
     Example,
     Location,
     Package,
@@ -89,7 +88,6 @@ class BridgeDiffersFromNodes(Rule):
         Severity.WARNING: "it carries the data in the other direction, or a parameter of the node "
         "names the topic"
     }
-    effect = Effect.WRONG_BEHAVIOR
     examples = (
         Example(
             "the time of the simulation, without its clock",

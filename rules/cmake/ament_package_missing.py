@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
+from scaffold.api import Diagnostic, Edit, Effect, Example, Fix, Package, Report, Rule
 from scaffold.api.cmake import PACKAGE_COMMANDS, has_unknown_commands, uses_ament
 
 _LISTS = (
@@ -29,6 +29,7 @@ class AmentPackageMissing(Rule):
 
     code = "CM002"
     name = "ament-package-missing"
+    effect = Effect.STOPS_PACKAGE
     examples = (
         Example("called", {"CMakeLists.txt": _LISTS + _CALL}),
         Example(

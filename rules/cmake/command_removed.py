@@ -8,6 +8,7 @@ from itertools import product
 from scaffold.api import (
     Diagnostic,
     Edit,
+    Effect,
     Example,
     Fix,
     Package,
@@ -75,6 +76,7 @@ class CommandRemoved(Rule):
 
     code = "CM110"
     name = "command-removed"
+    effect = Effect.STOPS_BUILD
     is_fixed_for_all = True
     is_deprecation = True
     other_severities = {Severity.INFO: "the distribution still has it, but warns"}

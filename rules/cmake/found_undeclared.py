@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 from scaffold.api import (
     Diagnostic,
+    Effect,
     Example,
     Fix,
     Package,
@@ -59,6 +60,7 @@ class FoundUndeclared(Rule):
 
     code = "CM020"
     name = "found-undeclared"
+    effect = Effect.STOPS_BUILD
     release_refused = "the build farm does not install the package before it builds"
     other_severities = {
         Severity.WARNING: "it is declared as a run dependency only; or it is only looked for "

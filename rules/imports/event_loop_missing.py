@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, PythonRule
+from scaffold.api import Diagnostic, Effect, Example, PythonRule
 from scaffold.api.distributions import target
 from scaffold.api.python import PythonModule, conditions_on, is_handled
 from scaffold.api.rclpy import is_asked_for
@@ -43,6 +43,7 @@ class EventLoopMissing(PythonRule):
 
     code = "IM054"
     name = "event-loop-missing"
+    effect = Effect.STOPS_PROGRAM
     since = "0.2"
     examples = (
         Example("an older Python", {"talker.py": _MAIN.format("", _OLD)}),

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, PythonRule, Report, Severity
+from scaffold.api import Diagnostic, Effect, Example, PythonRule, Report, Severity
 from scaffold.api.distributions import target
 from scaffold.api.python import PythonModule
 
@@ -33,6 +33,7 @@ class InstanceAnnotations(PythonRule):
 
     code = "IM053"
     name = "instance-annotations"
+    effect = Effect.STOPS_PROGRAM
     other_severities = {Severity.WARNING: "there is a default"}
     since = "0.2"
     examples = (

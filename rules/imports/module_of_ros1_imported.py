@@ -105,6 +105,7 @@ class ModuleOfRos1Imported(Rule):
             is_of_ros1 = all(item.root != "rclpy" or item.in_tests for item in imports)
             if is_of_ros1 and path not in started:
                 continue
+            cause = "programs of ROS 1" if is_of_ros1 else ""
             for item in imports:
                 root = item.root
                 if is_of_ros1 and root != "rospy":
@@ -118,7 +119,7 @@ class ModuleOfRos1Imported(Rule):
                     else f"{root!r} has no Python module: ModuleNotFoundError; use "
                     f"{_WITHOUT_PYTHON[root]}"
                 )
-                yield self.report(item, message)
+                yield self.report(item, message, cause=cause)
             for at in rospack_lookups(package, path):
                 message = (
                     "rospkg only finds ROS 1 packages: ResourceNotFound; use "

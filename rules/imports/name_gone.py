@@ -6,7 +6,7 @@ import ast
 import re
 from collections.abc import Iterator, Mapping
 
-from scaffold.api import Diagnostic, Example, Package, PythonRule, Report, Severity
+from scaffold.api import Diagnostic, Effect, Example, Package, PythonRule, Report, Severity
 from scaffold.api.distributions import target
 from scaffold.api.python import PythonModule, is_handled
 
@@ -75,6 +75,7 @@ class NameGone(PythonRule):
 
     code = "IM046"
     name = "name-gone"
+    effect = Effect.STOPS_PROGRAM
     other_severities = {Severity.WARNING: "the name is one of NumPy 2, and NumPy comes from pip"}
     examples = (
         Example("a name that exists", {"area.py": _NODE.format("np.trapz(values)")}),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Fix, PythonRule, Report, Severity
+from scaffold.api import Diagnostic, Effect, Example, Fix, PythonRule, Report, Severity
 from scaffold.api.distributions import of_kind
 from scaffold.api.python import PythonModule
 from scaffold.api.rclpy import changed_uses
@@ -47,6 +47,7 @@ class NameRemoved(PythonRule):
 
     code = "IM050"
     name = "name-removed"
+    effect = Effect.STOPS_PROGRAM
     is_fixed_for_all = True
     is_deprecation = True
     other_severities = {Severity.INFO: "the distribution still has it, but a later one does not"}

@@ -9,6 +9,7 @@ from contextlib import suppress
 from scaffold.api import (
     Diagnostic,
     Edit,
+    Effect,
     Example,
     Fix,
     Location,
@@ -206,7 +207,10 @@ class ExecutableOrOptionRemoved(Rule):
                 message = f"{word.text} is an option of spawn_entity.py: ros_gz_sim create "
                 severity = Severity.WARNING if is_same else Severity.ERROR
                 yield self.report(
-                    word.location, f"{message}ignores it; {replacement}", severity=severity
+                    word.location,
+                    f"{message}ignores it; {replacement}",
+                    severity=severity,
+                    effect=Effect.WRONG_BEHAVIOR,
                 )
 
     def _check_options(self, package: Package) -> Iterator[Diagnostic]:

@@ -39,7 +39,7 @@ class NamespaceNotInFile(Rule):
 
     code = "LF016"
     name = "namespace-not-in-file"
-    effect = Effect.IGNORED
+    effect = Effect.WRONG_BEHAVIOR
     examples = (
         Example("the full name", {**_FILES, "config/demo.yaml": _FILE.format("/left/talker")}),
         Example("all namespaces", {**_FILES, "config/demo.yaml": _FILE.format("/**/talker")}),

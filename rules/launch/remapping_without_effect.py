@@ -57,7 +57,7 @@ class RemappingWithoutEffect(Rule):
 
     code = "LF065"
     name = "remapping-without-effect"
-    effect = Effect.IGNORED
+    effect = Effect.WRONG_BEHAVIOR
     examples = (
         Example(
             "a name remapped to itself",

@@ -45,7 +45,7 @@ class XacroArgumentUnknown(LaunchRule):
 
     code = "LF084"
     name = "xacro-argument-unknown"
-    effect = Effect.IGNORED
+    effect = Effect.WRONG_BEHAVIOR
     examples = (
         Example(
             "declared",

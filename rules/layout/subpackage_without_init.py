@@ -53,7 +53,7 @@ class SubpackageWithoutInit(Rule):
 
     code = "LY004"
     name = "subpackage-without-init"
-    effect = Effect.STOPS_BUILD
+    effect = Effect.STOPS_PACKAGE
     other_severities = {Severity.WARNING: "only modules that nothing imports or starts import it"}
     examples = (
         Example("with __init__.py", {**_FILES, "talker/text/__init__.py": ""}),

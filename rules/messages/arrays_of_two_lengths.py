@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator, Mapping
 
-from scaffold.api import Diagnostic, Effect, Example, MessageRule, Report, Severity
+from scaffold.api import Diagnostic, Example, MessageRule, Report, Severity
 from scaffold.api.messages import MessageTypes
 
 _NODE = (
@@ -40,7 +40,6 @@ class ArraysOfTwoLengths(MessageRule):
     code = "MS028"
     name = "arrays-of-two-lengths"
     other_severities = {Severity.WARNING: "the array is the velocity or effort of a joint state"}
-    effect = Effect.WRONG_BEHAVIOR
     examples = (
         Example("arrays of the same length, or empty", {"a.py": _NODE.format("[0.0, 1.0]", "[]")}),
         Example(

@@ -6,7 +6,7 @@ import ast
 import re
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Effect, Example, MessageRule
+from scaffold.api import Diagnostic, Example, MessageRule
 from scaffold.api.messages import MessageTypes
 
 _NODE = (
@@ -47,7 +47,6 @@ class ColorOrderSwapped(MessageRule):
 
     code = "MS031"
     name = "color-order-swapped"
-    effect = Effect.WRONG_BEHAVIOR
     examples = (
         Example(
             "bgr8, the order that OpenCV expects",

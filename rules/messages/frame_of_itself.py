@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Effect, Example, RclpyRule, Report, Severity
+from scaffold.api import Diagnostic, Example, RclpyRule, Report, Severity
 from scaffold.api.rclpy import RclpyFile, lookups_in
 
 _NODE = (
@@ -43,7 +43,6 @@ class FrameOfItself(RclpyRule):
     code = "MS013"
     name = "frame-of-itself"
     other_severities = {Severity.WARNING: "REP 105 defines the reverse order"}
-    effect = Effect.WRONG_BEHAVIOR
     examples = (
         Example(
             "transform between two frames", {"odometry.py": _NODE.format("'odom'", "'base_link'")}

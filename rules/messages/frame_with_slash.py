@@ -8,7 +8,6 @@ from collections.abc import Iterator, Sequence
 from scaffold.api import (
     Diagnostic,
     Edit,
-    Effect,
     Example,
     Fix,
     MessageRule,
@@ -90,7 +89,6 @@ class FrameWithSlash(MessageRule):
         Severity.WARNING: "it is in a transform, in a marker, pose or path for RViz, or in a "
         "message of a package outside ROS"
     }
-    effect = Effect.WRONG_BEHAVIOR
     examples = (
         Example("frames without a slash", {"node.py": _CODE.format("'map'", "'base'", "'map'")}),
         Example(

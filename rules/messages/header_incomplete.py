@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Effect, Example, MessageRule, Package, Severity
+from scaffold.api import Diagnostic, Example, MessageRule, Package, Severity
 from scaffold.api.messages import MessageTypes, childless, lacking, unstamped
 from scaffold.api.rclpy import is_used_elsewhere
 
@@ -44,7 +44,6 @@ class HeaderIncomplete(MessageRule):
     code = "MS010"
     name = "header-incomplete"
     severity = Severity.WARNING
-    effect = Effect.WRONG_BEHAVIOR
     examples = (
         Example(
             "stamp and frame set",

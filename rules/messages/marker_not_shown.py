@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator, Mapping, Sequence
 
-from scaffold.api import Diagnostic, Effect, Example, MessageRule
+from scaffold.api import Diagnostic, Example, MessageRule
 from scaffold.api.messages import MessageTypes
 from scaffold.api.python import PythonModule, is_known
 
@@ -47,7 +47,6 @@ class MarkerNotShown(MessageRule):
 
     code = "MS030"
     name = "marker-not-shown"
-    effect = Effect.WRONG_BEHAVIOR
     examples = (
         Example(
             "markers of a loop with color, namespace and unique ids",

@@ -6,7 +6,7 @@ import ast
 import re
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Effect, Example, MessageRule
+from scaffold.api import Diagnostic, Example, MessageRule
 from scaffold.api.messages import MessageTypes
 
 _NODE = (
@@ -43,7 +43,6 @@ class ObjectAppendedAgain(MessageRule):
 
     code = "MS027"
     name = "object-appended-again"
-    effect = Effect.WRONG_BEHAVIOR
     examples = (
         Example(
             "new object for each element",

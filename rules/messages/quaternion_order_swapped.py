@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator, Sequence
 
-from scaffold.api import Diagnostic, Effect, Example, MessageRule
+from scaffold.api import Diagnostic, Example, MessageRule
 from scaffold.api.messages import MessageTypes
 
 _GIVES = {
@@ -54,7 +54,6 @@ class QuaternionOrderSwapped(MessageRule):
 
     code = "MS033"
     name = "quaternion-order-swapped"
-    effect = Effect.WRONG_BEHAVIOR
     examples = (
         Example(
             "correct order for each library",

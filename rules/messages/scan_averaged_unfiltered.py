@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Effect, Example, MessageRule, Severity
+from scaffold.api import Diagnostic, Example, MessageRule, Severity
 from scaffold.api.messages import MessageTypes
 
 _NODE = (
@@ -44,7 +44,6 @@ class ScanAveragedUnfiltered(MessageRule):
     code = "MS032"
     name = "scan-averaged-unfiltered"
     severity = Severity.WARNING
-    effect = Effect.WRONG_BEHAVIOR
     examples = (
         Example(
             "mean of finite ranges, minimum of all ranges",

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Callable, Iterator, Sequence
 
-from scaffold.api import Diagnostic, Effect, Example, RclpyRule, Report, Severity
+from scaffold.api import Diagnostic, Example, RclpyRule, Report, Severity
 from scaffold.api.programs import Phases, phases_of
 from scaffold.api.rclpy import RclpyFile
 
@@ -40,7 +40,6 @@ class StampMadeOnce(RclpyRule):
     other_severities = {
         Severity.WARNING: "a message is created and stamped once, but published repeatedly"
     }
-    effect = Effect.WRONG_BEHAVIOR
     examples = (
         Example(
             "stamp read in the callback",

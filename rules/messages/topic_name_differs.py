@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from difflib import SequenceMatcher
 from itertools import product
 
-from scaffold.api import Diagnostic, Effect, Example, Package, Rule, Severity
+from scaffold.api import Diagnostic, Example, Package, Rule, Severity
 from scaffold.api.launch import code_of, markup_files, started_nodes
 from scaffold.api.programs import (
     NamedEndpoint,
@@ -80,7 +80,6 @@ class TopicNameDiffers(Rule):
     code = "MS021"
     name = "topic-name-differs"
     severity = Severity.WARNING
-    effect = Effect.WRONG_BEHAVIOR
     examples = (
         Example(
             "same topic name",

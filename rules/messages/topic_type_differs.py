@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from scaffold.api import Diagnostic, Effect, Example, Package, Report, Rule, Severity
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
 from scaffold.api.messages import message_paths
 from scaffold.api.parameters import is_named_in_launch_files, keeps_default_name
 from scaffold.api.programs import (
@@ -37,7 +37,6 @@ class TopicTypeDiffers(Rule):
 
     code = "MS020"
     name = "topic-type-differs"
-    effect = Effect.WRONG_BEHAVIOR
     other_severities = {
         Severity.WARNING: "a launch file gives the topic to other nodes, which may be the partners"
     }

@@ -6,7 +6,7 @@ import ast
 import re
 from collections.abc import Iterator, Mapping
 
-from scaffold.api import Diagnostic, Effect, Example, MessageRule, Report, Severity
+from scaffold.api import Diagnostic, Example, MessageRule, Report, Severity
 from scaffold.api.messages import MessageTypes
 
 _NODE = (
@@ -150,7 +150,6 @@ class UnitDiffers(MessageRule):
     code = "MS034"
     name = "unit-differs"
     other_severities = {Severity.WARNING: "the unit is inferred from the name of the value"}
-    effect = Effect.WRONG_BEHAVIOR
     examples = (
         Example(
             "degrees passed to a function that expects radians",

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator, Mapping
 
-from scaffold.api import Diagnostic, Effect, Example, MessageRule, Report, Severity
+from scaffold.api import Diagnostic, Example, MessageRule, Report, Severity
 from scaffold.api.messages import MessageTypes
 from scaffold.api.python import returned
 
@@ -70,7 +70,6 @@ class ValueImplausible(MessageRule):
         Severity.WARNING: "the value is out of range, or an encoding that other programs may "
         "accept, or a quaternion of zeros is in a marker or in a message of a package outside ROS"
     }
-    effect = Effect.WRONG_BEHAVIOR
     examples = (
         Example(
             "yaw as the first and as the last argument of quaternion_from_euler()",

@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Effect, Example, Package, Rule
 from scaffold.api.catalog import ROS_PACKAGES
 from scaffold.api.cmake import programs
 
@@ -25,6 +25,7 @@ class ScriptShadowsModule(Rule):
 
     code = "NM040"
     name = "script-shadows-module"
+    effect = Effect.STOPS_PACKAGE
     examples = (
         Example("a unique name", {"CMakeLists.txt": _LISTS.format("node"), "talker/node.py": ""}),
         Example(

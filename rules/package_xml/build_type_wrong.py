@@ -273,7 +273,8 @@ class BuildTypeWrong(Rule):
             edit = Edit("package.xml", inside, inside, f"{newline}    {line}")
         message = f"no <build_type>: colcon treats the package as catkin; write {line} in <export>"
         fix = Fix(f"Declare {build_type}", (edit,)) if export is None or export.children else None
-        yield self.report(at, message, fix)
+        # Without the hooks of ament, but built.
+        yield self.report(at, message, fix, effect=Effect.SPOILS_INSTALL)
 
     def _check_files(self, package: Package) -> Iterator[Diagnostic]:
         for diagnostic in self._check_ros1(package):

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
+from scaffold.api import Diagnostic, Effect, Example, Package, Report, Rule, Severity
 from scaffold.api.catalog import (
     ROS_PACKAGES,
     is_released,
@@ -59,6 +59,7 @@ class ImportUndeclared(Rule):
 
     code = "PX020"
     name = "import-undeclared"
+    effect = Effect.STOPS_START
     other_severities = {
         Severity.WARNING: "only scripts in the share directory import it, or it may be installed "
         "anyway: with `ros2 launch` for launch files, with pip (torch, or listed in "

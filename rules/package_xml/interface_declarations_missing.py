@@ -39,7 +39,7 @@ class InterfaceDeclarationsMissing(Rule):
 
     code = "PX040"
     name = "interface-declarations-missing"
-    effect = Effect.MISSING_ELSEWHERE
+    effect = Effect.STOPS_BUILD
     other_severities = {Severity.WARNING: "another declared message package depends on the runtime"}
     examples = (
         Example("all three", {"package.xml": _MANIFEST.format(_BUILD + _RUN + _MEMBER), **_FILES}),

@@ -30,7 +30,7 @@ class PackageRemoved(Rule):
 
     code = "PX031"
     name = "package-removed"
-    effect = Effect.STOPS_ROSDEP
+    effect = Effect.STOPS_BUILD
     examples = (
         Example(
             "an existing package",

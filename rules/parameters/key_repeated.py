@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Effect, Example, Package, ParseError, Rule, Severity
+from scaffold.api import Diagnostic, Example, Package, ParseError, Rule, Severity
 from scaffold.api.formats import Mapping, Scalar, YamlNode, yaml_tree
 from scaffold.api.parameters import parameter_paths
 
@@ -24,7 +24,6 @@ class KeyRepeated(Rule):
     code = "PF030"
     name = "key-repeated"
     severity = Severity.WARNING
-    effect = Effect.WRONG_BEHAVIOR
     examples = (
         Example("once", {"a.yaml": _FILE.format("speed")}),
         Example(

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from difflib import SequenceMatcher
 
-from scaffold.api import Diagnostic, Effect, Example, Package, Report, Rule, Severity
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
 from scaffold.api.launch import StartedNode, markup_files, node_names, started_nodes, use_of
 from scaffold.api.parameters import (
     ParameterFile,
@@ -66,7 +66,6 @@ class NodeUnknown(Rule):
 
     code = "PF003"
     name = "node-unknown"
-    effect = Effect.IGNORED
     other_severities = {
         Severity.WARNING: "no launch file uses the file, and no node has the parameters"
     }

@@ -7,7 +7,6 @@ from typing import NamedTuple
 
 from scaffold.api import (
     Diagnostic,
-    Effect,
     Example,
     Location,
     Package,
@@ -78,7 +77,6 @@ class ParameterUndeclared(Rule):
 
     code = "PF004"
     name = "parameter-undeclared"
-    effect = Effect.IGNORED
     other_severities = {
         Severity.WARNING: "the node has this value anyway: as the default of the closest "
         "parameter, under the right name as well, or in its code; or the value is empty"

@@ -8,6 +8,7 @@ from contextlib import suppress
 from scaffold.api import (
     Diagnostic,
     Edit,
+    Effect,
     Example,
     Fix,
     Package,
@@ -50,6 +51,7 @@ class RosParametersMissing(Rule):
 
     code = "PF002"
     name = "ros-parameters-missing"
+    effect = Effect.STOPS_START
     other_severities = {Severity.WARNING: "no launch file passes the file to a node"}
     examples = (
         Example(

@@ -6,7 +6,7 @@ import re
 from collections.abc import Container, Iterator
 from contextlib import suppress
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Effect, Example, Package, Rule
 from scaffold.api.launch import is_loaded, markup_paths, use_of
 from scaffold.api.parameters import mistake, parameter_paths
 
@@ -37,6 +37,7 @@ class YamlMalformed(Rule):
 
     code = "PF001"
     name = "yaml-malformed"
+    effect = Effect.STOPS_START
     examples = (
         Example("valid", {"config/talker.yaml": _FILE.format("    rate: 2.0\n")}),
         Example(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
+from scaffold.api import Diagnostic, Edit, Effect, Example, Fix, Package, Report, Rule
 from scaffold.api.python import Unknown
 from scaffold.api.setup_py import FindPackages, SetupPy, installed_data
 
@@ -48,6 +48,7 @@ class ModuleNotPacked(Rule):
 
     code = "SP051"
     name = "module-not-packed"
+    effect = Effect.STOPS_PACKAGE
     examples = (
         Example(
             "found",

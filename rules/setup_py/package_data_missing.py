@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
+from scaffold.api import Diagnostic, Effect, Example, Package, Report, Rule, Severity
 from scaffold.api.install import is_never_run, own_files
 from scaffold.api.setup_py import installed_data, matches, package_data
 
@@ -34,6 +34,7 @@ class PackageDataMissing(Rule):
 
     code = "SP015"
     name = "package-data-missing"
+    effect = Effect.SPOILS_INSTALL
     other_severities = {Severity.WARNING: "the module is not imported or started"}
     examples = (
         Example(

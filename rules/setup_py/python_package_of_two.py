@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Effect, Example, Package, Rule
 from scaffold.api.install import own_roots
 from scaffold.api.python import Unknown
 from scaffold.api.setup_py import FindPackages
@@ -42,6 +42,7 @@ class PythonPackageOfTwo(Rule):
 
     code = "SP061"
     name = "python-package-of-two"
+    effect = Effect.STOPS_PACKAGE
     examples = (
         Example("two names", _files("arm", "arm"), neighbors={"hand": _files("hand", "hand")}),
         Example(

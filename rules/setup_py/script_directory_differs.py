@@ -10,6 +10,7 @@ from scaffold.api import (
     CreateFile,
     Diagnostic,
     Edit,
+    Effect,
     Example,
     Fix,
     Package,
@@ -53,6 +54,7 @@ class ScriptDirectoryDiffers(Rule):
 
     code = "SP004"
     name = "script-directory-differs"
+    effect = Effect.STOPS_PACKAGE
     other_severities = {Severity.WARNING: "it is bin/, from which a shell can run the program"}
     examples = (
         Example(

@@ -125,10 +125,10 @@ class SetupFileMissing(Rule):
                 continue
             for source, at in zip(data.sources, data.source_locations, strict=True):
                 if isinstance(source, Glob):
-                    message = self._nothing_matches(package, source) or _directory_in(
-                        package, source
-                    )
-                    if message:
+                    if message := self._nothing_matches(package, source):
+                        spoiled = Effect.SPOILS_INSTALL
+                        yield self.report(at, message, cause=_CAUSE, effect=spoiled)
+                    elif message := _directory_in(package, source):
                         yield self.report(at, message, cause=_CAUSE)
                 elif isinstance(source, str) and source != marker:
                     path = source.removeprefix("./")

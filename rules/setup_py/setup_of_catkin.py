@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Effect, Example, Package, Rule
 
 _MANIFEST = (
     "<package format='3'><name>talker</name><export><build_type>{}</build_type></export>"
@@ -30,6 +30,7 @@ class SetupOfCatkin(Rule):
 
     code = "SP060"
     name = "setup-of-catkin"
+    effect = Effect.STOPS_BUILD
     examples = (
         Example("for catkin", {"package.xml": _MANIFEST.format("ament_cmake"), "setup.py": _SETUP}),
         Example(

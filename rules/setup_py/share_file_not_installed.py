@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
+from scaffold.api import Diagnostic, Effect, Example, Package, Report, Rule, Severity
 from scaffold.api.install import is_copy_of_old_code, names_above
 from scaffold.api.launch import DATA_DIRECTORIES, data_files, is_named, launch_files
 from scaffold.api.setup_py import installed_data
@@ -34,6 +34,7 @@ class ShareFileNotInstalled(Rule):
 
     code = "SP010"
     name = "share-file-not-installed"
+    effect = Effect.SPOILS_INSTALL
     other_severities = {
         Severity.WARNING: "nothing in the package refers to the directory, or a text of the "
         "repository tells people to start the launch file by its path"

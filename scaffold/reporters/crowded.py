@@ -10,10 +10,13 @@ from rich.text import Text
 
 from scaffold.record import NamedTuple
 from scaffold.reporters import ReportOptions
-from scaffold.reporters.entries import Entry, is_set_aside
+from scaffold.reporters.entries import Entry
 from scaffold.reporters.entry_text import brief, full, height
+from scaffold.reporters.order import is_set_aside
 
 _FULL = 0
+_LARGER = (2, 3, 4, 5, 6, _FULL)
+"""The numbers of lines that entries get one after the other."""
 
 
 class Shown(NamedTuple):
@@ -40,7 +43,7 @@ def choose(
     """Return the entries to show, and those that do not fit.
 
     If they do not fit in one line each, each code has its first entry before any has its second.
-    If there is room, the first entries get two lines, then all of them, and then source lines.
+    If there is room, entries get two lines, then other places, and then source lines.
 
     Args:
         entries: In order.
@@ -57,13 +60,12 @@ def choose(
         if needed <= room or not chosen:
             chosen[at] = shown
             room -= needed
-    for lines, at in product((2, _FULL), sorted(chosen)):
+    for lines, at in product(_LARGER, sorted(chosen)):
         larger = chosen[at]._replace(lines=lines)
         growth = larger.height(width, options) - chosen[at].height(width, options)
-        if growth > room:
-            break
-        chosen[at] = larger
-        room -= growth
+        if growth <= room:
+            chosen[at] = larger
+            room -= growth
     hidden = [entry for at, entry in enumerate(entries) if at not in chosen]
     return [chosen[at] for at in sorted(chosen)], hidden
 
@@ -74,5 +76,6 @@ def _by_turns(entries: Sequence[Entry]) -> Iterable[int]:
     turns: list[tuple[bool, int, int]] = []
     for at, entry in enumerate(entries):
         seen[entry.first.code] += 1
-        turns.append((is_set_aside(entry), seen[entry.first.code], at))
+        is_aside = is_set_aside(entry.package, entry.first)
+        turns.append((is_aside, seen[entry.first.code], at))
     return [at for _, _, at in sorted(turns)]

@@ -2,37 +2,23 @@
 
 from __future__ import annotations
 
-import os
-import re
+from collections import Counter
 from collections.abc import Hashable, Mapping, Sequence
 
 from scaffold import lazy_re
-from scaffold.ament.codes import STYLE
 from scaffold.check.result import Result
 from scaffold.check.rules import registry
 from scaffold.check.rules.rule import Rule
 from scaffold.diagnostic import Diagnostic, Effect, Severity
 from scaffold.model.package import Package
 from scaffold.record import NamedTuple
-from scaffold.reporters.paths import shown
+from scaffold.reporters.order import DEPENDENCY, effect_of, is_dependency, rank
 
-SEVERITIES = (Severity.ERROR, Severity.WARNING, Severity.INFO)
-"""Worst first."""
-
-_SET_ASIDE = lazy_re.compile(
-    r"(?:.*[_ .-])?(?:archived?|archives|attic|backups?|bak|deprecated|junk|legacy|obsolete|old"
-    r"|trash|unused)|[(\[](?:old|unused|deprecated)[)\]].*",
-    re.IGNORECASE,
-)
-"""Matches the name of a directory with abandoned code."""
-_AT_RUN_TIME = frozenset(
-    {Effect.STOPS_START, Effect.STOPS_PROGRAM, Effect.WRONG_BEHAVIOR, Effect.IGNORED}
-)
-_TESTS = lazy_re.compile(r"(?:^|/)(?:tests?/|test_[^/]*$|[^/]*_test\.py$)")
-"""Matches the paths of tests, which no robot runs."""
-DEPENDENCY = "dependency "
-"""The prefix of causes that only matter on machines without a package."""
+_OF_ROS1 = "of ROS 1"
+"""The end of causes that all findings in a file share: it was never ported."""
 _UNDEFINED = "F821"
+_PLAIN = lazy_re.compile(r"[a-z]+[,:]?")
+"""Matches words that are neither names nor numbers."""
 _SEVERAL = 3
 """The number of undefined names from which missing imports are assumed."""
 
@@ -72,26 +58,37 @@ class Entry(NamedTuple):
 def by_cause(result: Result, *, everything: bool = False) -> list[Entry]:
     """Return the findings of a package as entries.
 
-    Findings have one cause if their rules say so, or if their messages are equal. A manifest
-    without dependencies and a file without imports are one cause as well, unless everything is
-    shown.
+    Findings have one cause if their rules say so, or if their messages are equal. Unless everything
+    is shown, so do dependencies that the manifest lacks, imports that a file lacks, and all
+    findings in a file of ROS 1.
     """
     rules = registry.loaded()
     bare: set[str] = set() if everything else _without_imports(result.diagnostics)
+    unported = {} if everything else _of_ros1(result.diagnostics)
     causes: dict[tuple[str, ...], list[Place]] = {}
     for diagnostic in result.diagnostics:
+        path = diagnostic.location.path
         key: tuple[str, ...] = (diagnostic.code, diagnostic.message, diagnostic.severity.value)
-        if diagnostic.code == _UNDEFINED and diagnostic.location.path in bare:
-            key = (diagnostic.code, diagnostic.location.path)
-        elif _is_dependency(diagnostic) and not everything:
-            key = (DEPENDENCY, diagnostic.severity.value, _effect(diagnostic, rules).name)
+        if diagnostic.code == _UNDEFINED and path in bare:
+            key = (diagnostic.code, path)
+        elif path in unported and diagnostic.severity is Severity.ERROR:
+            key = (unported[path],)
+        elif is_dependency(diagnostic) and not everything:
+            effect = effect_of(diagnostic, rules)
+            key = (DEPENDENCY, diagnostic.severity.value, effect.name)
         elif diagnostic.cause:
             key = (diagnostic.cause,)
         causes.setdefault(key, []).append(Place(result.package, diagnostic))
-    return [
-        Entry(tuple(sorted(places, key=lambda place: SEVERITIES.index(place.finding.severity))))
-        for places in causes.values()
-    ]
+    return [_entry(places, rules) for places in causes.values()]
+
+
+def _entry(places: Sequence[Place], rules: Mapping[str, type[Rule]]) -> Entry:
+    return Entry(tuple(sorted(places, key=lambda item: rank(item.package, item.finding, rules))))
+
+
+def _of_ros1(diagnostics: Sequence[Diagnostic]) -> dict[str, str]:
+    """Return the cause of all findings in each file of ROS 1."""
+    return {item.location.path: item.cause for item in diagnostics if item.cause.endswith(_OF_ROS1)}
 
 
 def _without_imports(diagnostics: Sequence[Diagnostic]) -> set[str]:
@@ -112,16 +109,40 @@ def merged(entries: Sequence[Entry]) -> list[Entry]:
 
 
 def merged_causes(entries: Sequence[Entry]) -> list[Entry]:
-    """Merge entries of several packages with one cause and message, and missing dependencies."""
+    """Merge entries with one cause and message, missing dependencies, and similar messages.
+
+    The first two may be of several packages. Similar messages differ only in names and numbers.
+    """
     rules = registry.loaded()
-    return _merged(entries, [_cause(entry, rules) for entry in entries])
+    causes = _merged(entries, [_cause(entry, rules) for entry in entries])
+    causes = [_frequent_first(entry) if names_dependencies(entry) else entry for entry in causes]
+    return _merged(causes, [_kind(entry, rules) for entry in causes])
+
+
+def _frequent_first(entry: Entry) -> Entry:
+    """Return an entry about dependencies with those that most packages lack first."""
+    numbers = Counter(dependency_of(item.finding) for item in entry.places)
+    return Entry(
+        tuple(sorted(entry.places, key=lambda item: -numbers[dependency_of(item.finding)]))
+    )
 
 
 def _cause(entry: Entry, rules: Mapping[str, type[Rule]]) -> Hashable:
     first = entry.first
-    if _is_dependency(first):
-        return first.severity, _effect(first, rules)
+    if is_dependency(first):
+        return first.severity, effect_of(first, rules)
     return (first.severity, first.cause, first.message) if first.cause else _content(entry)
+
+
+def _kind(entry: Entry, rules: Mapping[str, type[Rule]]) -> Hashable:
+    words = pattern(entry.first.message)
+    return entry.first.code, words, id(entry.package), _rank(entry, rules)
+
+
+def pattern(message: str) -> tuple[str, ...]:
+    """Return the words of a message, up to the advice, without names and numbers."""
+    words = message.partition("; ")[0].split()
+    return tuple(word if _PLAIN.fullmatch(word) else "" for word in words)
 
 
 def _content(entry: Entry) -> Hashable:
@@ -138,7 +159,7 @@ def _merged(entries: Sequence[Entry], keys: Sequence[Hashable]) -> list[Entry]:
 
 def dependency_of(diagnostic: Diagnostic) -> str:
     """Return the name of the dependency that a finding is about; empty if it is about none."""
-    return diagnostic.cause.removeprefix(DEPENDENCY) if _is_dependency(diagnostic) else ""
+    return diagnostic.cause.removeprefix(DEPENDENCY) if is_dependency(diagnostic) else ""
 
 
 def names_dependencies(entry: Entry) -> bool:
@@ -148,48 +169,15 @@ def names_dependencies(entry: Entry) -> bool:
 
 
 def in_order(entries: Sequence[Entry]) -> list[Entry]:
-    """Return entries by severity; within one, files that cannot be read or built come first.
-
-    Then come names at which rosdep stops, programs and launch files that do not start, crashes,
-    wrong builds, missing dependencies, wrong behavior, code without effect, and declarations.
-
-    Directories such as ``archive`` or ``old`` come last.
-    """
+    """Return entries by severity and effect; see `Effect`. Those with more files come first."""
     rules = registry.loaded()
-    return sorted(entries, key=lambda entry: _rank(entry, rules))
-
-
-def is_style(diagnostic: Diagnostic) -> bool:
-    """Return whether a finding is a harmless one of ament_flake8 or ament_pep257."""
-    return diagnostic.code in STYLE and diagnostic.severity is not Severity.ERROR
-
-
-def _is_dependency(diagnostic: Diagnostic) -> bool:
-    return diagnostic.cause.startswith(DEPENDENCY)
-
-
-def is_set_aside(entry: Entry) -> bool:
-    """Return whether all places of an entry are in directories with code that is kept, not used."""
-    return all(
-        any(_SET_ASIDE.fullmatch(name) for name in shown(package, path).split(os.sep)[:-1])
-        for package, path in {(item.package, item.finding.location.path) for item in entry.places}
-    )
+    return sorted(entries, key=lambda entry: (_rank(entry, rules), -_files(entry)))
 
 
 def _rank(entry: Entry, rules: Mapping[str, type[Rule]]) -> tuple[int, bool, bool, Effect]:
-    level = SEVERITIES.index(entry.severity)
-    return level, is_style(entry.first), is_set_aside(entry), _effect(entry.first, rules)
+    return rank(entry.package, entry.first, rules)
 
 
-def _effect(first: Diagnostic, rules: Mapping[str, type[Rule]]) -> Effect:
-    """Return the effect of a finding, as declared by its rule."""
-    code = first.code
-    if code in STYLE:  # errors among them: E9 of pycodestyle is for unparsable files
-        return Effect.STOPS_BUILD if code.startswith("E9") else Effect.STOPS_PROGRAM
-    rule = rules.get(code)
-    effect = rule.usual_effect() if rule else Effect.STOPS_PROGRAM
-    if _is_dependency(first) and effect is not Effect.STOPS_ROSDEP:
-        return Effect.MISSING_ELSEWHERE
-    if effect in _AT_RUN_TIME and _TESTS.search(first.location.path):
-        return Effect.DECLARED_WRONG
-    return effect
+def _files(entry: Entry) -> int:
+    """Return the number of files that an entry is about."""
+    return len({(id(item.package), item.finding.location.path) for item in entry.places})

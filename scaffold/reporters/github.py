@@ -11,7 +11,8 @@ from scaffold.diagnostic import Diagnostic, Severity
 from scaffold.model.package import Package
 from scaffold.printable import printable
 from scaffold.reporters import ReportOptions
-from scaffold.reporters.entries import SEVERITIES, Entry, Place, in_order
+from scaffold.reporters.entries import Entry, Place, in_order
+from scaffold.reporters.order import SEVERITIES
 from scaffold.reporters.paths import in_repository
 from scaffold.reporters.summary import summary
 

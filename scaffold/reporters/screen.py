@@ -17,15 +17,14 @@ from scaffold.printable import printable
 from scaffold.record import NamedTuple
 from scaffold.reporters import ReportOptions, crowded, rule_pages
 from scaffold.reporters.entries import (
-    SEVERITIES,
     Entry,
     by_cause,
     in_order,
-    is_style,
     merged,
     merged_causes,
 )
 from scaffold.reporters.entry_text import full, height
+from scaffold.reporters.order import SEVERITIES, is_style
 from scaffold.reporters.summary import by_severity, count, fixable, summary
 
 _MAX_NAMED = 4
@@ -97,12 +96,23 @@ def _shown(
 def _crowded(
     entries: Sequence[Entry], room: int, width: int, options: ReportOptions
 ) -> tuple[list[Text], Sequence[Entry]]:
-    """Return the texts of as many of the worst entries as possible, and the other entries."""
-    worst = [entry for entry in entries if entry.severity is entries[0].severity]
-    shown, hidden = crowded.choose(merged_causes(worst), room, width, options)
-    links = rule_pages.links({item.entry.first.code for item in shown})
-    texts = [item.text(width, options, links.get(item.entry.first.code)) for item in shown]
-    return texts, [*hidden, *entries[len(worst) :]]
+    """Return the texts of as many of the worst entries as possible, and the other entries.
+
+    Those of the next severity are shown if there is room after all of the worst.
+    """
+    texts: list[Text] = []
+    rest = list(entries)
+    while rest and room > 0:
+        worst = [entry for entry in rest if entry.severity is rest[0].severity]
+        rest = rest[len(worst) :]
+        shown, hidden = crowded.choose(in_order(merged_causes(worst)), room, width, options)
+        links = rule_pages.links({item.entry.first.code for item in shown})
+        texts += [item.text(width, options, links.get(item.entry.first.code)) for item in shown]
+        if hidden:
+            return texts, [*hidden, *rest]
+        room -= sum(item.height(width, options) for item in shown) + 1
+        texts += [Text()] if rest and room > 0 else []
+    return texts, rest
 
 
 def _without(result: Result, hidden: set[Diagnostic]) -> Result:

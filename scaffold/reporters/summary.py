@@ -10,7 +10,7 @@ from scaffold.check.result import Result, Summary
 from scaffold.diagnostic import Diagnostic
 from scaffold.distributions import titles
 from scaffold.edits import Safety
-from scaffold.reporters.entries import SEVERITIES
+from scaffold.reporters.order import SEVERITIES
 
 if TYPE_CHECKING:
     from scaffold.reporters import ReportOptions

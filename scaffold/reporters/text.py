@@ -12,8 +12,8 @@ from scaffold.diagnostic import Diagnostic, Severity
 from scaffold.model.package import Package
 from scaffold.printable import printable
 from scaffold.reporters import ReportOptions
-from scaffold.reporters.entries import SEVERITIES
 from scaffold.reporters.excerpt import excerpt
+from scaffold.reporters.order import SEVERITIES
 from scaffold.reporters.paths import place, printable_path
 from scaffold.reporters.summary import summary
 

@@ -9,7 +9,7 @@ import pytest
 from scaffold.check.result import Result
 from scaffold.check.rules import registry
 from scaffold.configuration import content
-from scaffold.diagnostic import Diagnostic, Severity
+from scaffold.diagnostic import Diagnostic, Effect, Severity
 from scaffold.model.package import Package
 from scaffold.reporters.entries import by_cause, in_order, merged
 from scaffold.source import Location
@@ -62,10 +62,10 @@ def test_ros1_packages_come_after_crashes() -> None:
 
 
 def test_build_failures_come_before_crashes() -> None:
-    codes = ["LY020", "PX001", "PF004", "CM014", "ND001", "LF006", "PX081", "CM011", "E999"]
+    codes = ["LY020", "PX001", "PF004", "CM014", "ND046", "LF006", "PX081", "CM011", "E999"]
     ordered = in_order([entry for code in codes for entry in by_cause(_result(".", code, "a"))])
     assert [entry.first.code for entry in ordered] == [
-        *("CM011", "E999", "PX081", "LF006", "ND001", "CM014", "PF004", "PX001", "LY020")
+        *("PX081", "CM011", "LF006", "E999", "ND046", "CM014", "PF004", "PX001", "LY020")
     ]
 
 
@@ -76,6 +76,65 @@ def test_missing_packages_come_before_harmless_findings() -> None:
         result.diagnostics[:] = [finding._replace(cause=f"dependency {finding.code}")]
     ordered = in_order([entry for result in results for entry in by_cause(result)])
     assert [entry.first.code for entry in ordered] == ["CM020", "PX020", "LF005", "PX001", "LY020"]
+
+
+def test_effect_of_a_finding_comes_before_that_of_its_rule() -> None:
+    results = [_result(".", code, "setup.py") for code in ("SP011", "LF006")]
+    (finding,) = results[0].diagnostics
+    for effect, codes in (
+        (None, ["SP011", "LF006"]),
+        (Effect.SPOILS_INSTALL, ["LF006", "SP011"]),
+        (Effect.STOPS_ROSDEP, ["SP011", "LF006"]),
+    ):
+        results[0].diagnostics[:] = [finding._replace(effect=effect)]
+        ordered = in_order([entry for result in results for entry in by_cause(result)])
+        assert [entry.first.code for entry in ordered] == codes
+
+
+def test_cause_with_more_files_comes_first() -> None:
+    result = _result(".", "ND083", "a.py")
+    (finding,) = result.diagnostics
+    result.diagnostics[1:] = [
+        finding._replace(location=Location.start_of(path), code=code, message=code)
+        for path, code in (("b.py", "LF006"), ("c.py", "LF006"), ("d.py", "ND041"))
+    ]
+    ordered = in_order(by_cause(result))
+    assert [entry.first.code for entry in ordered] == ["LF006", "ND083", "ND041"]
+
+
+def test_what_stops_rosdep_or_the_build_is_never_put_last() -> None:
+    results = [
+        _result("archive/talker", code, "package.xml") for code in ("ND001", "CM020", "PX081")
+    ]
+    results.append(_result("listener", "ND001", "node.py"))
+    ordered = in_order([entry for result in results for entry in by_cause(result)])
+    assert [(entry.first.code, entry.package.directory) for entry in ordered] == [
+        ("PX081", "archive/talker"),
+        ("CM020", "archive/talker"),
+        ("ND001", "listener"),
+        ("ND001", "archive/talker"),
+    ]
+
+
+def test_errors_in_a_file_of_ros1_are_one_entry() -> None:
+    result = _result("talker", "LF005", "a.launch")
+    (finding,) = result.diagnostics
+    leftover = finding._replace(code="LF046", message="ROS 1", cause="launch files of ROS 1")
+    at = Location.start_of("b.launch")
+    result.diagnostics[1:] = [
+        leftover,
+        finding._replace(location=at),
+        leftover._replace(severity=Severity.WARNING),
+    ]
+    shown = [
+        [(item.finding.code, item.finding.location.path) for item in entry.places]
+        for entry in by_cause(result)
+    ]
+    assert shown == [
+        [("LF005", "a.launch"), ("LF046", "a.launch"), ("LF046", "a.launch")],
+        [("LF005", "b.launch")],
+    ]
+    assert len(by_cause(result, everything=True)) == 2
 
 
 def test_findings_in_tests_come_after_those_in_programs() -> None:

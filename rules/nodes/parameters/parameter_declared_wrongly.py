@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 from itertools import chain
 
-from scaffold.api import Diagnostic, Example, RclpyRule
+from scaffold.api import Diagnostic, Effect, Example, RclpyRule
 from scaffold.api.python import UNKNOWN, is_handled
 from scaffold.api.rclpy import DESCRIPTOR, PARAMETER, Parameter, RclpyFile, is_of_node, message_made
 
@@ -59,6 +59,7 @@ class ParameterDeclaredWrongly(RclpyRule):
 
     code = "ND081"
     name = "parameter-declared-wrongly"
+    effect = Effect.STOPS_START
     examples = (
         Example("a descriptor", {"talker.py": _NODE.format("'rate'", _TEXT, f", {_TEXT}")}),
         Example(

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator, Sequence
 
-from scaffold.api import Diagnostic, Example, Package, RclpyRule, Report, Severity, fact
+from scaffold.api import Diagnostic, Effect, Example, Package, RclpyRule, Report, Severity, fact
 from scaffold.api.launch import started_nodes
 from scaffold.api.parameters import parameter_files
 from scaffold.api.python import PythonModule, is_handled, joined_names
@@ -73,6 +73,7 @@ class ParameterDefaultUnusable(RclpyRule):
 
     code = "ND083"
     name = "parameter-default-unusable"
+    effect = Effect.STOPS_START
     other_severities = {
         Severity.WARNING: "the parameter has no default, and a file of the package sets it, or the "
         "code only tests whether it is true or reads a field of ``get_parameter_value()``"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, RclpyRule, Report, Severity
+from scaffold.api import Diagnostic, Effect, Example, Package, RclpyRule, Report, Severity
 from scaffold.api.parameters import parameter_files
 from scaffold.api.rclpy import NodeDefinition, RclpyFile
 
@@ -33,6 +33,7 @@ class ParameterRepeated(RclpyRule):
 
     code = "ND016"
     name = "parameter-repeated"
+    effect = Effect.STOPS_START
     other_severities = {
         Severity.WARNING: "rclpy only declares parameters that are set, and no file of the "
         "package sets it"

@@ -7,7 +7,7 @@ import builtins
 import sys
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Location, Package, Rule, ViewError, fact
+from scaffold.api import Diagnostic, Effect, Example, Location, Package, Rule, ViewError, fact
 from scaffold.api.programs import Execution, paths_of, run_of, starts_of
 from scaffold.api.rclpy import RclpyFile
 
@@ -44,6 +44,7 @@ class InitMissing(Rule):
 
     code = "ND041"
     name = "init-missing"
+    effect = Effect.STOPS_START
     examples = (
         Example(
             "initialized",

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, RclpyRule, Report, Severity
+from scaffold.api import Diagnostic, Edit, Effect, Example, Fix, RclpyRule, Report, Severity
 from scaffold.api.distributions import target
 from scaffold.api.python import FunctionNode
 from scaffold.api.rclpy import RclpyCall, RclpyFile, known_names
@@ -41,6 +41,7 @@ class InitMisused(RclpyRule):
 
     code = "ND005"
     name = "init-misused"
+    effect = Effect.STOPS_START
     other_severities = {
         Severity.WARNING: "the program parses its command line itself, or the function has other "
         "required arguments"

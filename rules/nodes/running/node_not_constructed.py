@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, RclpyRule, Report, Severity, fact
+from scaffold.api import Diagnostic, Effect, Example, Package, RclpyRule, Report, Severity, fact
 from scaffold.api.install import file_of
 from scaffold.api.rclpy import NODE, NodeClass, RclpyFile, defined_by, has, names_of_bases
 
@@ -51,6 +51,7 @@ class NodeNotConstructed(RclpyRule):
 
     code = "ND001"
     name = "node-not-constructed"
+    effect = Effect.STOPS_START
     other_severities = {Severity.WARNING: "nothing in the file uses it as a node"}
     examples = (
         Example("called", {"talker.py": _NODE.format("super().__init__('talker')")}),

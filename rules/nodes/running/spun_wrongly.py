@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, RclpyRule, Report, Severity
+from scaffold.api import Diagnostic, Effect, Example, RclpyRule, Report, Severity
 from scaffold.api.rclpy import RclpyCall, RclpyFile, class_of
 
 from ._executors import Shutdowns, used_of_executor
@@ -61,6 +61,7 @@ class SpunWrongly(RclpyRule):
 
     code = "ND057"
     name = "spun-wrongly"
+    effect = Effect.STOPS_START
     other_severities = {Severity.WARNING: "callbacks run in one thread, or there are none"}
     examples = (
         Example(

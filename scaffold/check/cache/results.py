@@ -11,7 +11,7 @@ from scaffold.check.cache.runs import CachedRun, RunEntry
 from scaffold.check.cache.worker_reads import disk_of, uses
 from scaffold.check.result import Earlier, Part, Result, Verdict
 from scaffold.check.rules.engine_rules import RuleCrashed
-from scaffold.diagnostic import Diagnostic, Severity
+from scaffold.diagnostic import Diagnostic, Effect, Severity
 from scaffold.edits import Change, CreateFile, Edit, Fix, MakeExecutable, Remove, Safety
 from scaffold.errors import EnvironmentMissingError
 from scaffold.files.disk import holds
@@ -375,6 +375,7 @@ def _encode(diagnostic: Diagnostic, once: Callable[[str, str], str]) -> tuple[An
         once(message, message),
         fix,
         diagnostic.cause,
+        None if diagnostic.effect is None else diagnostic.effect.value,
     )
 
 
@@ -384,10 +385,10 @@ def _encode_fix(fix: Fix, once: Callable[[str, str], str]) -> tuple[Any, ...]:
 
 
 def _decode(stored: tuple[Any, ...]) -> Diagnostic:
-    code, name, severity, location, message, fix, cause = stored
+    code, name, severity, location, message, fix, cause, effect = stored
     place = _new_tuple(Location, location)
     made = _decode_fix(*fix) if fix else None
-    fields = (code, name, _SEVERITIES[severity], place, message, made, cause, ())
+    fields = (code, name, _SEVERITIES[severity], place, message, made, cause, (), _EFFECTS[effect])
     return cast("Diagnostic", _new_tuple(Diagnostic, fields))
 
 
@@ -399,6 +400,7 @@ def _decode_fix(title: str, changes: Sequence[tuple[Any, ...]], safety: str) -> 
 _new_tuple: Any = tuple.__new__
 """A fast constructor of records, as thousands are decoded at each edit."""
 _SEVERITIES = {item.value: item for item in Severity}
+_EFFECTS: Mapping[int | None, Effect | None] = {None: None} | {item.value: item for item in Effect}
 _SAFETIES = {item.value: item for item in Safety}
 _CHANGES: Mapping[str, type[Change]] = {
     kind.__name__: kind for kind in (Edit, CreateFile, MakeExecutable, Remove)

@@ -126,10 +126,12 @@ class Example:
 
 
 _EFFECTS = {
+    **dict.fromkeys(("BR", "MS", "PF", "TY"), Effect.INFERRED),
     "CM": Effect.SPOILS_INSTALL,
     **dict.fromkeys(("IM", "LF", "SP", "UR"), Effect.STOPS_START),
     **dict.fromkeys(("LY", "NM", "PX", "TS"), Effect.DECLARED_WRONG),
     "LY02": Effect.UNPUBLISHABLE,
+    **dict.fromkeys(("PX06", "PX07"), Effect.STOPS_BUILD),
 }
 """The usual effects of flaws by area, if not that a program stops at some point."""
 
@@ -190,6 +192,7 @@ class Rule:
         *,
         severity: Severity | None = None,
         cause: str = "",
+        effect: Effect | None = None,
     ) -> Diagnostic:
         """Return a diagnostic of this rule.
 
@@ -200,6 +203,8 @@ class Rule:
             severity: One of ``other_severities``, instead of the usual one.
             cause: Shared by findings with the same cause, also of other rules, which are shown as
                 one. Findings with the same message need none.
+            effect: The effect, if it is not that of most findings of this rule.
         """
         severity = severity or self.severity
-        return Diagnostic(self.code, self.name, severity, at.location, message, fix, cause)
+        place = at.location
+        return Diagnostic(self.code, self.name, severity, place, message, fix, cause, effect=effect)
