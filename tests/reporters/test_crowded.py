@@ -48,10 +48,10 @@ def test_each_code_is_shown_once_before_any_is_shown_twice() -> None:
     entries = _entries([*names, ("ND001", "some words"), ("CM014", "other words")])
     lines, hidden = _shown(in_order(entries), room=4)
     assert [line.split()[2:5] for line in lines] == [
-        ["TY003", "name", "0"],
-        ["TY003", "name", "1"],
         ["ND001", "some", "words"],
         ["CM014", "other", "words"],
+        ["TY003", "name", "0"],
+        ["TY003", "name", "1"],
     ]
     assert hidden == 7
 
@@ -95,7 +95,42 @@ def test_many_missing_dependencies_are_counted_by_package() -> None:
     talker = _entries(names, "talker", "dependency {}")
     listener = _entries(names, "listener", "dependency {}")
     lines, _ = _shown(merged_causes([*talker, *listener]), room=3)
-    assert lines[1] == "    also 19 in talker, 20 in listener"
+    assert lines[1].split("; ") == [
+        "    also some_long_name_1, some_long_name_2 and 17 more",
+        "in listener: some_long_name_0, some_long_name_1 and 18 more",
+    ]
+
+
+def test_packages_that_lack_the_same_dependencies_are_listed_together() -> None:
+    packages = [
+        _entries([("PX020", "rclpy")], package, "dependency {}")
+        for package in ("talker", "listener", "filter")
+    ]
+    lines, _ = _shown(merged_causes([entry for entries in packages for entry in entries]), room=3)
+    assert lines[1] == "    also in listener, filter: rclpy"
+
+
+def test_dependency_that_most_packages_lack_is_first() -> None:
+    talker = _entries([("PX020", "yaml"), ("PX020", "rclpy")], "talker", "dependency {}")
+    listener = _entries([("PX020", "rclpy")], "listener", "dependency {}")
+    (entry,) = merged_causes([*talker, *listener])
+    assert [item.finding.message for item in entry.places] == ["rclpy", "rclpy", "yaml"]
+
+
+def test_messages_that_differ_in_names_are_one_entry() -> None:
+    message = "no plugin '{0}/Spin': it fails; write '{0}::Spin'"
+    names = ("one", "two", "three")
+    other = ("PF011", "no plugin 'one': the file is empty")
+    entries = [*_entries([("PF011", message.format(name)) for name in names]), *_entries([other])]
+    entries = merged_causes([*entries, *_entries([("TY003", "no plugin 'one'")])])
+    assert [[item.finding.location.line for item in entry.places] for entry in entries] == [
+        *([1, 2, 3], [1], [1])
+    ]
+    lines, _ = _shown(entries[:1], room=3)
+    assert lines == [
+        "node.py:1:1: error PF011 no plugin 'one/Spin': it fails; write 'one::Spin' [a-name]",
+        "    also two/Spin in line 2, three/Spin in line 3",
+    ]
 
 
 def test_names_that_rosdep_rejects_are_separate_from_missing_dependencies() -> None:
