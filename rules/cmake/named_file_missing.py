@@ -81,7 +81,9 @@ class NamedFileMissing(Rule):
             {
                 "CMakeLists.txt": _INSTALL.format("DIRECTORY launch")
                 + _INSTALL.format("FILES ${CMAKE_CURRENT_BINARY_DIR}/made.yaml")
-                + "install(DIRECTORY maps OPTIONAL DESTINATION share/${PROJECT_NAME})\n",
+                + "install(DIRECTORY maps OPTIONAL DESTINATION share/${PROJECT_NAME})\n"
+                + "install(DIRECTORY rviz DESTINATION share/${PROJECT_NAME}\n"
+                + "        FILES_MATCHING PATTERN *.rviz)\n",
                 "launch/talk.launch.py": "",
             },
         ),
@@ -235,6 +237,8 @@ class NamedFileMissing(Rule):
                 "OPTIONAL"
             ):
                 continue
+            if install.command.has("FILES_MATCHING"):
+                continue  # CMake skips a missing directory
             for item in install.items:
                 problem = self._problem(package, install, item)
                 if problem:

@@ -19,7 +19,7 @@ from scaffold.api import (
     fact,
 )
 from scaffold.api.launch import FUNCTION, LaunchFile
-from scaffold.api.python import is_none_literal, may_end, paths_importing, returned
+from scaffold.api.python import imports_by_path, is_none_literal, may_end, paths_importing, returned
 
 _LOADERS = frozenset(
     {
@@ -57,6 +57,15 @@ class LaunchFunctionMissing(LaunchRule):
     }
     examples = (
         Example("defined", {"launch/a.launch.py": _LAUNCH.format(FUNCTION)}),
+        Example(
+            "module of the package that a launch file imports",
+            {
+                "talker/launch/parts_launch.py": "PARTS = []\n",
+                "launch/a.launch.py": "from launch import LaunchDescription\n"
+                "from talker.launch.parts_launch import PARTS\n\n\n"
+                "def generate_launch_description():\n    return LaunchDescription(PARTS)\n",
+            },
+        ),
         Example(
             "misspelled",
             {"launch/a.launch.py": _LAUNCH.format("generate_launch_descriptions")},
@@ -138,7 +147,7 @@ class LaunchFunctionMissing(LaunchRule):
         if not name.endswith("launch.py") or module.defines(FUNCTION) is not False:
             return
         is_test = "generate_test_description" in module.functions
-        if "/launch/" not in f"/{launch.path}" or is_test or name in _loaded_files(package):
+        if "/launch/" not in f"/{launch.path}" or is_test or _is_loaded(package, launch.path):
             return
         closest = get_close_matches(FUNCTION, module.functions, 1, 0.85)
         if closest:
@@ -193,6 +202,18 @@ class LaunchFunctionMissing(LaunchRule):
 def _is_after_failure(launch: LaunchFile, statement: ast.AST) -> bool:
     """Return whether a statement handles an exception, so that the launch stops anyway."""
     return any(isinstance(parent, ast.ExceptHandler) for parent in launch.module.parents(statement))
+
+
+def _is_loaded(package: Package, path: str) -> bool:
+    """Return whether launch files use a file as a module, instead of launching it."""
+    module = path.removesuffix(".py").replace("/", ".")
+    return path.rpartition("/")[2] in _loaded_files(package) or any(
+        item.module == module
+        for other in (package, *package.workspace)
+        for importing, imports in imports_by_path(other)
+        if ".launch." in importing or importing.endswith("_launch.py")
+        for item in imports
+    )
 
 
 @fact

@@ -101,6 +101,22 @@ class OperatorUnsupported(TypeRule):
             ".any(), .all() or .size",
         ),
         Example(
+            "number next to a Time in a dictionary",
+            {
+                "goals.py": "from rclpy.node import Node\n\n\n"
+                "class Goals(Node):\n"
+                "    def __init__(self):\n"
+                "        super().__init__('goals')\n"
+                "        self.goals = {}\n\n"
+                "    def add(self, key):\n"
+                "        if key in self.goals:\n"
+                "            self.goals[key]['tries'] += 1\n"
+                "            self.goals[key]['last'] = self.get_clock().now()\n"
+                "        else:\n"
+                "            self.goals[key] = {'tries': 1, 'last': self.get_clock().now()}\n"
+            },
+        ),
+        Example(
             "comparison of two durations", {"ticker.py": _NODE.format("Duration(seconds=1.0)")}
         ),
         Example(

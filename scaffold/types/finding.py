@@ -292,11 +292,7 @@ class TypeFinding:
 
     def _is_of_several(self, node: ast.AST) -> bool:
         """Return whether the called or used object may be another one than the reported one."""
-        parts = [node.left, node.right] if isinstance(node, ast.BinOp) else [node]
-        if any(
-            origins.has_default(self.module, part) or may_be_of_library(self.module, part)
-            for part in parts
-        ):
+        if self._is_calculated_from_several(node):
             return True
         if self.kind == "missing-attribute":
             # otherwise only reported if no object of them has it
@@ -315,6 +311,23 @@ class TypeFinding:
         expected = self.message.partition("Expected ")[2].partition(", found")[0]
         names = {short_name(name) for name in re.findall(MARKED, expected)}
         return any(origins.is_of_several(self.module, item, names) for item in called or [node])
+
+    def _is_calculated_from_several(self, node: ast.AST) -> bool:
+        """Return whether an operand or a value may be of another type than the reported one."""
+        match node:
+            case ast.BinOp(left=left, right=right) | ast.AugAssign(target=left, value=right):
+                if any(
+                    isinstance(part, ast.Subscript) and origins.is_of_several(self.module, part)
+                    for part in (left, right)
+                ):
+                    return True
+                parts: tuple[ast.AST, ...] = (left, right)
+            case _:
+                parts = (node,)
+        return any(
+            origins.has_default(self.module, part) or may_be_of_library(self.module, part)
+            for part in parts
+        )
 
     def _is_of_another(self, node: ast.AST) -> bool:
         """Return whether code for another distribution sets a name and thereby its type."""

@@ -57,10 +57,18 @@ class LocalForAttribute(RclpyRule):
             {"gate.py": _NODE.replace("msg.data", "False").format("is_open", _LOGGED)},
         ),
         Example(
+            "measured value with the name of a parameter",
+            {
+                "gate.py": _NODE.replace("= False", "= self.get_parameter('open').value").format(
+                    "is_open", _LOGGED
+                )
+            },
+        ),
+        Example(
             "only logged",
             {"gate.py": _NODE.format("is_open", _LOGGED)},
-            "13:9: 'is_open' is a local variable of on_open(): self.'is_open' never changes; "
-            "write self.'is_open'",
+            "13:9: 'is_open' is a local variable of on_open(): self.is_open never changes; write "
+            "self.is_open",
         ),
     )
 
@@ -73,7 +81,7 @@ class LocalForAttribute(RclpyRule):
                     if not is_used_elsewhere(package, file, name.id):
                         message = (
                             f"{name.id!r} is a local variable of {method.name}(): "
-                            f"self.{name.id!r} never changes; write self.{name.id!r}"
+                            f"self.{name.id} never changes; write self.{name.id}"
                         )
                         yield self.report(file.module.location(name), message)
 
@@ -142,8 +150,8 @@ def _is_state(file: RclpyFile, class_: NodeClass, method: ast.AST, name: str) ->
 
 
 def _is_start(assigned: ast.AST | None) -> bool:
-    """Return whether the initial value of an attribute is a constant or a parameter."""
-    match assigned:
-        case ast.Assign(value=ast.Constant() | ast.Attribute(attr="value", value=ast.Call())):
-            return True
-    return False
+    """Return whether the initial value of an attribute is a constant.
+
+    That of a parameter is configured, and a local variable of its name is another value.
+    """
+    return isinstance(assigned, ast.Assign) and isinstance(assigned.value, ast.Constant)
