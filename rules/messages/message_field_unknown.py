@@ -11,6 +11,8 @@ from scaffold.api.interfaces import closest_word
 from scaffold.api.messages import PARTS, MessageClass, MessageTypes, is_error_expected
 from scaffold.api.python import is_handled
 
+from ._named_fields import named_fields
+
 _CLASS_PARTS = frozenset({"Request", "Response", "Event", "Goal", "Result", "Feedback", "Impl"})
 _RAISED = frozenset({"AttributeError"})
 _NODE = (
@@ -44,6 +46,19 @@ _NODE_WRAPPED = (
     "        self.last = answer{}.sequence, answer.status\n"
 )
 
+_BY_NAME = (
+    "from rclpy.node import Node\nfrom sensor_msgs.msg import Imu\n\n"
+    "FIELDS = [('angular_velocity', 'xyz'), ('{}', 'xy{}')]\n\n\n"
+    "class Driver(Node):\n"
+    "    def read(self, values):\n"
+    "        imu = Imu()\n"
+    "        for vector, axes in FIELDS:\n"
+    "            part = getattr(imu, vector)\n"
+    "            for axis in axes:\n"
+    "                setattr(part, axis, values.pop())\n"
+    "        return imu\n"
+)
+
 
 class MessageFieldUnknown(MessageRule):
     """Code reads or sets a field that the message, or what wraps it, does not have.
@@ -64,6 +79,19 @@ class MessageFieldUnknown(MessageRule):
     code = "MS002"
     name = "message-field-unknown"
     examples = (
+        Example("fields by name", {"driver.py": _BY_NAME.format("linear_acceleration", "z")}),
+        Example(
+            "an unknown field in a table",
+            {"driver.py": _BY_NAME.format("linear_accel", "z")},
+            "4:41: sensor_msgs/msg/Imu has no field or constant 'linear_accel'; did you mean "
+            "'linear_acceleration'? (definition: sensor_msgs 5.3.6 of ROS 2 Jazzy)",
+        ),
+        Example(
+            "an unknown field of a field in a table",
+            {"driver.py": _BY_NAME.format("linear_acceleration", "w")},
+            "4:64: geometry_msgs/msg/Vector3 has no field or constant 'w'; it has x, y, z "
+            "(definition: geometry_msgs 5.3.6 of ROS 2 Jazzy)",
+        ),
         Example("existing field", {"listener.py": _NODE.format("data")}),
         Example(
             "subscription with a message type that other code may set",
@@ -166,6 +194,14 @@ class MessageFieldUnknown(MessageRule):
                 at = types.module.source.location(max(start, end - len(node.attr)), end)
                 cause = f"fields of {message.partition(' has no ')[0]}"
                 yield self.report(at, message, cause=cause)
+
+        for owner, name in named_fields(types):
+            field = str(name.value)
+            if field.isidentifier() and not owner.allows(field) and name.value is not None:
+                message = _message(owner, field)
+                yield self.report(
+                    types.module.location(name), message, cause=f"fields of {owner.name}"
+                )
 
     def _check_wrapped(self, types: MessageTypes) -> Iterator[Diagnostic]:
         if not types.file.action_clients:

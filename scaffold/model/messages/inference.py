@@ -34,7 +34,7 @@ _DEPTH = 12
 _MAX_BINDINGS = 200  # assignments of one name or attribute; with more its type is unknown
 _OF_EVENTS = lazy_re.compile(r"connect$|register(?!Callback)|add_(?:listener|handler|observer)")
 """Matches methods that take a function for the events of another library."""
-_ASKS_TYPE = frozenset({"isinstance", "type", "hasattr", "getattr", "setattr", "issubclass"})
+_ASKS_TYPE = frozenset({"isinstance", "type", "hasattr", "issubclass"})
 
 
 class Assigned(NamedTuple):
@@ -97,6 +97,12 @@ class MessageTypes:
                 return None
             return self._class_of_type(result)
         return result
+
+    def class_of_field(self, owner: MessageClass, name: str) -> MessageClass | None:
+        """Return the class of a field that is one message."""
+        field = owner.section.field(name)
+        is_message = field is not None and not (field.type.is_primitive or field.type.is_array)
+        return self._class_of_type(field.type) if field is not None and is_message else None
 
     def field_type_of(self, node: ast.expr) -> FieldType | None:
         """Return the type of the field read by an expression, if certain."""
@@ -295,7 +301,7 @@ class MessageTypes:
     def _type_checked_names(self) -> frozenset[tuple[ast.AST, str]]:
         result: set[tuple[ast.AST, str]] = set()
         for call in self.module.walk(ast.Call):
-            if not (isinstance(call.func, ast.Name) and call.func.id in _ASKS_TYPE and call.args):
+            if not _asks_type(call):
                 continue
             asked = call.args[0]
             if isinstance(asked, ast.Name):
@@ -338,3 +344,13 @@ class MessageTypes:
                 field = owner.section.field(word.arg) if owner and word.arg else None
                 if owner and field:
                     yield Assigned(owner, field, word.value, call)
+
+
+def _asks_type(call: ast.Call) -> bool:
+    """Return whether a call checks what an object is or has; ``getattr`` does with a default."""
+    match call:
+        case ast.Call(func=ast.Name(id="getattr"), args=[_, _, _]):
+            return True
+        case ast.Call(func=ast.Name(id=name), args=[_, *_]):
+            return name in _ASKS_TYPE
+    return False
