@@ -11,8 +11,17 @@ from scaffold.api.python import FunctionNode, PythonModule
 from scaffold.api.rclpy import LOG_METHODS
 from scaffold.api.tests import test_functions
 
+from ._assertions_in_loops import loop_over_nothing
 from ._received import appended_lists
 
+_RECEIVED = (
+    "import rclpy\nfrom std_msgs.msg import String\n\n\n"
+    "def test_text(node):\n"
+    "    received = []\n"
+    "    node.create_subscription(String, 'chatter', received.append, 10)\n"
+    "    rclpy.spin_once(node, timeout_sec=1.0)\n"
+    "    {}\n    {}\n"
+)
 _MOCKED = ("called_once", "called_with", "called_once_with", "not_called", "has_calls")
 _ASSERTION = "def ready():\n    return False\n\n\ndef test_text():\n    assert {}\n"
 _TEST = "import pytest\n\n\ndef ready():\n    return False\n\n\ndef test_text():\n{}"
@@ -48,6 +57,20 @@ class AssertionWithoutEffect(TestRule):
             {
                 "test/test_text.py": _TEST.format(
                     "    assert ready()\n    with pytest.raises(ValueError):\n        1 < ready()\n"
+                )
+            },
+        ),
+        Example(
+            "what was received, if anything",
+            {"test/test_text.py": _RECEIVED.format("for msg in received:", "    assert msg.data")},
+            "9:16: nothing is asserted if received is empty: the test passes when nothing "
+            "arrives; assert before the loop that it is not",
+        ),
+        Example(
+            "what was received, and that something was",
+            {
+                "test/test_text.py": _RECEIVED.format(
+                    "assert received", "for msg in received:\n        assert msg.data"
                 )
             },
         ),
@@ -161,6 +184,14 @@ class AssertionWithoutEffect(TestRule):
                     f"assert {name} first"
                 )
                 yield self.report(module.location(only), message)
+            loop = loop_over_nothing(module, test.node)
+            if loop is not None:
+                text = module.text(loop.iter)
+                message = (
+                    f"nothing is asserted if {text} is empty: the test passes when nothing "
+                    "arrives; assert before the loop that it is not"
+                )
+                yield self.report(module.location(loop.iter), message, severity=Severity.WARNING)
             for node in ast.walk(test.node):
                 at, problem = _problem(module, node)
                 if isinstance(node, ast.Assert) and not problem:
