@@ -14,7 +14,7 @@ from scaffold.api.tests import test_functions
 from ._assertions_in_loops import loop_over_nothing
 from ._received import appended_lists
 
-_RECEIVED = (
+_LOOPING = (
     "import rclpy\nfrom std_msgs.msg import String\n\n\n"
     "def test_text(node):\n"
     "    received = []\n"
@@ -62,14 +62,14 @@ class AssertionWithoutEffect(TestRule):
         ),
         Example(
             "what was received, if anything",
-            {"test/test_text.py": _RECEIVED.format("for msg in received:", "    assert msg.data")},
+            {"test/test_text.py": _LOOPING.format("for msg in received:", "    assert msg.data")},
             "9:16: nothing is asserted if received is empty: the test passes when nothing "
             "arrives; assert before the loop that it is not",
         ),
         Example(
             "what was received, and that something was",
             {
-                "test/test_text.py": _RECEIVED.format(
+                "test/test_text.py": _LOOPING.format(
                     "assert received", "for msg in received:\n        assert msg.data"
                 )
             },

@@ -15,6 +15,7 @@ from scaffold.model.rclpy.api import (
 from scaffold.model.rclpy.attributes import (
     defined_by,
     given_from_outside,
+    is_base_elsewhere,
     is_overridden,
     is_read_in_full,
     is_used_elsewhere,
@@ -118,6 +119,7 @@ __all__ = [
     "given_from_outside",
     "has",
     "is_asked_for",
+    "is_base_elsewhere",
     "is_listed_parameter",
     "is_method",
     "is_of_node",

@@ -14,6 +14,7 @@ from scaffold.api.rclpy import (
     defined_by,
     given_from_outside,
     has,
+    is_base_elsewhere,
     is_read_in_full,
     known_names,
     names_of_bases,
@@ -67,6 +68,23 @@ class AttributeOfNodeUnknown(RclpyRule):
     name = "attribute-of-node-unknown"
     other_severities = {Severity.WARNING: "it only fails while the node shuts down"}
     examples = (
+        Example(
+            "attributes that a class of another package adds",
+            {
+                "package.xml": "<package><name>common</name></package>\n",
+                "common/base.py": "from rclpy.node import Node\n\n\n"
+                "class Base(Node):\n    def tick(self):\n        self.results.publish(None)\n",
+            },
+            neighbors={
+                "rover": {
+                    "package.xml": "<package><name>rover</name></package>\n",
+                    "rover/drive.py": "from std_msgs.msg import String\n\n"
+                    "from common.base import Base\n\n\n"
+                    "class Drive(Base):\n    def start(self):\n"
+                    "        self.results = self.create_publisher(String, 'results', 10)\n",
+                }
+            },
+        ),
         Example(
             "attributes that are set and read by name",
             {
@@ -192,6 +210,8 @@ class AttributeOfNodeUnknown(RclpyRule):
                 continue
             if module.enclosing_function(attribute) in without_self:
                 continue
+            if is_base_elsewhere(package, node.name):
+                return
             names = names or {*defined, *given, *_names_of_rclpy()}
             closest = _ELSEWHERE.get(name) or _closest(package, name, names)
             inner = _inner_function(node, name)

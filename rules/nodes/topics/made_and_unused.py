@@ -82,6 +82,20 @@ class MadeAndUnused(RclpyRule):
     effect = Effect.WRONG_BEHAVIOR
     examples = (
         Example(
+            "a publisher that a base class in another package uses",
+            {
+                "package.xml": "<package><name>rover</name></package>\n",
+                "rover/talker.py": _NODE.format("self.tick()"),
+            },
+            neighbors={
+                "common": {
+                    "package.xml": "<package><name>common</name></package>\n",
+                    "common/base.py": "def talk(node, message):\n"
+                    "    node.chatter_pub.publish(message)\n",
+                }
+            },
+        ),
+        Example(
             "one callback for two topics",
             {
                 "wheels.py": _NODE.format(
@@ -191,13 +205,12 @@ class MadeAndUnused(RclpyRule):
     def _check_entities(self, package: Package, file: RclpyFile) -> Iterator[Diagnostic]:
         if not file.init_calls or file.module.in_tests:
             return  # a class that other packages may inherit from, or use
-        path = file.module.path
         for publisher in file.publishers:
             name = _kept_in(file, publisher.call)
             if not name:
                 continue
             is_known = not isinstance(publisher.name, Unknown) and not publisher.is_conditional
-            if is_known and package.is_mentioned_once(name, path):
+            if is_known and self._is_mentioned_once(package, file, name):
                 message = f"publisher {name!r} is never used: no messages on {publisher.name!r}"
                 yield self.report(publisher, message)
             elif _is_replaced(file, publisher.call, name):
@@ -208,11 +221,16 @@ class MadeAndUnused(RclpyRule):
                 yield self.report(publisher, message)
         for class_ in file.classes:
             for name, message in (*_uncalled_setups(file, class_), *_callbacks(file, class_)):
-                if package.is_mentioned_once(name, path):
+                if self._is_mentioned_once(package, file, name):
                     yield self.report(file.module.name_location(class_.methods[name]), message)
             for method in _unregistered(package, file, class_):
                 message = f"callback {method.name!r} is never registered: it never runs"
                 yield self.report(file.module.name_location(method), message)
+
+    def _is_mentioned_once(self, package: Package, file: RclpyFile, name: str) -> bool:
+        """Return whether no other code mentions a name, such as a base class in the workspace."""
+        is_once = package.is_mentioned_once(name, file.module.path)
+        return is_once and not is_used_elsewhere(package, file, name)
 
     def _check_groups(self, package: Package, file: RclpyFile) -> Iterator[Diagnostic]:
         if not file.module.mentions("CallbackGroup(") or file.module.in_tests:

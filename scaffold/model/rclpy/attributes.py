@@ -56,14 +56,24 @@ def is_read_in_full(node: NodeClass) -> bool:
 
 
 def is_used_elsewhere(package: Package, file: RclpyFile, attribute: str) -> bool:
-    """Return whether other modules of the package use an attribute set by a class of a file.
+    """Return whether other modules of the workspace use an attribute set by a class of a file.
 
     A class that sets an attribute of the same name on ``self`` uses its own.
     """
-    for path in package.python_files:
-        with suppress(ViewError):
-            if path != file.module.path and _uses_of_another(package, path, attribute):
-                return True
+    return any(
+        _is_used_in(package, path, attribute)
+        for path in package.python_files
+        if path != file.module.path
+    ) or any(
+        _is_used_in(other, path, attribute)
+        for other in package.workspace
+        for path in (other.python_files if other.name != package.name else ())
+    )
+
+
+def _is_used_in(package: Package, path: str, attribute: str) -> bool:
+    with suppress(ViewError):
+        return _uses_of_another(package, path, attribute)
     return False
 
 
@@ -83,6 +93,13 @@ def _uses_of_another(package: Package, path: str, attribute: str) -> bool:
 def names_of_bases(package: Package) -> frozenset[str]:
     """Return the classes of the package with subclasses, which may define more."""
     return _of_all_files(package, _bases_in)
+
+
+def is_base_elsewhere(package: Package, class_: str) -> bool:
+    """Return whether another package of the workspace has subclasses of a class."""
+    return any(
+        class_ in names_of_bases(other) for other in package.workspace if other.name != package.name
+    )
 
 
 def is_overridden(package: Package, method: FunctionNode, class_: ast.ClassDef) -> bool:
