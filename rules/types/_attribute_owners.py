@@ -7,6 +7,7 @@ import re
 
 from scaffold.api import Package, fact
 from scaffold.api.messages import MessageTypes
+from scaffold.api.rclpy import is_read_in_full, rclpy_file
 from scaffold.api.types import (
     MARKED,
     TypeFinding,
@@ -125,9 +126,8 @@ def _of_ros(
     name, package = node.attr, finding.package
     if finding.message.startswith("Module"):
         return None if owner in _OF_WINDOWS else (owner, module_names(package, owner))
-    is_of_workspace = re.fullmatch(r"\w+", owner) is not None  # it has no mark
-    if is_of_workspace:
-        return None if _is_set(package, name) else (owner, own_members(package, owner))
+    if re.fullmatch(r"\w+", owner) is not None:  # it has no mark
+        return _of_workspace(finding, node, owner)
     class_ = _class_of_object(owner) or class_itself(owner)
     shown = full_name(class_) if class_ else ""
     if not class_ or _is_of_message_around(shown, name) or _is_default_of_field(shown, name):
@@ -138,6 +138,27 @@ def _of_ros(
     if is_settable and not is_closed(shown) and name not in _of_contents(package, owner):
         return None  # an object of rclpy takes any attribute
     return shown, members(package, class_)
+
+
+def _of_workspace(
+    finding: TypeFinding, node: ast.Attribute, owner: str
+) -> tuple[str, frozenset[str]] | None:
+    is_inside = is_of_self(finding, node)
+    if (is_inside and _is_of_node(finding, owner)) or _is_set(finding.package, node.attr):
+        return None  # ND046 reports attributes of nodes
+    return owner, own_members(finding.package, owner, is_inside=is_inside)
+
+
+def is_of_self(finding: TypeFinding, node: ast.Attribute) -> bool:
+    """Return whether an attribute is read from ``self`` in a class of the workspace."""
+    is_of_workspace = finding.match(r"Object of type `\w+` has no .+") is not None
+    return is_of_workspace and finding.module.text(node.value) == "self"
+
+
+def _is_of_node(finding: TypeFinding, class_: str) -> bool:
+    """Return whether a class of the file is a node whose bases are all in its package."""
+    classes = rclpy_file(finding.package, finding.path).classes
+    return any(node.name == class_ and is_read_in_full(node) for node in classes)
 
 
 def _of_contents(package: Package, owner: str) -> frozenset[str]:

@@ -112,6 +112,31 @@ class ArgumentTypeUnfit(TypeRule):
     kinds = frozenset({"invalid-argument-type", "no-matching-overload"})
     examples = (
         Example(
+            "float passed by another package to a method that stores it as text",
+            {
+                "package.xml": "<package><name>common</name></package>\n",
+                "common/__init__.py": "",
+                "common/base.py": "from diagnostic_msgs.msg import KeyValue\n"
+                "from rclpy.node import Node\n\n\n"
+                "class Base(Node):\n    def pair(self, key, value):\n"
+                "        return KeyValue(key=key, value=value)\n",
+            },
+            "common/base.py:7:34: 'value' of diagnostic_msgs.msg.KeyValue is a str, not a float: "
+            "it cannot be published",
+            neighbors={
+                "rover": {
+                    "package.xml": "<package><name>rover</name></package>\n",
+                    "rover/__init__.py": "",
+                    "rover/battery.py": "from sensor_msgs.msg import BatteryState\n\n"
+                    "from common.base import Base\n\n\n"
+                    "class Battery(Base):\n    def tell(self, msg: BatteryState):\n"
+                    "        return self.pair('voltage', msg.voltage)\n\n"
+                    "    def watch(self):\n"
+                    "        self.create_subscription(BatteryState, 'battery', self.tell, 1)\n",
+                }
+            },
+        ),
+        Example(
             "bytes written to a serial port, a list passed to euler_from_quaternion()",
             {"driver.py": _DRIVER.format("b'go'", "[q.x, q.y, q.z, q.w]")},
         ),

@@ -226,6 +226,26 @@ class ArgumentsUnfit(TypeRule):
             "rover/plan.py:8:8: Path() lacks 'width': TypeError",
         ),
         Example(
+            "constructors of dataclasses and named tuples",
+            {
+                "package.xml": "<package><name>rover</name></package>\n",
+                "rover/__init__.py": "",
+                "rover/plane.py": "from dataclasses import dataclass\n"
+                "from typing import NamedTuple\n\nfrom .others import Base\n\n\n"
+                "class Pose2D(NamedTuple):\n    x: float\n    theta: float\n\n\n"
+                "@dataclass\nclass Limits:\n    speed: float = 0.5\n\n\n"
+                "@dataclass\nclass Unknown(Base):\n    speed: float = 0.5\n",
+                "rover/plan.py": "from geometry_msgs.msg import Point\n\n"
+                "from .plane import Limits, Pose2D, Unknown\n\n"
+                "points = [Point()]\nposes = [Pose2D(point.x) for point in points]\n"
+                "limits = Limits(max_speed=1.0)\nlimits = Limits(0.5)\n"
+                "pose = Pose2D(1.0, 2.0, 3.0)\nother = Unknown(max_speed=1.0)\n",
+            },
+            "rover/plan.py:6:10: Pose2D() lacks 'theta': TypeError",
+            "rover/plan.py:7:17: Limits() has no argument 'max_speed': TypeError",
+            "rover/plan.py:9:25: Pose2D() takes 2 positional arguments at most, not 3: TypeError",
+        ),
+        Example(
             "class whose base class defines __new__()",
             {
                 "package.xml": "<package><name>rover</name></package>\n",

@@ -21,7 +21,7 @@ from scaffold.api import (
 from scaffold.api.distributions import removed_name
 from scaffold.api.python import conditions_on
 from scaffold.api.rclpy import only_while_stopping
-from scaffold.api.types import TypeFinding, class_in, full_name
+from scaffold.api.types import TypeFinding, class_in
 
 from ._attribute_owners import (
     CONTAINER,
@@ -30,7 +30,7 @@ from ._attribute_owners import (
     METHOD,
     TUPLE,
     cause,
-    is_closed,
+    is_of_self,
     known_owner,
     without_none,
 )
@@ -168,6 +168,8 @@ _LIMIT = (
 )
 _CERTAIN = 0.85
 _OF_ALL_MESSAGES = frozenset({"SLOT_TYPES", "get_fields_and_field_types"})
+_BY_NAME = ("attr(", "__dict__", "get_fields_and_field_types", "patch")
+"""Text in files that may set attributes by name."""
 _IMPORTED = frozenset({*typing.__all__, *sys.stdlib_module_names, "ament_index_python"})
 """Names that ROS modules import for internal use, which the stubs do not show."""
 _TIMES = frozenset({"rclpy.time.Time", "rclpy.duration.Duration"})
@@ -183,6 +185,28 @@ _FEW = 6
 """The maximum number of names in a message."""
 _TO_DO = {COROUTINE: "await it", FUNCTION: "call it first", TUPLE: "unpack it first"}
 """The hint for a value that only leads to a ROS object."""
+
+_WATCHDOG = (
+    "class Watchdog:\n    def __init__(self, node):\n        self.{}parent = node\n\n"
+    "    def feed(self):\n        return self.{}.get_clock()\n"
+)
+_WATCHED = (
+    "from rclpy.node import Node\n\nfrom .watch import Watchdog\n\n\n"
+    "def watch(node: Node):\n    return Watchdog(node)\n"
+)
+_LIMITS = (
+    "from dataclasses import dataclass\n\n\n@dataclass\nclass Limits:\n    speed: float = 0.5\n"
+)
+_LIMITED = (
+    "from rclpy.node import Node\n\nfrom .limits import Limits\n\n\n"
+    "class Drive(Node):\n"
+    "    def __init__(self, limits=None):\n"
+    "        super().__init__('drive')\n"
+    "        self.limits = {}\n"
+    "        self.create_timer(1.0, self.tick)\n\n"
+    "    def tick(self):\n        return self.limits.{}\n\n\n"
+    "def main():\n    return Drive()\n"
+)
 
 
 class AttributeMissing(TypeRule):
@@ -697,6 +721,102 @@ class AttributeMissing(TypeRule):
             },
         ),
         Example(
+            "attribute of self in a class of the workspace",
+            {
+                "package.xml": "<package><name>rover</name></package>\n",
+                "rover/__init__.py": "",
+                "rover/watch.py": _WATCHDOG.format("", "node"),
+                "rover/drive.py": _WATCHED,
+            },
+            "rover/watch.py:6:16: Watchdog has no 'node': AttributeError",
+        ),
+        Example(
+            "attribute that the class sharing a mixin has",
+            {
+                "package.xml": "<package><name>rover</name></package>\n",
+                "rover/__init__.py": "",
+                "rover/watch.py": _WATCHDOG.format("", "node")
+                + "\n\nclass Guard(Watchdog, dict):\n    node = None\n",
+                "rover/drive.py": _WATCHED.replace("Watchdog", "Guard"),
+            },
+        ),
+        Example(
+            "method without self that is called through its class",
+            {
+                "package.xml": "<package><name>rover</name></package>\n",
+                "rover/__init__.py": "",
+                "rover/watch.py": "class Watchdog:\n    def __init__(self, node):\n"
+                "        self.count = 0\n\n    def feed(msg):\n        return msg.header\n",
+                "rover/drive.py": _WATCHED,
+            },
+        ),
+        Example(
+            "attribute of the object that replaces None",
+            {
+                "package.xml": "<package><name>rover</name></package>\n",
+                "rover/__init__.py": "",
+                "rover/limits.py": _LIMITS,
+                "rover/drive.py": _LIMITED.format("limits or Limits()", "max_speed"),
+            },
+            Report(
+                "rover/drive.py:13:16",
+                "Limits has no 'max_speed': AttributeError; did you mean 'speed'?",
+                unsafe_fix="Replace with 'speed'",
+            ),
+        ),
+        Example(
+            "attribute of an object that a caller passes instead",
+            {
+                "package.xml": "<package><name>rover</name></package>\n",
+                "rover/__init__.py": "",
+                "rover/limits.py": _LIMITS,
+                "rover/drive.py": _LIMITED.format("limits or Limits()", "max_speed").replace(
+                    "Drive()", "Drive(load())"
+                ),
+            },
+        ),
+        Example(
+            "attribute of what a fixture yields",
+            {
+                "package.xml": "<package><name>rover</name></package>\n",
+                "rover/__init__.py": "",
+                "rover/limits.py": _LIMITS,
+                "test/test_limits.py": "import pytest\nfrom std_msgs.msg import Float64\n\n"
+                "from rover.limits import Limits\n\n\n"
+                "@pytest.fixture\ndef limits():\n    yield Limits()\n\n\n"
+                "def test_speed(limits):\n    assert limits.speed == Float64().data\n"
+                "    assert limits.max_speed\n\n\n"
+                "@pytest.mark.parametrize('limits', [1, 2])\ndef test_others(limits):\n"
+                "    assert limits.real\n",
+            },
+            Report(
+                "test/test_limits.py:14:12",
+                "Limits has no 'max_speed': AttributeError; did you mean 'speed'?",
+                unsafe_fix="Replace with 'speed'",
+            ),
+        ),
+        Example(
+            "client of a node that a parameter is",
+            {
+                "package.xml": "<package><name>rover</name></package>\n",
+                "rover/__init__.py": "",
+                "rover/asking.py": "class Asking:\n"
+                "    def __init__(self, node, srv_type):\n"
+                "        self.label = node.label\n"
+                "        self.client = node.create_client(srv_type, 'arm')\n\n"
+                "    def ask(self, **fields):\n"
+                "        return self.client.call_async(self.client.srv_type.Request(**fields))\n",
+                "rover/arm.py": "from rclpy.node import Node\nfrom std_srvs.srv import Trigger\n\n"
+                "from .asking import Asking\n\n\n"
+                "class Arm(Node):\n    def __init__(self):\n"
+                "        super().__init__('arm')\n"
+                "        self.asking = Asking(self, Trigger)\n\n"
+                "    def move(self):\n        return self.asking.ask().success\n",
+            },
+            "rover/arm.py:13:16: rclpy.task.Future has no 'success': AttributeError; call "
+            "result() of the future",
+        ),
+        Example(
             "attributes set by other modules",
             {
                 "package.xml": "<package><name>rover</name></package>\n",
@@ -926,7 +1046,9 @@ class AttributeMissing(TypeRule):
         is_entry = is_named and owner.startswith("dict[")
         is_known = is_named and CONTAINER.match(owner) is None
         is_known = is_known or _may_be_of_mock(finding, name)
-        if name.startswith("_") or is_imported or is_known or _is_chosen(finding, node):
+        is_inside = is_of_self(finding, node)
+        is_hidden = name.startswith("_") and not is_inside
+        if is_hidden or is_imported or is_known or _is_chosen(finding, node):
             return None
         object_ = known_owner(finding, node, owner)
         if object_ is None:
@@ -938,7 +1060,7 @@ class AttributeMissing(TypeRule):
         if closest:
             hint = f"; did you mean {closest!r}?"
         names -= _OF_ALL_MESSAGES
-        if not hint and len(names) <= _FEW:
+        if not hint and not is_inside and len(names) <= _FEW:
             hint = f"; it has {', '.join(sorted(names))}" if names else ""
         message = f"{shown} has no {name!r}: AttributeError{hint}"
         change = removed_name(f"{shown}.{name}")
@@ -957,9 +1079,8 @@ def _is_named(finding: TypeFinding, name: str, owner: str) -> bool:
     text = finding.module.source.text
     if re.search(rf"""['"]{name}['"]""", text) is None:
         return False
-    return not is_closed(full_name(class_in(owner))) or finding.module.mentions(
-        "attr(", "get_fields_and_field_types"
-    )
+    is_of_library = bool(class_in(owner))
+    return not is_of_library or finding.module.mentions(*_BY_NAME)
 
 
 def _replacement(shown: str, name: str, method: str) -> str:

@@ -16,7 +16,12 @@ from scaffold.model.package import Package
 from scaffold.model.reads import Reads, recorded
 from scaffold.types import environment, python_modules, ty
 from scaffold.types.findings_cache import Cache, Reported
-from scaffold.types.own_code import is_about_own, own_name, with_own_marked
+from scaffold.types.own_code import (
+    is_about_own,
+    own_name,
+    with_own_marked,
+    with_own_name,
+)
 from scaffold.types.passed_types import Types, signature
 from scaffold.types.project import Checked, Project
 from scaffold.types.rewriting.passed import callers
@@ -153,7 +158,7 @@ class TypeCheck:
             return
         reads = Reads()
         with recorded(reads):
-            candidates = [sources.get(package, other) for other in callers(package, path)]
+            candidates = [sources.get(*caller) for caller in callers(package, path)]
         calling = [item for item in candidates if item is not None]
         own = sources.reached(source)
         roots = frozenset[str]().union(*(item.roots for item in own.values()))
@@ -280,8 +285,11 @@ class TypeCheck:
         """Read the reports about files, and keep the relevant ones."""
         assert self._project is not None  # noqa: S101  it has been started
         for file in files:
-            reported = self._project.reports(file.checked)
             reached = file.checked.reached
+            reported = [
+                with_own_name(item, file.checked.source, reached.values())
+                for item in self._project.reports(file.checked)
+            ]
             stubbed = self._stubbed - _roots(reached, are_stubs=False)
             stubbed |= _roots(reached, are_stubs=True)
             file.diagnostics = [

@@ -15,7 +15,7 @@ from scaffold.types.ty import TyDiagnostic
 
 KIND = "types"
 MOST = 20_000
-_MAGIC = b"scaffold-types-9\n"
+_MAGIC = b"scaffold-types-10\n"
 """Changes with the format of the reports; see ``types.check``."""
 
 

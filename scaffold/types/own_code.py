@@ -6,6 +6,7 @@ file of the workspace defines the name in the message.
 
 from __future__ import annotations
 
+import ast
 import re
 from collections.abc import Iterable, Iterator, Sequence
 
@@ -25,6 +26,18 @@ _FOUND = lazy_re.compile(r"found `((?:Literal\[)?([A-Z][^\W_]\w*)(?:\.[^`|]*)?)`
 """Matches an instance of an unmarked class, or a member of an enumeration."""
 _STANDING_IN = lazy_re.compile(r"Mock|Fake|Stub|Dummy", re.IGNORECASE)
 """Matches classes whose objects are passed instead of those of others."""
+_SELF = lazy_re.compile(r"(?<=^Object of type `)Self@(\w+)(?=` has no attribute)")
+_CLASS = lazy_re.compile(rb"([ \t]*)class (\w+)")
+_GENERATED = lazy_re.compile(
+    r"(Too many positional arguments)(: .*)"
+    r"|No arguments? provided for required parameters? (?:`\w+`(?:, )?)+"
+    r"|Argument `\w+` does not match any known parameter"
+)
+"""Matches reports about constructors of dataclasses and named tuples, which do not name them."""
+_RECORD = (
+    rb"^(?:@(?:\w+\.)?dataclass\b[^\n]*\nclass %b(?:\(\))?:|class %b\((?:\w+\.)?(NamedTuple)\):)"
+)
+"""Matches a dataclass without bases, which may have other fields, or a named tuple."""
 _MODULE = lazy_re.compile(r"Module `([\w.]+)` has no member `\w+`")
 _CALLS = frozenset(
     {
@@ -87,6 +100,75 @@ def with_own_marked(item: TyDiagnostic, sources: Iterable[Source]) -> TyDiagnost
     stem = defining[0].path.rpartition("/")[2].removesuffix(".py")
     marked = MARK.join([match[2], *(defining[0].dotted or stem).split(".")])
     return item._replace(message=f"{item.message[: match.start(1)]}{marked}`")
+
+
+def with_own_name(item: TyDiagnostic, source: Source, sources: Iterable[Source]) -> TyDiagnostic:
+    """Return a report with the name of the class that it is about, if a file defines that."""
+    is_call = item.kind in _CALLS
+    return (_with_constructor if is_call else _with_class_of_self)(item, source, sources)
+
+
+def _with_class_of_self(
+    item: TyDiagnostic, source: Source, sources: Iterable[Source]
+) -> TyDiagnostic:
+    """Return a report about ``self`` as one about its class, if any of the files creates that.
+
+    A class that nothing creates may be a part of others, which have the attribute.
+    """
+    method = _SELF.search(item.message)
+    class_ = _class_around(source.data, item.line, method[1].encode()) if method else b""
+    made = re.compile(rb"(?<!class )\b%b\(" % class_)
+    if method is None or not class_ or not any(made.search(other.data) for other in sources):
+        return item
+    start, end = method.span()
+    message = f"{item.message[:start]}{class_.decode()}{item.message[end:]}"
+    return item._replace(message=message)
+
+
+def _class_around(data: bytes, line: int, method: bytes) -> bytes:
+    """Return the name of the class whose method contains a line; empty if that is uncertain."""
+    lines = data.splitlines()[:line]
+    heads = [match for match in map(_CLASS.match, lines) if match]
+    if not heads or heads[-1][1]:
+        return b""  # a nested class
+    body = lines[lines.index(heads[-1].string) :]
+    is_inside = any(re.match(rb"[ \t]+(?:async )?def %b\(\s*self\b" % method, it) for it in body)
+    return heads[-1][2] if is_inside else b""
+
+
+def _with_constructor(
+    item: TyDiagnostic, source: Source, sources: Iterable[Source]
+) -> TyDiagnostic:
+    """Return a report about a generated constructor with its class, if a file defines that."""
+    match = _GENERATED.fullmatch(item.message)
+    name = _called_at(source.data, item) if match is not None else ""
+    if match is None or not name:
+        return item
+    definition = re.compile(_RECORD % (name.encode(), name.encode()), re.MULTILINE)
+    kinds = {found[1] for other in sources for found in definition.finditer(other.data)}
+    if len(kinds) != 1:
+        return item
+    callee = f"`{name}`" if kinds.pop() is None else f"`{name}.__new__`"
+    text, rest = (match[1], match[2]) if match[1] else (match[0], "")
+    return item._replace(message=f"{text} {'to' if rest else 'of'} {callee}{rest}")
+
+
+def _called_at(data: bytes, item: TyDiagnostic) -> str:
+    """Return the name of the class or function that the innermost call around a place calls."""
+    try:
+        tree = ast.parse(data)
+    except (SyntaxError, ValueError, RecursionError, MemoryError):
+        return ""
+    at = item.line, item.column - 1
+    calls = [
+        node
+        for node in ast.walk(tree)
+        if isinstance(node, ast.Call)
+        and (node.lineno, node.col_offset) <= at
+        and at < (node.end_lineno or 0, node.end_col_offset or 0)
+    ]
+    func = max(calls, key=lambda call: (call.lineno, call.col_offset)).func if calls else None
+    return func.attr if isinstance(func, ast.Attribute) else getattr(func, "id", "")
 
 
 def own_name(item: TyDiagnostic) -> bytes:

@@ -9,7 +9,7 @@ from scaffold.types.findings_cache import Cache
 from scaffold.types.rewriting.added_lines import Extended
 from scaffold.types.rewriting.arguments import with_arguments
 from scaffold.types.rewriting.mixins import with_nodes_as_self
-from scaffold.types.rewriting.passed import Passed
+from scaffold.types.rewriting.passed import Passed, other_roots
 from scaffold.types.rewriting.unannotated import without_annotations
 from scaffold.types.sources import Source
 
@@ -27,7 +27,8 @@ class Rewritten(NamedTuple):
         text = source.with_callback_types
         if not is_annotated:
             text = without_annotations(text) or b""  # if it does not parse
-        return cls(text, with_nodes_as_self(with_arguments(text, source.dotted)))
+        others = other_roots(source.package, source.data)
+        return cls(text, with_nodes_as_self(with_arguments(text, source.dotted, (), others)))
 
 
 Rewrite = Callable[[Source], Rewritten]
@@ -46,7 +47,8 @@ def rewriting(cache: Cache, *, is_annotated: bool) -> Rewrite:
         if not source.path:
             return Rewritten(source.data, Extended(source.data, ()))
         about = "annotated" if is_annotated else "unannotated"
-        key = cache.key(source, {source.place: source}, about)
+        others = " ".join(sorted(other_roots(source.package, source.data)))
+        key = cache.key(source, {source.place: source}, f"{about} {others}")
         stored = cache.get_plain(key)
         if stored is not None:
             text, data, added, passed = stored

@@ -14,7 +14,7 @@ from functools import lru_cache
 
 from scaffold import lazy_re
 from scaffold.record import NamedTuple
-from scaffold.types.rewriting import containers, returns
+from scaffold.types.rewriting import containers, fixtures, node_parameters, returns
 from scaffold.types.rewriting.added_lines import Extended, with_lines
 from scaffold.types.rewriting.callbacks import arguments_of, function_body
 from scaffold.types.rewriting.lambdas import place_of
@@ -70,13 +70,19 @@ class _Function(NamedTuple):
     """The range in which it is called: its class, or the whole file."""
 
 
-def with_arguments(data: bytes, module: str = "", received: Sequence[Passed] = ()) -> Extended:
+def with_arguments(
+    data: bytes,
+    module: str = "",
+    received: Sequence[Passed] = (),
+    others: Collection[str] = (),
+) -> Extended:
     """Return a file with the argument types of its functions.
 
     Args:
         data: The content of the file.
-        module: Its dotted name, for the calls of other modules of its package.
+        module: Its dotted name, for the calls of other modules.
         received: The arguments from other modules.
+        others: The other importable packages of the workspace that it may import.
     """
     try:
         text = data.decode()
@@ -86,6 +92,7 @@ def with_arguments(data: bytes, module: str = "", received: Sequence[Passed] = (
         return Extended(data, ())
     lines: dict[int, list[str]] = {}
     annotations: list[tuple[int, int]] = []
+    nodes: list[str] = []
     taken: dict[int, Collection[str]] = {}
     calls: dict[str, list[Passed]] = {}
     for call in received:
@@ -94,7 +101,8 @@ def with_arguments(data: bytes, module: str = "", received: Sequence[Passed] = (
         followed = _add_lines_of(text, function, calls.get(function.name, ()), lines)
         taken[function.start] = followed
         annotations += filter(None, followed.values())
-    passed = [*_passed(text, data, module, lines)]
+        nodes += _add_nodes_of(text, function, followed, lines)
+    passed = [*_passed(text, own_names(data, module, others), module, lines)]
     stretches = [(start, end, " " * (end - start)) for start, end in annotations]
     for kept in containers.kept_values(text):
         stretches += kept.stretches
@@ -105,11 +113,14 @@ def with_arguments(data: bytes, module: str = "", received: Sequence[Passed] = (
     results = returns.results(text, taken, heads)
     _add(lines, results.lines)
     stretches += results.heads
+    for place, line in fixtures.lines(text):
+        if line not in lines.setdefault(place, []):
+            lines[place].append(line)
     if not (lines or stretches):
         return Extended(data, (), passed)
     extended = with_lines(text, lines, stretches)
     end = containers.definitions() * is_kept + makers.definitions() * bool(heads)
-    end += results.definitions
+    end += results.definitions + node_parameters.definition() * bool(nodes)
     return extended._replace(data=extended.data + end.encode(), passed=passed)
 
 
@@ -118,9 +129,11 @@ def _add(lines: dict[int, list[str]], more: Mapping[int, Sequence[str]]) -> None
         lines.setdefault(place, []).extend(added)
 
 
-def _passed(text: str, data: bytes, module: str, lines: dict[int, list[str]]) -> Iterator[Passed]:
+def _passed(
+    text: str, names: Mapping[str, str], module: str, lines: dict[int, list[str]]
+) -> Iterator[Passed]:
     """Add the lines before calls of functions of other modules; yield the stored values."""
-    for call in places(text, own_names(data, module)):
+    for call in places(text, names):
         given, end = call.given, call.arguments
         if not given:
             given, end = _arguments(text, call.arguments)
@@ -161,11 +174,11 @@ def _add_lines_of(
     calls = [*_calls(text, function)]
     if not (calls or received):
         return {}
-    parameters = _Parameters(function)
+    parameters = _Parameters(function, text)
     for number, (place, words, is_partial) in enumerate(calls):
         kept: dict[str, str] = {}
         for parameter, value in parameters.given(words, is_partial=is_partial).items():
-            source = f"[{value}]"
+            source = parameters.stored(parameter, value)
             if not _CONSTANT.fullmatch(value):
                 kept[f"{GIVEN}_{function.start}_{number}_{parameter}"] = value
                 source = [*kept][-1]
@@ -176,7 +189,8 @@ def _add_lines_of(
     for call in received:
         for parameter, value in parameters.given(call.given).items():
             is_constant = _CONSTANT.fullmatch(value) is not None
-            sources.setdefault(parameter, []).append(f"[{value}]" if is_constant else value)
+            source = parameters.stored(parameter, value) if is_constant else value
+            sources.setdefault(parameter, []).append(source)
             imports += [] if is_constant else [f"from {call.module} import {value}"]
     taken = {
         name: f"{name} = ({f' if {_EITHER} else '.join(dict.fromkeys(values))})[0]"
@@ -187,6 +201,19 @@ def _add_lines_of(
         taking = "; ".join([*imports, *taken.values()])
         lines.setdefault(function.start, []).insert(0, function.inner + taking)
     return {name: parameters.annotations.get(name) for name in taken}
+
+
+def _add_nodes_of(
+    text: str, function: _Function, known: Collection[str], lines: dict[int, list[str]]
+) -> Sequence[str]:
+    """Add lines that tell which parameters of a function are nodes; return them."""
+    if "node" not in function.parameters:
+        return ()
+    body = function_body(text, function.start - 1, function.start - 1)
+    found = [*node_parameters.statements(text, function.parameters, body, known)]
+    if found:
+        _add(lines, {function.start: [f"{function.inner}{line}" for line in found]})
+    return found
 
 
 def _functions(text: str) -> Iterator[_Function]:
@@ -325,9 +352,10 @@ class _Parameters:
 
     Args:
         function: The function.
+        text: Its file.
     """
 
-    def __init__(self, function: _Function) -> None:
+    def __init__(self, function: _Function, text: str) -> None:
         self._defaults: dict[str, str] = {}
         """Empty where there is none."""
         self.annotations: dict[str, tuple[int, int]] = {}
@@ -349,6 +377,15 @@ class _Parameters:
                     self.annotations[name] = start + match.start(2), start + match.end(2)
         if function.is_method:
             del self._positional[:1]
+        nothing = [name for name, default in self._defaults.items() if default == "None"]
+        body = function_body(text, function.start - 1, function.start - 1) if nothing else ""
+        self._replaced = {name for name in nothing if _is_replaced(name, body)}
+        """The parameters for which the function creates a value if there is none."""
+
+    def stored(self, parameter: str, constant: str) -> str:
+        """Return a sequence with a constant argument, from which it is taken."""
+        is_certain = constant == "None" and parameter in self._replaced
+        return "(None,)" if is_certain else f"[{constant}]"  # a list has elements of any value
 
     def given(self, words: Mapping[str, str], *, is_partial: bool = False) -> Mapping[str, str]:
         """Return the arguments of a call by parameter; empty if uncertain.
@@ -377,5 +414,12 @@ class _Parameters:
         }
         if is_partial:
             return kept
-        is_worth = kept or (not result and {*defaults.values()} != {"None"})
-        return kept | defaults if is_worth else {}
+        if kept or (not result and {*defaults.values()} != {"None"}):
+            return kept | defaults
+        return {name: "None" for name in defaults if name in self._replaced}
+
+
+def _is_replaced(name: str, body: str) -> bool:
+    """Return whether a function replaces ``None``: ``limits or Limits()``."""
+    if_none = rf"if (?:{name} is None|not {name}):\n[ ]+{name} = "
+    return re.search(rf"(?<![\w.]){name} or [A-Z]\w*\(|\b{if_none}", body) is not None

@@ -6,7 +6,7 @@ These include inherited methods: ``self.send('hello')``.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 
 from scaffold import lazy_re
 from scaffold.files.limits import most_bytes
@@ -26,6 +26,11 @@ _KEPT = lazy_re.compile(r"[ ]*(self\.\w+|\w+)[ ]*(?::[^=]*)?=[ ]*")
 """Matches the text before a call whose result is assigned."""
 _SET = lazy_re.compile(r"[ ]*(?::[^=\n]*)?=(?!=)[ ]*(?!None\b)")
 """Matches the text after a name that is assigned."""
+_IMPORTING = ("from", "import")
+_TAKING = lazy_re.compile(rb"\bdef (?!main\b)\w+\((?!\s{0,9}(?:self|cls)?\s{0,9}\))")
+"""Matches a function with arguments, whose types depend on its callers."""
+_MOST_PACKAGES = 60
+"""In larger workspaces, calls by other packages are not followed: each depends on all others."""
 _BOUND = lazy_re.compile(r"\b(?:def|lambda|for|as|global|nonlocal|del|import)\b")
 
 
@@ -66,22 +71,25 @@ class Passed(NamedTuple):
     """By keyword or position: a constant, or the global name of a list that holds the value."""
 
 
-def own_names(data: bytes, module: str) -> Mapping[str, str]:
-    """Return what a file imports from other modules of its package, by local name.
+def own_names(data: bytes, module: str, others: Collection[str] = ()) -> Mapping[str, str]:
+    """Return what a file imports from other modules of its workspace, by local name.
 
     Args:
         data: The content of the file.
         module: Its own dotted name.
+        others: The other importable packages of the workspace that it may import.
     """
-    root = module.partition(".")[0]
-    words = (b"from .", f"from {root}".encode(), f"import {root}".encode())
-    if not root or not any(word in data for word in words):
+    own = module.partition(".")[0]
+    roots = {own, *others}
+    words = [b"from .", *(f"{word} {root}".encode() for word in _IMPORTING for root in roots)]
+    if not own or not any(word in data for word in words):
         return {}
-    return {
-        called: name
-        for name, called in imported_names(data, module.rpartition(".")[0])
-        if called and name.startswith(f"{root}.") and name.split(".")[1] not in SECTIONS
-    }
+    result: dict[str, str] = {}
+    for name, called in imported_names(data, module.rpartition(".")[0]):
+        root, _, rest = name.partition(".")
+        if called and root in roots and rest and rest.partition(".")[0] not in SECTIONS:
+            result[called] = name
+    return result
 
 
 def places(text: str, names: Mapping[str, str]) -> Iterator[Place]:
@@ -173,23 +181,57 @@ def module_of(package: Package, path: str) -> str:
 def calls_from_modules(package: Package, path: str, function: str) -> Iterator[tuple[str, int]]:
     """Yield the file and line of each call of a function of a module by other modules."""
     called = f"{module_of(package, path)}.{function}"
-    for other in callers(package, path):
-        data = package.data(other)
+    for user, other in callers(package, path):
+        data = user.data(other)
         text = data.decode()
-        for place in places(text, own_names(data, module_of(package, other))):
+        for place in places(text, own_names(data, module_of(user, other), other_roots(user, data))):
             if place.function == called:
-                yield other, text.count("\n", 0, place.start) + 1
+                shown = other if user is package else f"{user.name}/{other}"
+                yield shown, text.count("\n", 0, place.start) + 1
+
+
+def callers(package: Package, path: str) -> Iterator[tuple[Package, str]]:
+    """Yield the other modules of a workspace that call functions of a module."""
+    module = module_of(package, path)
+    for name, other in _callers(package, path, module) if module else ():
+        user = package if name == package.name else package.workspace.get(name)
+        if user is not None:
+            yield user, other
 
 
 @fact
-def callers(package: Package, path: str) -> tuple[str, ...]:
-    """Return the other modules of a package that call functions of a module."""
-    module = module_of(package, path)
+def _callers(package: Package, path: str, module: str) -> tuple[tuple[str, str], ...]:
+    """Return the names of packages and the paths of modules that call functions of a module."""
+    calls = {(package.name, other): called for other, called in _all_called(package).items()}
+    if _TAKING.search(package.data(path)):
+        calls.update(_calls_of_others(package, module.partition(".")[0]))
     return tuple(
-        other
-        for other, called in _all_called(package).items()
-        if other != path and any(name.startswith(f"{module}.") for name in called)
+        place
+        for place, called in calls.items()
+        if place != (package.name, path) and any(name.startswith(f"{module}.") for name in called)
     )
+
+
+@fact
+def _calls_of_others(package: Package, root: str) -> Mapping[tuple[str, str], frozenset[str]]:
+    """Return the functions of a package that each module of other packages calls, if any."""
+    if len(package.workspace.names) > _MOST_PACKAGES:
+        return {}
+    result: dict[tuple[str, str], frozenset[str]] = {}
+    for other in package.workspace:
+        for path, names in _all_called(other).items() if other.name != package.name else ():
+            called = frozenset(name for name in names if name.startswith(f"{root}."))
+            if called:
+                result[other.name, path] = called
+    return result
+
+
+def other_roots(package: Package, data: bytes) -> frozenset[str]:
+    """Return the other packages of the workspace that a file of a package may import."""
+    names = package.workspace.names
+    if not 1 < len(names) <= _MOST_PACKAGES:
+        return frozenset()
+    return frozenset(name for name in names if name != package.name and name.encode() in data)
 
 
 @fact
@@ -209,4 +251,5 @@ def _called_functions(package: Package, path: str) -> frozenset[str]:
         text = data.decode()
     except (OSError, UnicodeDecodeError):
         return frozenset()
-    return frozenset(place.function for place in places(text, own_names(data, module)))
+    names = own_names(data, module, other_roots(package, data))
+    return frozenset(place.function for place in places(text, names))

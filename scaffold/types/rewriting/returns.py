@@ -187,6 +187,19 @@ def _returned_values(body: str, start: int, taken: Collection[str]) -> Iterator[
     yield from kept
 
 
+def stored_values(body: str, start: int) -> Sequence[tuple[int, str, str]]:
+    """Return the lines that store what a function returns or yields, if that is plain.
+
+    Args:
+        body: The body of the function.
+        start: The offset of the body in the file.
+
+    Returns:
+        Positions, lines, and the names in which they store lists with the values.
+    """
+    return [(kept.place, kept.line, kept.name) for kept in _returned_values(body, start, ())]
+
+
 def _inner_functions(body: str) -> Iterator[tuple[int, int]]:
     """Yield the start and end of nested functions and classes."""
     for match in _OTHER_SCOPES.finditer(body):

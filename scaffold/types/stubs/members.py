@@ -28,8 +28,14 @@ def members(package: Package, marked: str) -> frozenset[str]:
     return frozenset(name for name in _all_names(package, marked) if not name.startswith("_"))
 
 
-def own_members(package: Package, name: str) -> frozenset[str]:
-    """Return the public names that a class of a package defines or that its methods assign."""
+def own_members(package: Package, name: str, *, is_inside: bool = False) -> frozenset[str]:
+    """Return the names that a class of a package defines or that its methods assign.
+
+    Args:
+        package: The package.
+        name: The class.
+        is_inside: Whether private names are included.
+    """
     result: set[str] = set()
     for module in package.modules(mentioning=[f"class {name}"]):
         for node in module.walk(ast.ClassDef):
@@ -41,7 +47,7 @@ def own_members(package: Package, name: str) -> frozenset[str]:
                     if isinstance(inner, ast.Attribute) and isinstance(inner.ctx, ast.Store)
                     if isinstance(inner.value, ast.Name) and inner.value.id == "self"
                 )
-    return frozenset(name for name in result if not name.startswith("_"))
+    return frozenset(name for name in result if is_inside or not name.startswith("_"))
 
 
 def has_call(package: Package, marked: str) -> bool:
