@@ -115,7 +115,9 @@ def _unknown(finding: TypeFinding) -> str:
 def outcome(finding: TypeFinding) -> str:
     """Return the consequence of a call with wrong arguments."""
     matched = finding.match(rf"Argument `\w+` does not match any known parameter of {_CALLEE}")
-    if matched is not None and re.search(r"\.(?:msg|srv|action)\.", full_name(matched["callee"])):
+    if matched is not None and re.match(
+        r"(?!rclpy\.)\w+\.(?:msg|srv|action)\.", full_name(matched["callee"])
+    ):
         return str(target().fact("messages.unknown_keyword"))
     return "TypeError"
 

@@ -103,6 +103,20 @@ class ArgumentsUnfit(TypeRule):
     )
     examples = (
         Example(
+            "an argument of ROS 1",
+            {
+                "server.py": "from example_interfaces.action import Fibonacci\n"
+                "from rclpy.action import ActionServer\nfrom rclpy.node import Node\n\n\n"
+                "class Server(Node):\n    def __init__(self):\n"
+                "        super().__init__('server')\n"
+                "        self.server = ActionServer(\n"
+                "            self, Fibonacci, 'count', self.run, execute_cb=self.run)\n\n"
+                "    def run(self, goal):\n        return Fibonacci.Result()\n",
+            },
+            "10:49: ActionServer() has no argument 'execute_cb' (did you mean "
+            "'execute_callback'?): TypeError",
+        ),
+        Example(
             "method replaced by a mock in a test",
             {
                 "test/test_asker.py": "from unittest.mock import patch\n\n"
