@@ -20,12 +20,28 @@ from scaffold.api.programs import (
 from scaffold.api.python import UNKNOWN
 
 _SHORTEST = 5
+_CLOSE = 0.85
+_USUAL = {
+    "lifecycle_msgs/srv/ChangeState": "change_state",
+    "lifecycle_msgs/srv/GetAvailableStates": "get_available_states",
+    "lifecycle_msgs/srv/GetState": "get_state",
+    "rcl_interfaces/srv/DescribeParameters": "describe_parameters",
+    "rcl_interfaces/srv/GetParameters": "get_parameters",
+    "rcl_interfaces/srv/ListParameters": "list_parameters",
+    "rcl_interfaces/srv/SetParameters": "set_parameters",
+}
+"""The services that every node has, or every one with a lifecycle, by type."""
 _NODE = (
     "from rclpy.node import Node\nfrom std_msgs.msg import String\n\n\n"
     "class Talker(Node):\n"
     "    def __init__(self):\n"
     "        super().__init__('talker')\n"
     "        self.create_{}\n"
+)
+_LIFECYCLE = (
+    "from lifecycle_msgs.srv import GetState\nfrom rclpy.node import Node\n\n\n"
+    "class Keeper(Node):\n    def __init__(self):\n        super().__init__('keeper')\n"
+    "        self.create_client(GetState, 'lidar/{}')\n"
 )
 _MAIN = "\n\ndef main():\n    Talker()\n"
 _NODE_SERVICES = (
@@ -40,6 +56,8 @@ _NODE_SERVICES = (
     "        super().__init__('caller')\n"
     "        self.client = self.create_client(Trigger, '{}')\n"
 )
+_CLASS = "\n\n\nclass"
+_SERVER, _, _CLIENT = _NODE_SERVICES.partition(f"{_CLASS} Caller")
 _SIMILAR = 0.75
 """The minimum similarity of the names of actions; few packages serve two of a type."""
 _ALIKE = 4
@@ -81,6 +99,29 @@ class TopicNameDiffers(Rule):
     name = "topic-name-differs"
     severity = Severity.WARNING
     examples = (
+        Example(
+            "a service of every node with a lifecycle",
+            {
+                "keeper.py": _LIFECYCLE.format("getstate"),
+                "other.py": _LIFECYCLE.format("get_state"),
+            },
+            "keeper.py:8:38: no node has the service 'lidar/getstate'; did you mean "
+            "'lidar/get_state'?",
+        ),
+        Example(
+            "a client that expects a namespace in which no launch file starts the server",
+            {
+                **_FILES,
+                "demo/a.py": _SERVER + "\n" + _MAIN,
+                "demo/b.py": f"{_SERVER.partition(_CLASS)[0]}{_CLASS} Caller"
+                + _CLIENT.format("/left/report"),
+                "launch/a.launch.py": _STARTING.replace(", namespace='{}'", "").replace(
+                    ", namespace='left'", ""
+                ),
+            },
+            "demo/b.py:8:51: no service '/left/report': launch/a.launch.py:7 starts the node of "
+            "'report' (demo/a.py:8) in no namespace",
+        ),
         Example(
             "same topic name",
             {
@@ -261,7 +302,21 @@ class TopicNameDiffers(Rule):
         served = {item.name for item in offered}
         clients = {item.name for item in wanted}
         for client in wanted:
+            given, usual = client.name.rpartition("/")[2], _USUAL.get(client.interface or "", "")
+            if client.name not in served and given != usual and _is_close(given, usual):
+                name = f"{client.name.removesuffix(given)}{usual}"
+                message = f"no node has the service {client.name!r}; did you mean {name!r}?"
+                yield self.report(client.name_location, message)
             for service in offered if client.name not in served else ():
+                launched = _launched_outside(package, client, service)
+                if launched:
+                    message = (
+                        f"no service {client.name!r}: {launched} starts the node of "
+                        f"{service.name!r} ({service.location.path}:{service.location.line}) in "
+                        f"no namespace"
+                    )
+                    yield self.report(client.name_location, message)
+                    break
                 # A service with a client of its own is not a misspelling of another.
                 if service.name not in clients and _is_slip_services(client, service):
                     if any(is_private(x) and is_remapped(package, x) for x in (client, service)):
@@ -285,6 +340,26 @@ def _namespaces(package: Package, endpoint: NamedEndpoint) -> dict[object, str]:
             namespace = UNKNOWN if node.is_scoped else node.namespace
             result[namespace] = f"{node.launch}:{node.location.line}"
     return result
+
+
+def _is_close(name: str, other: str) -> bool:
+    return bool(other) and SequenceMatcher(None, name.lower(), other).ratio() >= _CLOSE
+
+
+def _launched_outside(package: Package, client: NamedEndpoint, service: NamedEndpoint) -> str:
+    """Return the place that starts a server without the namespace that its client expects."""
+    is_same = client.name.startswith("/") and client.name.endswith(f"/{service.name}")
+    if not is_same or service.name[:1] in "/~" or client.name.strip("/") == service.name:
+        return ""
+    if client.interface is None or client.interface != service.interface:
+        return ""
+    if _is_in_markup(package, service) or any(
+        is_remapped(package, endpoint) for endpoint in (client, service)
+    ):
+        return ""
+    places = _namespaces(package, service)
+    known = [place for place in places if place is None or str(place).strip("/") == ""]
+    return places[known[0]] if known and len(known) == len(places) else ""
 
 
 def _is_in_markup(package: Package, endpoint: NamedEndpoint) -> bool:

@@ -9,7 +9,7 @@ from scaffold.api import Diagnostic, Example, MessageRule, Report, Severity
 from scaffold.api.messages import MessageTypes
 from scaffold.api.python import returned
 
-from . import _angles, _components, _constants, _fractions, _images, _matrices
+from . import _angles, _components, _constants, _fractions, _images, _limits, _matrices
 
 _NODE = (
     "from rclpy.node import Node\nfrom sensor_msgs.msg import BatteryState, Image\n"
@@ -71,6 +71,15 @@ class ValueImplausible(MessageRule):
         "accept, or a quaternion of zeros is in a marker or in a message of a package outside ROS"
     }
     examples = (
+        Example(
+            "a lower limit above the upper one",
+            {
+                f"{name}.py": "from sensor_msgs.msg import LaserScan\n\n"
+                f"scan = LaserScan()\nscan.range_min = {low}\nscan.range_max = {high}\n"
+                for name, low, high in (("right", 0.1, 12.0), ("wrong", 12.0, 0.1))
+            },
+            "wrong.py:4:18: range_min 12 is greater than range_max 0.1: all readings are invalid",
+        ),
         Example(
             "yaw as the first and as the last argument of quaternion_from_euler()",
             {
@@ -362,7 +371,7 @@ class ValueImplausible(MessageRule):
         module = types.module
         if module.in_tests:
             return  # tests, where values may be wrong on purpose
-        for part in (_angles, _components, _constants, _fractions, _images, _matrices):
+        for part in (_angles, _components, _constants, _fractions, _images, _limits, _matrices):
             for at, message in part.flaws(types):
                 yield self.report(module.location(at), message)
         for at, is_used in _components.zero_quaternions(types):
