@@ -137,8 +137,7 @@ class FileNotThere(Rule):
             },
             Report(
                 "urdf/robot.xacro:5:33",
-                "share/talker/urdf/top.stl does not exist: talker has no such file; "
-                "did you mean urdf/base.stl?",
+                "share/talker/urdf/top.stl does not exist: talker has no such file",
                 severity=Severity.WARNING,
             ),
         ),
@@ -186,8 +185,7 @@ class FileNotThere(Rule):
             },
             Report(
                 "urdf/robot.xacro:3:28",
-                "share/talker/urdf/lift.xacro does not exist: talker has no such file; "
-                "did you mean urdf/wheel.xacro?",
+                "share/talker/urdf/lift.xacro does not exist: talker has no such file",
                 severity=Severity.WARNING,
             ),
         ),
@@ -223,6 +221,16 @@ class FileNotThere(Rule):
                     "  <exec", "  <exec_depend>realsense2_description</exec_depend>\n  <exec", 1
                 )
             },
+        ),
+        Example(
+            "another name of this package",
+            {
+                "package.xml": _MANIFEST_PACKAGES,
+                "a.xacro": _ROBOT_PACKAGES.format("old_robot_of_ann"),
+                "urdf/wheel.xacro": "<robot/>\n",
+            },
+            "a.xacro:2:28: unknown package 'old_robot_of_ann'; did you mean 'rover' (it has "
+            "urdf/wheel.xacro)?",
         ),
         Example(
             "misspelled name of a declared package",
@@ -274,6 +282,13 @@ class FileNotThere(Rule):
                     f"({meant.reason})?"
                 )
                 yield self.report(named, message)
+            elif (
+                named.package not in seen
+                and not exists(package, named.package)
+                and package.has(named.path)
+            ):
+                message = f"unknown package {named.package!r}; did you mean {package.name!r} "
+                yield self.report(named, f"{message}(it has {named.path})?")
             elif named.package not in seen and exists(package, named.package):
                 seen.add(named.package)
                 tag = "exec_depend" if manifest.format > 1 else "run_depend"
