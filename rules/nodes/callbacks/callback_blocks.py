@@ -41,6 +41,8 @@ _NODE = (
     "    def tick(self):\n"
     "        {}\n"
 )
+_QUEUE = _NODE.replace("import time", "import queue").format("print(self.lines.get({1}))")
+_QUEUE = _QUEUE.replace("        self.create", "        self.lines = {0}\n        self.create")
 _GROUPS = (
     "import time\n\nimport rclpy\n"
     "from rclpy.callback_groups import MutuallyExclusiveCallbackGroup\n"
@@ -62,6 +64,12 @@ _GROUPS = (
     "    executor = {}()\n"
     "    executor.add_node(Talker())\n"
     "    executor.spin()\n"
+)
+
+
+_QUEUES = frozenset(
+    {"multiprocessing.Queue", "queue.LifoQueue", "queue.PriorityQueue", "queue.Queue"}
+    | {"queue.SimpleQueue"}
 )
 
 
@@ -107,6 +115,16 @@ class CallbackBlocks(RclpyRule):
         Example(
             "a short wait for a window",
             {"talker.py": "import cv2\n" + _NODE.format("cv2.waitKey(1)")},
+        ),
+        Example(
+            "a queue that is empty, one with a timeout",
+            {
+                "talker.py": _QUEUE.format("queue.Queue()", ""),
+                "other.py": _QUEUE.format("queue.Queue()", "timeout=0.1"),
+                "own.py": _QUEUE.format("dict()", ""),
+            },
+            "talker.py:13:15: self.lines.get() without a timeout blocks callback 'tick' and all "
+            "other callbacks; use a timer or a thread of the node",
         ),
         Example(
             "user input",
@@ -182,15 +200,32 @@ def _blocking(file: RclpyFile, call: ast.Call) -> str:
         seconds = file.evaluator.evaluate(call.args[0])
         if isinstance(seconds, int | float) and seconds >= SHORT:
             return f"time.sleep({seconds:g})"
-    if name in WAITING:
-        return f"{name}()"
+    if name in WAITING or _is_builtin_input(file, call):
+        return f"{name or 'input'}()"
     if name == "cv2.waitKey":
         delays = [*call.args[:1], *(word.value for word in call.keywords)]
         delay = file.evaluator.number(delays[0]) if delays else 0
         return "cv2.waitKey(0)" if isinstance(delay, int | float) and delay <= 0 else ""
     if name == "matplotlib.pyplot.show" and not call.args and not call.keywords:
         return "" if file.module.mentions(".ion()") else "matplotlib.pyplot.show()"
-    is_builtin = isinstance(call.func, ast.Name) and call.func.id == "input"
-    if is_builtin and file.module.index.lookup("input", call.func) is None:
-        return "input()"
+    if isinstance(call.func, ast.Attribute) and _is_queue_awaited(file, call, call.func):
+        return f"{file.module.text(call.func)}() without a timeout"
     return ""
+
+
+def _is_builtin_input(file: RclpyFile, call: ast.Call) -> bool:
+    is_named = isinstance(call.func, ast.Name) and call.func.id == "input"
+    return is_named and file.module.index.lookup("input", call.func) is None
+
+
+def _is_queue_awaited(file: RclpyFile, call: ast.Call, method: ast.Attribute) -> bool:
+    """Return whether a call waits for the next item of a queue, which another thread puts there."""
+    if method.attr != "get" or call.args or call.keywords:
+        return False
+    made = file.evaluator.single_value(method.value)
+    if not isinstance(made, ast.Call) or file.module.qualified_name(made.func) not in _QUEUES:
+        return False
+    function = file.function_of(call)
+    text = file.module.text(function) if function is not None else ""
+    queue = file.module.text(method.value)
+    return not any(f"{queue}.{name}(" in text for name in ("empty", "put", "qsize", "full"))

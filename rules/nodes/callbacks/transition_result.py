@@ -84,6 +84,16 @@ class TransitionResult(RclpyRule):
             "11:9: returns True, not a TransitionCallbackReturn: AttributeError at the transition",
         ),
         Example(
+            "a publisher that stays active",
+            {
+                "talker.py": _NODE.format(
+                    "on_deactivate(self, state)", "return TransitionCallbackReturn.SUCCESS"
+                )
+            },
+            "10:9: super().on_deactivate(state) is not called: the publisher of line 8 stays "
+            "active",
+        ),
+        Example(
             "a publisher that stays inactive",
             {
                 "talker.py": _NODE.format(
@@ -190,15 +200,18 @@ class TransitionResult(RclpyRule):
             yield self.report(file.module.name_location(function), message)
 
     def _check_publishers(self, file: RclpyFile, class_: NodeClass) -> Iterator[Diagnostic]:
-        function = class_.methods.get("on_activate")
         publishers = [x for x in class_.publishers if x.is_lifecycle]
-        if function is None or not publishers or file.module.index.attributes("on_activate"):
-            return
-        line = publishers[0].location.line
-        message = (
-            f"super().on_activate(state) is not called: the publisher of line {line} stays inactive"
-        )
-        yield self.report(file.module.name_location(function), message)
+        for name, state in (("on_activate", "inactive"), ("on_deactivate", "active")):
+            function = class_.methods.get(name)
+            if function is None or not publishers or file.module.index.attributes(name):
+                continue
+            if "destroy" in file.module.text(function) or function.decorator_list:
+                continue
+            line = publishers[0].location.line
+            message = (
+                f"super().{name}(state) is not called: the publisher of line {line} stays {state}"
+            )
+            yield self.report(file.module.name_location(function), message)
 
 
 def _published_inactive(file: RclpyFile, class_: NodeClass) -> Iterator[tuple[ast.Call, str]]:
