@@ -82,6 +82,16 @@ class EndlessLoop(RclpyRule):
             "9:9: endless loop: the constructor of Talker never returns; use a timer",
         ),
         Example(
+            "a loop over all input",
+            {
+                "talker.py": _NODE.format(
+                    "        self.create_timer(1, self.tick)\n        for line in sys.stdin:\n"
+                    "            print(line)\n\n"
+                ).replace("import rclpy", "import sys\n\nimport rclpy", 1)
+            },
+            "11:9: endless loop: the constructor of Talker never returns; use a timer",
+        ),
+        Example(
             "a loop of a node without callbacks",
             {"talker.py": _NODE.format(_LOOP)},
             Report(
@@ -182,7 +192,7 @@ class EndlessLoop(RclpyRule):
                     yield self.report(file.module.location(loop), message, severity=severity)
 
 
-def _is_in_emergency(file: RclpyFile, loop: ast.While) -> bool:
+def _is_in_emergency(file: RclpyFile, loop: ast.While | ast.For) -> bool:
     """Return whether a loop is in an emergency function, or in a condition."""
     function = file.function_of(loop)
     conditions = [item.test for item in file.module.parents(loop) if isinstance(item, ast.If)]
@@ -190,15 +200,20 @@ def _is_in_emergency(file: RclpyFile, loop: ast.While) -> bool:
     return any(map(_EMERGENCY.search, names))
 
 
-def _endless_loops(file: RclpyFile, executed: Executed) -> Iterator[ast.While]:
-    for loop in file.module.below(executed.function, ast.While):
+def _endless_loops(file: RclpyFile, executed: Executed) -> Iterator[ast.While | ast.For]:
+    below, function = file.module.below, executed.function
+    loops: list[ast.While | ast.For] = [*below(function, ast.While), *below(function, ast.For)]
+    for loop in loops:
         if file.function_of(loop) is not executed.function:
             continue
-        if _is_endless(file, loop.test) and not any(_may_end(node) for node in ast.walk(loop)):
+        if _is_endless(file, loop) and not any(_may_end(node) for node in ast.walk(loop)):
             yield loop
 
 
-def _is_endless(file: RclpyFile, test: ast.expr) -> bool:
+def _is_endless(file: RclpyFile, loop: ast.While | ast.For) -> bool:
+    if isinstance(loop, ast.For):
+        return file.module.qualified_name(loop.iter) == "sys.stdin"
+    test = loop.test
     if isinstance(test, ast.Constant):
         return bool(test.value)
     return isinstance(test, ast.Call) and file.module.qualified_name(test.func) == "rclpy.ok"
