@@ -16,7 +16,7 @@ _LAUNCHING = (".py", ".xml", ".launch", ".yaml", ".yml", ".sh", ".md", ".rst")
 """Ends of the names of files that start Nav2, or tell people how to."""
 _NAV2 = (b"nav2_bringup", b"RewrittenYaml")
 _WITHOUT_SERVERS = b"localization_launch"
-_WITH_SERVERS = re.compile(rb"nav\w*[._]launch|bringup_launch|simulation_launch")
+_WITH_SERVERS = re.compile(rb"nav\w{0,40}[._]launch|bringup_launch|simulation_launch")
 """Matches the names of launch files that start the servers of Nav2."""
 
 
