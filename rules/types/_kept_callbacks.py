@@ -60,14 +60,16 @@ def _passed(finding: TypeFinding, func: ast.expr) -> Iterator[tuple[Callback, st
     if stored is None or class_ is None:
         return
     parameter, constructor = stored
-    calls = ((module.path, call.lineno) for call in _calls_in(module, class_.name))
-    for path, line in (*calls, *finding.calls_from_modules(class_.name)):
-        file = rclpy_file(finding.package, path)
+    own = rclpy_file(finding.package, module.path)
+    places = [(own, call.lineno, f"line {call.lineno}") for call in _calls_in(module, class_.name)]
+    for place in finding.calls_from_modules(class_.name):
+        file = rclpy_file(place.package, place.path)
+        places.append((file, place.line, place.seen_from(finding.package)))
+    for file, line, text in places:
         for call in _calls_in(file.module, class_.name):
             value = given_argument(constructor, call, parameter, is_method=True)
             if call.lineno == line and value is not None:
-                place = f"line {line}" if path == module.path else f"line {line} of {path}"
-                yield file.callback(value), place
+                yield file.callback(value), text
 
 
 def _calls_in(module: PythonModule, name: str) -> Iterator[ast.Call]:

@@ -19,7 +19,7 @@ from scaffold.model.python.module import PythonModule
 from scaffold.source import Location
 from scaffold.types import origins
 from scaffold.types.arithmetic import may_be_of_library
-from scaffold.types.rewriting.passed import calls_from_modules
+from scaffold.types.rewriting.passed import CallPlace, calls_from_modules
 from scaffold.types.ros1 import is_for_ros1
 from scaffold.types.stubs.marks import MARKED, full_name, short_name
 from scaffold.types.ty import TyDiagnostic
@@ -130,8 +130,8 @@ class TypeFinding:
         first += [place for _, _, place in given]
         return (node.id, first[0]) if first else None
 
-    def calls_from_modules(self, function: str) -> Iterator[tuple[str, int]]:
-        """Yield the file and line of each call of a function of this file by other modules."""
+    def calls_from_modules(self, function: str) -> Iterator[CallPlace]:
+        """Yield the place of each call of a function of this file by other modules."""
         return calls_from_modules(self.package, self.path, function)
 
     def arguments_for(self, name: ast.Name) -> Sequence[ast.expr]:

@@ -312,14 +312,14 @@ def given_by_modules(
     called = called_as(package.module(path), name)
     if parameter is None or function is None or not called:
         return
-    for other, line in calls_from_modules(package, path, called):
-        module = package.module(other)
+    for place in calls_from_modules(package, path, called):
+        module = place.package.module(place.path)
         values = (
             given_argument(function, call, parameter, is_method=called != function.name)
             for call in module.walk(ast.Call)
-            if call.lineno == line and _last_name(call.func) == called.rpartition(".")[2]
+            if call.lineno == place.line and _last_name(call.func) == called.rpartition(".")[2]
         )
-        yield module, next(values, None), f"line {line} of {other}"
+        yield module, next(values, None), place.seen_from(package)
 
 
 def is_handed_on(module: PythonModule, value: ast.expr | None) -> bool:

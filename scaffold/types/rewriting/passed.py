@@ -178,16 +178,28 @@ def module_of(package: Package, path: str) -> str:
     return ".".join(parts) if is_module else ""
 
 
-def calls_from_modules(package: Package, path: str, function: str) -> Iterator[tuple[str, int]]:
-    """Yield the file and line of each call of a function of a module by other modules."""
+class CallPlace(NamedTuple):
+    """The place of a call in another module."""
+
+    package: Package
+    path: str
+    line: int
+
+    def seen_from(self, package: Package) -> str:
+        """Return the place as text, for a message about a package."""
+        start = "" if self.package is package else f"{self.package.name}/"
+        return f"line {self.line} of {start}{self.path}"
+
+
+def calls_from_modules(package: Package, path: str, function: str) -> Iterator[CallPlace]:
+    """Yield the place of each call of a function of a module by other modules."""
     called = f"{module_of(package, path)}.{function}"
     for user, other in callers(package, path):
         data = user.data(other)
         text = data.decode()
         for place in places(text, own_names(data, module_of(user, other), other_roots(user, data))):
             if place.function == called:
-                shown = other if user is package else f"{user.name}/{other}"
-                yield shown, text.count("\n", 0, place.start) + 1
+                yield CallPlace(user, other, text.count("\n", 0, place.start) + 1)
 
 
 def callers(package: Package, path: str) -> Iterator[tuple[Package, str]]:
