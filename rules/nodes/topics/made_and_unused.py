@@ -210,7 +210,8 @@ class MadeAndUnused(RclpyRule):
             if not name:
                 continue
             is_known = not isinstance(publisher.name, Unknown) and not publisher.is_conditional
-            if is_known and self._is_mentioned_once(package, file, name):
+            is_once = package.is_mentioned_once(name, file.module.path)
+            if is_known and is_once and not is_used_elsewhere(package, file, name):
                 message = f"publisher {name!r} is never used: no messages on {publisher.name!r}"
                 yield self.report(publisher, message)
             elif _is_replaced(file, publisher.call, name):
@@ -221,16 +222,11 @@ class MadeAndUnused(RclpyRule):
                 yield self.report(publisher, message)
         for class_ in file.classes:
             for name, message in (*_uncalled_setups(file, class_), *_callbacks(file, class_)):
-                if self._is_mentioned_once(package, file, name):
+                if package.is_mentioned_once(name, file.module.path):
                     yield self.report(file.module.name_location(class_.methods[name]), message)
             for method in _unregistered(package, file, class_):
                 message = f"callback {method.name!r} is never registered: it never runs"
                 yield self.report(file.module.name_location(method), message)
-
-    def _is_mentioned_once(self, package: Package, file: RclpyFile, name: str) -> bool:
-        """Return whether no other code mentions a name, such as a base class in the workspace."""
-        is_once = package.is_mentioned_once(name, file.module.path)
-        return is_once and not is_used_elsewhere(package, file, name)
 
     def _check_groups(self, package: Package, file: RclpyFile) -> Iterator[Diagnostic]:
         if not file.module.mentions("CallbackGroup(") or file.module.in_tests:
