@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator
+from pathlib import Path
 
 import pytest
 from hypothesis import HealthCheck, settings
@@ -44,3 +45,20 @@ def home(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
         patch.delenv("PYTHONDONTWRITEBYTECODE", raising=False)
         patch.setenv("HOME", empty)
         yield empty
+
+
+@pytest.fixture
+def own_cache(tmp_path: Path, home: str) -> Path:
+    """Return a directory for ``XDG_CACHE_HOME`` without results.
+
+    The tests of a session share the stubs and the bytecode of the rules, which take half a second
+    to write.
+    """
+    directory = tmp_path / "cache"
+    kept = directory / "ros2-scaffold"
+    kept.mkdir(parents=True)
+    for kind in ("rules", "stubs"):
+        shared = Path(home) / "shared" / kind
+        shared.mkdir(parents=True, exist_ok=True)
+        (kept / kind).symlink_to(shared)
+    return directory

@@ -23,9 +23,11 @@ def generated(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.fixture
-def package(generated: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+def package(
+    own_cache: Path, generated: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> Path:
     """Return a package with findings that only block a release."""
-    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    monkeypatch.setenv("XDG_CACHE_HOME", str(own_cache))
     copy = tmp_path / "talker"
     shutil.copytree(generated, copy)
     manifest = copy / "package.xml"

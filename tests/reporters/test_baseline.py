@@ -15,10 +15,13 @@ FLAWS = "import os\n\n\ndef talk(a):\n    x = 1;\n    return a\n"
 
 @pytest.fixture
 def talker(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    own_cache: Path,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
 ) -> Path:
     """Return a package with findings, below the current directory, which is a repository."""
-    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    monkeypatch.setenv("XDG_CACHE_HOME", str(own_cache))
     top = tmp_path / "workspace"
     top.mkdir()
     monkeypatch.chdir(top)

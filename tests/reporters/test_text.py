@@ -44,10 +44,10 @@ _CLASSES = [f"{first}{second}" for first in "abcdefgh" for second in "vwxyz"]
 
 
 @pytest.fixture
-def workspace(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+def workspace(own_cache: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """Return a directory with a clean package plus a faulty node with double quotes."""
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    monkeypatch.setenv("XDG_CACHE_HOME", str(own_cache))
     assert main(["new", "robot", "--topic", "chatter"]) == 0
     (tmp_path / "robot" / "robot" / "faulty.py").write_text(_NODE)
     return tmp_path
