@@ -288,7 +288,8 @@ class FileNotThere(Rule):
                 and package.has(named.path)
             ):
                 message = f"unknown package {named.package!r}; did you mean {package.name!r} "
-                yield self.report(named, f"{message}(it has {named.path})?")
+                cause = f"unknown package {named.package}"
+                yield self.report(named, f"{message}(it has {named.path})?", cause=cause)
             elif named.package not in seen and exists(package, named.package):
                 seen.add(named.package)
                 tag = "exec_depend" if manifest.format > 1 else "run_depend"
