@@ -103,18 +103,24 @@ class ArgumentUnread(LaunchRule):
 
     def _check_overridden(self, package: Package, node: StartedNode) -> Iterator[Diagnostic]:
         """Check that no later parameter file overrides the value of an argument."""
+        overridden = [
+            (given, named)
+            for given in node.parameters
+            for named in (given.later_files if isinstance(given.configuration, str) else ())
+        ]
+        if not overridden:
+            return  # before the code of the node is looked at
         installed, full = share_of(package).files, node.full_name(package)
-        for given in node.parameters if full is not None else ():
-            for named in given.later_files if isinstance(given.configuration, str) else ():
-                path = installed.get(named, named)
-                file = parameter_file(package, path) if package.has(path) else None
-                at = _entry(file, str(full), given.name) if file is not None else None
-                if at is not None:
-                    message = (
-                        f"the argument {given.configuration!r} changes nothing: {at.path}:{at.line}"
-                        f" sets {given.name!r}, and comes later; put the file first"
-                    )
-                    yield self.report(given.location, message)
+        for given, named in overridden if full is not None else ():
+            path = installed.get(named, named)
+            file = parameter_file(package, path) if package.has(path) else None
+            at = _entry(file, str(full), given.name) if file is not None else None
+            if at is not None:
+                message = (
+                    f"the argument {given.configuration!r} changes nothing: {at.path}:{at.line}"
+                    f" sets {given.name!r}, and comes later; put the file first"
+                )
+                yield self.report(given.location, message)
 
 
 def _entry(file: ParameterFile, node: str, name: str) -> Location | None:

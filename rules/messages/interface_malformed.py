@@ -258,15 +258,16 @@ def _escape_problem(text: str) -> str:
 
 def _reserved_constant(name: str) -> str:
     """Return why a constant cannot have a name; empty if it can."""
-    if name in _C_MACROS or name in errno.errorcode.values():
-        return f"{name!r} is a macro of C: the generated C++ code does not compile"
-    return ""
+    is_macro = name in _C_MACROS or name in errno.errorcode.values()
+    return _named_like_a_macro(name) if is_macro else ""
 
 
 def _reserved_type(name: str) -> str:
     """Return why an interface cannot have a name; empty if it can."""
     if name in {"None", "True", "False"}:
         return f"{name!r} is a keyword of Python: the generated module is a SyntaxError"
-    if name in _C_MACROS:
-        return f"{name!r} is a macro of C: the generated C++ code does not compile"
-    return ""
+    return _named_like_a_macro(name) if name in _C_MACROS else ""
+
+
+def _named_like_a_macro(name: str) -> str:
+    return f"{name!r} is a macro of C: the generated C++ code does not compile"

@@ -102,6 +102,7 @@ def test_imports_little(file: Path) -> None:
     allowed = {"__future__", "ast", "collections", "contextlib", "difflib", "os", "posixpath"}
     allowed |= {
         "builtins",
+        "errno",
         "fnmatch",
         "itertools",
         "re",

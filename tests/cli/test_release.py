@@ -50,7 +50,7 @@ def severities(capsys: pytest.CaptureFixture[str], *flags: str) -> Mapping[str, 
 
 @pytest.mark.usefixtures("package")
 def test_findings_that_block_a_release_are_errors(capsys: pytest.CaptureFixture[str]) -> None:
-    usual = {PLACEHOLDER: "warning", PIP: "info", NAME: "warning"}
+    usual = {PLACEHOLDER: "warning", PIP: "info", NAME: "error"}
     assert severities(capsys) == usual
     assert severities(capsys, "--release") == dict.fromkeys(usual, "error")
     assert severities(capsys) == usual
