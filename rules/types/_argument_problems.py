@@ -152,7 +152,7 @@ def _function(finding: TypeFinding, callee: str, expected: str, given: str) -> s
 
 
 def _handler(subject: str, expected: str, given: str) -> str:
-    """Judge a function that launch calls for an event: its arguments, and what it returns."""
+    """Judge a function that launch calls, for an event or at once: its arguments and its result."""
     takes = takes_instead(expected, given)
     if takes:
         return f"{subject} is called with {takes}: TypeError"
@@ -160,8 +160,8 @@ def _handler(subject: str, expected: str, given: str) -> str:
     if returned == "None" or re.search(rf"{MARK}|\b(?:Any|Unknown)\b", returned):
         return ""
     return (
-        f"{subject} returns {in_words(returned)}, not actions or None: launch fails when the event "
-        "occurs"
+        f"{subject} returns {in_words(returned)}, not actions or None: launch fails when it calls "
+        "the function"
     )
 
 

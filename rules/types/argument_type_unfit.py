@@ -446,7 +446,7 @@ class ArgumentTypeUnfit(TypeRule):
                 severity=Severity.WARNING,
             ),
             "8:20: 'on_shutdown' of OnShutdown() returns a CompletedProcess, not actions or None: "
-            "launch fails when the event occurs",
+            "launch fails when it calls the function",
             "9:22: 'on_exit' of OnProcessExit() is called with 2 arguments, but it takes 1: "
             "TypeError",
         ),

@@ -996,6 +996,15 @@ class AttributeMissing(TypeRule):
             "10 of rover/drive.py)",
         ),
         Example(
+            "private attribute of a base class",
+            {
+                "file.py": "from launch_ros.parameter_descriptions import ParameterFile\n\n\n"
+                "class Spaced(ParameterFile):\n"
+                "    def path(self):\n        return self._ParameterFile__param_file\n\n\n"
+                "print(Spaced('a.yaml').path())\n"
+            },
+        ),
+        Example(
             "product with a value that may be an array",
             {"keep.py": _MEMORY.format("value")},
         ),
@@ -1047,7 +1056,8 @@ class AttributeMissing(TypeRule):
         is_known = is_named and CONTAINER.match(owner) is None
         is_known = is_known or _may_be_of_mock(finding, name)
         is_inside = is_of_self(finding, node)
-        is_hidden = name.startswith("_") and not is_inside
+        is_mangled = "__" in name.strip("_")  # a private attribute of a base class
+        is_hidden = name.startswith("_") and (is_mangled or not is_inside)
         if is_hidden or is_imported or is_known or _is_chosen(finding, node):
             return None
         object_ = known_owner(finding, node, owner)
