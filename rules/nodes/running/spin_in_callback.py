@@ -14,6 +14,7 @@ from scaffold.api.programs import (
     names_callback_group,
     names_other_executor,
 )
+from scaffold.api.python import arguments_for, conditions_on
 from scaffold.api.rclpy import RclpyFile
 
 MOST = 2
@@ -68,6 +69,17 @@ class SpinInCallback(RclpyRule):
     }
     examples = (
         Example("a callback", {"caller.py": _NODE.format("future.add_done_callback(self.answer)")}),
+        Example(
+            "a method that spins only for callers outside of callbacks",
+            {
+                "caller.py": _NODE.format(
+                    "self.call(future, False)\n\n"
+                    "    def prepare(self, future):\n        self.call(future, True)\n\n"
+                    "    def call(self, future, wait):\n        if wait:\n"
+                    "            rclpy.spin_until_future_complete(self, future)"
+                )
+            },
+        ),
         Example(
             "a separate node for service calls",
             {
@@ -214,7 +226,8 @@ class SpinInCallback(RclpyRule):
                 spun = file.evaluator.self_class(node)
                 if spun is None or (called and called not in file.related_classes(spun)):
                     continue  # another node than the one with the callback
-                if _is_last(file, function) or _waits_once(file, call.call):
+                is_once = _is_last(file, function) or _waits_once(file, call.call)
+                if is_once or _depends_on_caller(file, call.call):
                     continue
                 if any(isinstance(x, _PLAIN) for x in _endings_after(file, call.call)):
                     continue
@@ -241,6 +254,19 @@ class SpinInCallback(RclpyRule):
             )
             severity = None if outside else Severity.WARNING
             yield self.report(call, message, severity=severity)
+
+
+def _depends_on_caller(file: RclpyFile, call: ast.Call) -> bool:
+    """Return whether only some callers of a function ask it to spin: ``wait=True``."""
+    names = (
+        name
+        for test in conditions_on(file.module, call)
+        for name in ast.walk(test)
+        if isinstance(name, ast.Name)
+    )
+    return any(
+        len({ast.dump(value) for value in arguments_for(file.module, name)}) > 1 for name in names
+    )
 
 
 def _is_in_one_executor(file: RclpyFile) -> bool:
