@@ -110,7 +110,10 @@ def test_only_files_with_findings_are_checked_without_annotations(
     assert runs == ["project"]
     (package / "talker/talk.py").write_text(NODE)
     assert check("talker") == [f"talker/{FOUND}"]
-    assert runs == ["project", "project", "unannotated"]
+    assert runs == ["project", "project"]  # there is no annotation to remove
+    (package / "talker/talk.py").write_text(f"{NODE}\n\ncount: int = 1\n")
+    assert check("talker") == [f"talker/{FOUND}"]
+    assert runs == ["project", "project", "project", "unannotated"]
 
 
 def test_types_reach_across_files_and_packages(check: Check, source: Path) -> None:
