@@ -401,7 +401,7 @@ def _is_only_imported(package: Package, path: str) -> bool:
     except ViewError:
         return False
     if module.has_main_guard or "main" in module.functions:
-        return False  # an uncalled main is meant to be started
+        return False  # a main that nothing calls is for people to start
     if not module.functions and not module.classes:
         return False
     return all(_only_defines(statement) for statement in module.tree.body)

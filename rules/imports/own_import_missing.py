@@ -263,7 +263,7 @@ def _modules_of(package: Package, root: str) -> list[str]:
 
 
 def _closest_module(package: Package, root: str, name: str) -> str:
-    """Return the module that is meant by a name: at another place, or with a similar name."""
+    """Return the module that a name is closest to: at another place, or with a similar name."""
     modules = [item for item in _modules_of(package, root) if "__init__" not in item]
     moved = [item for item in modules if item.rpartition(".")[2] == name.rpartition(".")[2]]
     if moved:

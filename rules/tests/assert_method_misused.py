@@ -54,7 +54,7 @@ class AssertMethodMisused(TestRule):
     name = "assert-method-misused"
     is_fixed_for_all = True
     other_severities = {
-        Severity.WARNING: "``assertTrue(a, True)`` tests what is meant",
+        Severity.WARNING: "``assertTrue(a, True)`` tests what it should",
         Severity.INFO: "the method is only deprecated on the distribution",
     }
     examples = (

@@ -252,7 +252,7 @@ OTHER_NAMES = {
     "rclpy_action": "rclpy",
     "rclpy_lifecycle": "rclpy",
 }
-"""Names that no package ever had, with the package that is meant."""
+"""Names that no package ever had, each with the package to name instead."""
 
 LIBRARY_KEYS = {
     "Boost": "boost",
