@@ -11,6 +11,7 @@ from collections.abc import Sequence
 from typing import overload
 
 from scaffold import lazy_re
+from scaffold.model.cmake.known_commands import BUILT_IN, OF_AMENT
 from scaffold.record import NamedTuple
 
 BOM = "\ufeff"
@@ -264,24 +265,5 @@ def _bad_character(char: str) -> str:
     return f"the character U+{ord(char):04X} is not allowed here"
 
 
-KNOWN_COMMANDS = frozenset(
-    """
-    add_compile_definitions add_compile_options add_custom_command add_custom_target
-    add_definitions add_dependencies add_executable add_library add_subdirectory add_test
-    ament_add_gmock ament_add_gtest ament_add_pytest_test ament_auto_add_executable
-    ament_auto_add_library ament_auto_find_build_dependencies ament_auto_package
-    ament_export_dependencies ament_export_include_directories ament_export_interfaces
-    ament_export_libraries ament_export_targets ament_package ament_python_install_package
-    ament_target_dependencies ament_lint_auto_find_test_dependencies block cmake_minimum_required
-    cmake_policy configure_file else elseif enable_testing endblock endforeach endfunction endif
-    endmacro endwhile execute_process file find_file find_library find_package find_path
-    find_program foreach function get_filename_component get_target_property if include
-    include_directories install link_directories link_libraries list macro math message option
-    pluginlib_export_plugin_description_file project rclcpp_components_register_node
-    rclcpp_components_register_nodes return rosidl_generate_interfaces set set_property
-    set_target_properties string target_compile_definitions target_compile_features
-    target_compile_options target_include_directories target_link_libraries target_sources unset
-    while
-    """.split()  # noqa: SIM905  a hundred quoted names would hide them
-)
+KNOWN_COMMANDS = BUILT_IN | OF_AMENT
 """Names that start a command after an error, at the start of a line and before ``(``."""
