@@ -46,6 +46,8 @@ class Effect(IntEnum):
     """The manifest, a name or a test is wrong; nothing stops here."""
     UNPUBLISHABLE = 9
     """Nothing stops, but a license or a notice is missing that others need."""
+    STYLE = 10
+    """Only a linter of CMake files reports how the file is written."""
 
 
 class Diagnostic(NamedTuple):

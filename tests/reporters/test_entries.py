@@ -78,6 +78,13 @@ def test_missing_packages_come_before_harmless_findings() -> None:
     assert [entry.first.code for entry in ordered] == ["CM020", "PX020", "LF005", "PX001", "LY020"]
 
 
+def test_style_of_cmake_files_comes_last() -> None:
+    results = [_result(".", code, "a", Severity.WARNING) for code in ("CM075", "CM084", "PX020")]
+    results[2].diagnostics[0] = results[2].diagnostics[0]._replace(cause="dependency rclpy")
+    ordered = in_order([entry for result in results for entry in by_cause(result)])
+    assert [entry.first.code for entry in ordered] == ["PX020", "CM075", "CM084"]
+
+
 def test_effect_of_a_finding_comes_before_that_of_its_rule() -> None:
     results = [_result(".", code, "setup.py") for code in ("SP011", "LF006")]
     (finding,) = results[0].diagnostics

@@ -131,6 +131,7 @@ _EFFECTS = {
     **dict.fromkeys(("IM", "LF", "SP", "UR"), Effect.STOPS_START),
     **dict.fromkeys(("LY", "NM", "PX", "TS"), Effect.DECLARED_WRONG),
     "LY02": Effect.UNPUBLISHABLE,
+    **dict.fromkeys(("CM07", "CM08"), Effect.STYLE),
     **dict.fromkeys(("PX06", "PX07"), Effect.STOPS_BUILD),
 }
 """The usual effects of flaws by area, if not that a program stops at some point."""
