@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from difflib import get_close_matches
 
@@ -40,6 +41,12 @@ _MANIFEST_TOOL = (
 _DEPEND = "  <buildtool_depend>ament_cmake</buildtool_depend>\n"
 _RCLCPP = "  <depend>rclcpp</depend>\n"
 _LISTS = "project(talker)\nfind_package(ament_cmake REQUIRED)\nament_package()\n"
+_NOTHING = re.compile(
+    r"(?:^|/)(?:package\.xml|CMakeLists\.txt|LICENSE[^/]*|\.[^/]*|[^/]*\.(?:md|rst))$"
+)
+"""Matches the paths of files that are neither built nor installed."""
+_FETCHING = ("external", "fetch", "vendor", "process")
+"""Parts of the names of commands that fetch what is built."""
 
 
 class BuildTypeWrong(Rule):
@@ -62,7 +69,8 @@ class BuildTypeWrong(Rule):
     name = "build-type-wrong"
     effect = Effect.STOPS_BUILD
     other_severities = {
-        Severity.WARNING: "ament_cmake is undeclared, but a dependency depends on it"
+        Severity.WARNING: "ament_cmake is undeclared, but a dependency depends on it, or a package "
+        "without a build type has no files besides those that build it, and texts"
     }
     examples = (
         Example(
@@ -137,11 +145,28 @@ class BuildTypeWrong(Rule):
             },
         ),
         Example(
+            "no build type, and nothing to build or install",
+            {
+                "package.xml": "<package>\n  <buildtool_depend>ament_cmake</buildtool_depend>\n"
+                "</package>\n",
+                "CMakeLists.txt": _CMAKE_PACKAGE,
+                "README.md": "# Talker\n",
+            },
+            Report(
+                "package.xml:1:2",
+                "no <build_type>: colcon treats the package as catkin; write "
+                "<build_type>ament_cmake</build_type> in <export>",
+                fix="Declare ament_cmake",
+                severity=Severity.WARNING,
+            ),
+        ),
+        Example(
             "an export with another element",
             {
                 "package.xml": "<package>\n  <buildtool_depend>ament_cmake</buildtool_depend>\n"
                 "  <export>\n    <other/>\n  </export>\n</package>\n",
                 "CMakeLists.txt": _CMAKE_PACKAGE,
+                "config/talker.yaml": "",
             },
             Report(
                 "package.xml:3:4",
@@ -273,8 +298,9 @@ class BuildTypeWrong(Rule):
             edit = Edit("package.xml", inside, inside, f"{newline}    {line}")
         message = f"no <build_type>: colcon treats the package as catkin; write {line} in <export>"
         fix = Fix(f"Declare {build_type}", (edit,)) if export is None or export.children else None
+        severity = Severity.WARNING if _is_empty(package) else None
         # Without the hooks of ament, but built.
-        yield self.report(at, message, fix, effect=Effect.SPOILS_INSTALL)
+        yield self.report(at, message, fix, severity=severity, effect=Effect.SPOILS_INSTALL)
 
     def _check_files(self, package: Package) -> Iterator[Diagnostic]:
         for diagnostic in self._check_ros1(package):
@@ -327,6 +353,15 @@ class BuildTypeWrong(Rule):
         if "ament_cmake" in brought | declared(package, for_tests=True).along:
             yield self.report(at, message, fix, severity=Severity.WARNING)
         # Otherwise found-undeclared reports it.
+
+
+def _is_empty(package: Package) -> bool:
+    """Return whether CMake builds a package without any files to build or install."""
+    if not package.has("CMakeLists.txt"):
+        return False
+    if not all(map(_NOTHING.search, package.files)):
+        return False
+    return not any(word in command.name for command in package.cmake.commands for word in _FETCHING)
 
 
 def _ament_type(package: Package) -> str:
