@@ -71,6 +71,16 @@ class PackageDataMissing(Rule):
             },
         ),
         Example(
+            "in a Python package that is not installed either",
+            {
+                **_FILES,
+                "demo/__init__.py": "",
+                "demo/show.py": _FILES["talker/text.py"],
+                "demo/words.txt": "hello\n",
+                "setup.py": _SETUP.format("    package_data={'talker': ['*.txt']},\n"),
+            },
+        ),
+        Example(
             "looked for in the share directory first",
             {
                 **_FILES,
@@ -134,6 +144,8 @@ class PackageDataMissing(Rule):
                 continue
             if any(matches(pattern, [file.path]) for pattern in patterns):
                 continue
+            if not _is_installed(package, file.location.path):
+                continue
             if file.path in as_data and _reads_there(package, file.location.path, as_data):
                 continue
             where, inside = file.location, file.path.removeprefix(f"{holder}/")
@@ -150,6 +162,14 @@ class PackageDataMissing(Rule):
         while directory and not package.has(f"{directory}/__init__.py"):
             directory = directory.rpartition("/")[0]
         return directory or None
+
+
+def _is_installed(package: Package, module: str) -> bool:
+    """Return whether setup.py may install the Python package of a module."""
+    packages = package.setup_py.packages
+    return not isinstance(packages, list) or (
+        module.rpartition("/")[0].replace("/", ".") in packages
+    )
 
 
 def _reads_there(package: Package, module: str, as_data: frozenset[str]) -> bool:
