@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from contextlib import suppress
 from fnmatch import fnmatchcase
@@ -17,6 +18,7 @@ _LISTS_PATTERNS = (
     "ament_package()\n"
 )
 _FILES = {"config/talker.yaml": "talker:\n  ros__parameters:\n    rate: 1.0\n"}
+_INSTALLS = re.compile(r"\binstall\s{0,9}\(([^()]{0,999})\)")
 DIRECTORIES = ("launch", *DATA_DIRECTORIES)
 _NAMING = (".md", ".rst", ".sh", ".py", ".xml", ".yaml")
 """Ends of the names of files that start launch files, or tell people to."""
@@ -42,7 +44,8 @@ class ShareDirectoryNotInstalled(Rule):
     name = "share-directory-not-installed"
     other_severities = {
         Severity.WARNING: "nothing in the package refers to the directory, such as one with "
-        "test.launch.py, or its files are installed in another one"
+        "test.launch.py, its files are installed in another one, or its installation is commented "
+        "out"
     }
     examples = (
         Example(
@@ -75,6 +78,22 @@ class ShareDirectoryNotInstalled(Rule):
             Report(
                 "CMakeLists.txt:3:1",
                 "launch/ is not installed, so launch/test.launch.py is not found at run time",
+                severity=Severity.WARNING,
+            ),
+        ),
+        Example(
+            "a command to install it, commented out by the author",
+            {
+                "CMakeLists.txt": _LISTS.format(
+                    "# Uncomment the install call below to install the example\n"
+                    "# install(DIRECTORY\n#   models\n#   launch\n"
+                    "#   DESTINATION share/${PROJECT_NAME})\n"
+                ),
+                "launch/talk.launch.py": _LAUNCH,
+            },
+            Report(
+                "CMakeLists.txt:8:1",
+                "launch/ is not installed, so launch/talk.launch.py is not found at run time",
                 severity=Severity.WARNING,
             ),
         ),
@@ -235,6 +254,7 @@ class ShareDirectoryNotInstalled(Rule):
             is_used = (directory == "launch" and not _is_for_tests(package, directory)) or is_named(
                 package, directory
             )
+            is_used = is_used and not _is_commented_out(package, directory)
             severity = Severity.ERROR if is_used else Severity.WARNING
             yield self.report(calls[-1].name_location, message, severity=severity)
 
@@ -277,6 +297,16 @@ class ShareDirectoryNotInstalled(Rule):
                 message = f"the files of {directory}/ are installed to {lands}"
                 fix = Fix(f"Install to {directory}/", (edit,))
                 yield self.report(item, message, fix, severity=Severity.WARNING)
+
+
+def _is_commented_out(package: Package, directory: str) -> bool:
+    """Return whether a comment of CMakeLists.txt has the command that installs a directory."""
+    cmake = package.cmake
+    text = " ".join(cmake.text(comment) for comment in cmake.comments)
+    return any(
+        re.search(rf"(?<![\w./-]){re.escape(directory)}(?![\w.-])", command)
+        for command in _INSTALLS.findall(text)
+    )
 
 
 def _is_for_tests(package: Package, directory: str) -> bool:
