@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Effect, Example, RclpyRule
+from scaffold.api import Diagnostic, Effect, Example, RclpyRule, Report, Severity
 from scaffold.api.programs import spins_in_one_thread
 from scaffold.api.python import FunctionNode
 from scaffold.api.rclpy import GOAL_HANDLE, LOG_METHODS, ActionServer, RclpyFile, class_of
@@ -54,6 +54,9 @@ class GoalNeverCanceled(RclpyRule):
     code = "ND114"
     name = "goal-never-canceled"
     effect = Effect.WRONG_BEHAVIOR
+    other_severities = {
+        Severity.WARNING: "canceled() is called after an error: rclpy aborts the goal instead"
+    }
     examples = (
         Example("two threads", {"server.py": _NODE.format(_CANCEL, _THREADS)}),
         Example(
@@ -71,6 +74,24 @@ class GoalNeverCanceled(RclpyRule):
             },
             "18:17: no cancel request was received: canceled() raises RCLError; check "
             "is_cancel_requested, or call abort()",
+        ),
+        Example(
+            "a goal without a cancel request, after an error",
+            {
+                "server.py": _NODE.format(_CANCEL, _THREADS)
+                .replace("if goal_handle.is_cancel_requested:", "try:")
+                .replace(
+                    "                goal_handle.canceled()\n",
+                    "                self.move()\n            except OSError:\n"
+                    "                goal_handle.canceled()\n",
+                )
+            },
+            Report(
+                "20:17",
+                "no cancel request was received: canceled() raises RCLError; check "
+                "is_cancel_requested, or call abort()",
+                severity=Severity.WARNING,
+            ),
         ),
         Example(
             "a goal without a cancel request, in a coroutine that awaits nothing",
@@ -175,7 +196,11 @@ class GoalNeverCanceled(RclpyRule):
                     "no cancel request was received: canceled() raises RCLError; "
                     "check is_cancel_requested, or call abort()"
                 )
-                yield self.report(file.module.location(call), message)
+                is_after_error = any(
+                    isinstance(parent, ast.ExceptHandler) for parent in file.module.parents(call)
+                )
+                severity = Severity.WARNING if is_after_error else None
+                yield self.report(file.module.location(call), message, severity=severity)
             if not canceled:
                 yield from self._check_ignored(file, server)
 
