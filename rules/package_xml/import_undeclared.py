@@ -23,6 +23,7 @@ from scaffold.api.manifest import (
     requirements,
 )
 from scaffold.api.python import rospack_lookups
+from scaffold.api.setup_py import lacks_pytest
 
 from ._debian import key_of_debian
 
@@ -64,9 +65,26 @@ class ImportUndeclared(Rule):
         Severity.WARNING: "only scripts in the share directory import it, or it may be installed "
         "anyway: with `ros2 launch` for launch files, with pip (torch, or listed in "
         "requirements.txt or pyproject.toml), with colcon or rosdep, to build the workspace, as a "
-        "package of it, or by an unknown dependency",
+        "package of it, or by an unknown dependency; or `colcon test` does not run the test, "
+        "because setup.py does not declare pytest",
     }
     examples = (
+        Example(
+            "by a test, if setup.py does not declare pytest",
+            {
+                "package.xml": _manifest("<export><build_type>ament_python</build_type></export>"),
+                "setup.py": "from setuptools import setup\n\nsetup(name='talker')\n",
+                "test/test_copyright.py": "import ament_copyright\n\n\n"
+                "def test_copyright():\n    assert ament_copyright\n",
+            },
+            Report(
+                "test/test_copyright.py:1:1",
+                "imports 'ament_copyright', which package.xml does not declare; add "
+                "<test_depend>ament_copyright</test_depend>",
+                fix="Declare ament_copyright",
+                severity=Severity.WARNING,
+            ),
+        ),
         Example(
             "declared; the standard library, own modules and guarded imports",
             {
@@ -626,7 +644,8 @@ class ImportUndeclared(Rule):
             comes_otherwise = comes_otherwise or (is_built and not need.for_tests)
             comes_otherwise = comes_otherwise or dependencies.may_use(package, need.keys[0])
             comes_otherwise = comes_otherwise or is_installed_to_build(package, need.keys)
-            severity = Severity.WARNING if comes_otherwise else Severity.ERROR
+            is_unrun = need.for_tests and _is_unrun(package, need.location.path)
+            severity = Severity.WARNING if comes_otherwise or is_unrun else Severity.ERROR
             purposes = ("run", "test") if need.for_tests else ("run",)
             other = manifest.left_out(need.keys, *purposes)
             if other is not None:
@@ -677,6 +696,11 @@ def _is_unknown(package: Package, module: str) -> bool:
 def _comes_with_launch(need: requirements.Requirement) -> bool:
     key = need.keys[0]
     return key in _LAUNCH or (need.for_launch and key in transitive_dependencies({"ros2launch"}))
+
+
+def _is_unrun(package: Package, path: str) -> bool:
+    """Return whether colcon runs no test of a file, because setup.py does not declare pytest."""
+    return lacks_pytest(package) and not package.module(path).classes
 
 
 def _is_required(package: Package, module: str) -> bool:
