@@ -159,6 +159,10 @@ class BuildTypeWrong(Rule):
                 fix="Declare ament_cmake",
                 severity=Severity.WARNING,
             ),
+            fixed={
+                "package.xml": "<package>\n  <buildtool_depend>ament_cmake</buildtool_depend>\n"
+                "  <export>\n    <build_type>ament_cmake</build_type>\n  </export>\n</package>\n"
+            },
         ),
         Example(
             "an export with another element",

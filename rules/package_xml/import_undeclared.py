@@ -84,6 +84,12 @@ class ImportUndeclared(Rule):
                 fix="Declare ament_copyright",
                 severity=Severity.WARNING,
             ),
+            fixed={
+                "package.xml": _manifest(
+                    "<test_depend>ament_copyright</test_depend>",
+                    "<export><build_type>ament_python</build_type></export>",
+                )
+            },
         ),
         Example(
             "declared; the standard library, own modules and guarded imports",
