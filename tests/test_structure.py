@@ -12,7 +12,7 @@ MODEL = "scaffold.model"
 CIRCLES_OF_TYPES = {
     # Entities know the node that makes them, nodes the file that they are in, which lists both.
     "scaffold.model.rclpy.file": frozenset(
-        f"{MODEL}.rclpy.{name}" for name in ("callbacks", "creation", "entities", "nodes")
+        f"{MODEL}.rclpy.{name}" for name in ("running.callbacks", "creation", "entities", "nodes")
     ),
 }
 """Modules that need each other for types, by one of them: what they are about refers to itself."""

@@ -9,8 +9,8 @@ from contextlib import suppress
 from typing import TYPE_CHECKING
 
 from scaffold.ament.use import file_excludes, hook, is_switched_off, linter_tests
-from scaffold.model.python.evaluator import Evaluator
-from scaffold.model.python.values import UNKNOWN, PathValue, is_known
+from scaffold.model.python.evaluation.evaluator import Evaluator
+from scaffold.model.python.evaluation.values import UNKNOWN, PathValue, is_known
 from scaffold.record import NamedTuple
 from scaffold.source import Location, ViewError
 

@@ -40,7 +40,7 @@ from scaffold.ament.python_text.text import BOM, PythonText, decode
 from scaffold.ament.ruff import MOST_OF_A_LINE, RuffDiagnostic, plain, worded
 from scaffold.ament.settings import Settings
 from scaffold.errors import exhausted
-from scaffold.model.rclpy.transforms import CONVERSIONS
+from scaffold.model.rclpy.topics.transforms import CONVERSIONS
 
 if TYPE_CHECKING:
     from scaffold.model.python.module import PythonModule

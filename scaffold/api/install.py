@@ -20,7 +20,7 @@ from scaffold.model.install.reach import is_never_run
 from scaffold.model.install.resources import own_files
 from scaffold.model.install.share import share_of
 from scaffold.model.install.unused import is_copy_of_old_code
-from scaffold.model.rclpy.uncalled import is_uncalled
+from scaffold.model.rclpy.running.uncalled import is_uncalled
 
 __all__ = [
     "absolute_name",

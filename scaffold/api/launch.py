@@ -12,23 +12,22 @@ from scaffold.model.launch.actions import (
     function_of,
 )
 from scaffold.model.launch.calls import LaunchCall
-from scaffold.model.launch.command_lines import (
-    PROGRAM,
-    UNSAID,
-    CommandLine,
-    Word,
-    command_lines,
-    processes,
-    start_of_value,
-    static_transforms,
-)
-from scaffold.model.launch.configurations import (
+from scaffold.model.launch.evaluation.configurations import (
     BY_LAUNCH,
     is_named_elsewhere,
     may_be_set_elsewhere,
     set_names,
 )
-from scaffold.model.launch.evaluator import SHARE
+from scaffold.model.launch.evaluation.evaluator import SHARE
+from scaffold.model.launch.evaluation.module_paths import NamedPath
+from scaffold.model.launch.evaluation.share_paths import (
+    has_similar_file,
+    is_given_as_parameters,
+    is_left_to_the_user,
+    missing_in,
+    paths_of,
+    why_missing,
+)
 from scaffold.model.launch.files import DATA_DIRECTORIES, data_files, is_named, launch_files
 from scaffold.model.launch.includes import Included, given_arguments, included
 from scaffold.model.launch.markup_file import (
@@ -38,8 +37,19 @@ from scaffold.model.launch.markup_file import (
     markup_files,
     markup_paths,
 )
-from scaffold.model.launch.module_paths import NamedPath
-from scaffold.model.launch.nodes import (
+from scaffold.model.launch.python_file import FUNCTION, NODES, LaunchFile, launch_paths
+from scaffold.model.launch.signatures import ACTIONS, signature
+from scaffold.model.launch.started.command_lines import (
+    PROGRAM,
+    UNSAID,
+    CommandLine,
+    Word,
+    command_lines,
+    processes,
+    start_of_value,
+    static_transforms,
+)
+from scaffold.model.launch.started.nodes import (
     GivenParameter,
     StartedNode,
     code_of,
@@ -48,7 +58,7 @@ from scaffold.model.launch.nodes import (
     parameters_given,
     started_nodes,
 )
-from scaffold.model.launch.parameter_files import (
+from scaffold.model.launch.started.parameter_files import (
     is_loaded,
     is_only_loaded,
     node_names,
@@ -56,23 +66,13 @@ from scaffold.model.launch.parameter_files import (
     use_of,
     values_in_files,
 )
-from scaffold.model.launch.python_file import FUNCTION, NODES, LaunchFile, launch_paths
-from scaffold.model.launch.references import Reference, exists, meant_package, package_uses
-from scaffold.model.launch.remappings import (
+from scaffold.model.launch.started.references import Reference, exists, meant_package, package_uses
+from scaffold.model.launch.started.remappings import (
     Remapped,
     names_of,
 )
-from scaffold.model.launch.share_paths import (
-    has_similar_file,
-    is_given_as_parameters,
-    is_left_to_the_user,
-    missing_in,
-    paths_of,
-    why_missing,
-)
-from scaffold.model.launch.signatures import ACTIONS, signature
-from scaffold.model.launch.unlaunched import is_never_used, is_unread
-from scaffold.model.launch.unread_arguments import is_of_unread_argument, unread_arguments
+from scaffold.model.launch.unused.unlaunched import is_never_used, is_unread
+from scaffold.model.launch.unused.unread_arguments import is_of_unread_argument, unread_arguments
 
 __all__ = [
     "ACTIONS",

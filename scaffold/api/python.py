@@ -9,26 +9,23 @@ from scaffold.model.contents.python_facts import (
     paths_importing,
     rospack_lookups,
 )
-from scaffold.model.python.given_arguments import arguments_for, given_argument
-from scaffold.model.python.guards import (
+from scaffold.model.python.conditions.guards import (
     caught_around,
     conditions_on,
     is_guarded_by,
     is_handled,
     values_asked,
 )
-from scaffold.model.python.imports import Import
-from scaffold.model.python.literals import joined_names
-from scaffold.model.python.module import PythonModule
-from scaffold.model.python.returns import (
+from scaffold.model.python.evaluation.given_arguments import arguments_for, given_argument
+from scaffold.model.python.evaluation.literals import joined_names
+from scaffold.model.python.evaluation.returns import (
     is_generator,
     may_end,
     may_end_with_items,
     returned,
     value_set_before,
 )
-from scaffold.model.python.scopes import FunctionNode
-from scaffold.model.python.values import (
+from scaffold.model.python.evaluation.values import (
     UNKNOWN,
     Glob,
     PathValue,
@@ -37,6 +34,9 @@ from scaffold.model.python.values import (
     is_none_literal,
     kind_of,
 )
+from scaffold.model.python.imports import Import
+from scaffold.model.python.module import PythonModule
+from scaffold.model.python.scopes import FunctionNode
 
 __all__ = [
     "UNKNOWN",

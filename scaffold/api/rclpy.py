@@ -12,16 +12,6 @@ from scaffold.model.rclpy.api import (
     is_method,
     known_names,
 )
-from scaffold.model.rclpy.attributes import (
-    defined_by,
-    given_from_outside,
-    is_base_elsewhere,
-    is_overridden,
-    is_read_in_full,
-    is_used_elsewhere,
-    names_of_bases,
-)
-from scaffold.model.rclpy.callbacks import alternatives, numbers_taken, worker
 from scaffold.model.rclpy.changed_calls import changed_calls
 from scaffold.model.rclpy.changed_names import ChangedUse, changed_uses, is_asked_for, is_tried
 from scaffold.model.rclpy.entities import (
@@ -40,18 +30,19 @@ from scaffold.model.rclpy.entities import (
     Synchronizer,
     Timer,
 )
+from scaffold.model.rclpy.evaluation.attributes import (
+    defined_by,
+    given_from_outside,
+    is_base_elsewhere,
+    is_overridden,
+    is_read_in_full,
+    is_used_elsewhere,
+    names_of_bases,
+)
+from scaffold.model.rclpy.evaluation.named_attributes import read_by_name
 from scaffold.model.rclpy.file import RclpyFile, rclpy_file
 from scaffold.model.rclpy.files import rclpy_paths
-from scaffold.model.rclpy.init_and_spin import RclpyCall
-from scaffold.model.rclpy.latched import latched_topics
 from scaffold.model.rclpy.logging import LOG_METHODS, is_of_rclpy, log_calls
-from scaffold.model.rclpy.named_attributes import read_by_name
-from scaffold.model.rclpy.names import (
-    namespace_problem,
-    node_problem,
-    part_problem,
-    topic_problem,
-)
 from scaffold.model.rclpy.nodes import NodeClass, NodeDefinition
 from scaffold.model.rclpy.parameters.descriptors import DESCRIPTOR, message_made
 from scaffold.model.rclpy.parameters.objects import (
@@ -65,9 +56,18 @@ from scaffold.model.rclpy.parameters.objects import (
     names_used_by,
     parameters_set,
 )
-from scaffold.model.rclpy.qos import conflict_of
-from scaffold.model.rclpy.stopping import only_while_stopping
-from scaffold.model.rclpy.transforms import (
+from scaffold.model.rclpy.running.callbacks import alternatives, numbers_taken, worker
+from scaffold.model.rclpy.running.init_and_spin import RclpyCall
+from scaffold.model.rclpy.running.stopping import only_while_stopping
+from scaffold.model.rclpy.topics.latched import latched_topics
+from scaffold.model.rclpy.topics.names import (
+    namespace_problem,
+    node_problem,
+    part_problem,
+    topic_problem,
+)
+from scaffold.model.rclpy.topics.qos import conflict_of
+from scaffold.model.rclpy.topics.transforms import (
     CONVERSIONS,
     Lookup,
     buffer_made,

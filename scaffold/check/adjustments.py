@@ -17,13 +17,13 @@ from scaffold.model.contents.python_facts import imports_of, paths_importing
 from scaffold.model.discovery.foreign import ENVIRONMENTS, Foreign
 from scaffold.model.install.reach import is_never_run, is_unreached
 from scaffold.model.install.unused import is_apart, is_copy_of_old_code
-from scaffold.model.launch.unlaunched import is_in_unlaunched_action
-from scaffold.model.launch.unused_files import is_left_alone
+from scaffold.model.launch.unused.unlaunched import is_in_unlaunched_action
+from scaffold.model.launch.unused.unused_files import is_left_alone
 from scaffold.model.package import Package
-from scaffold.model.python.guards import all_conditions, is_unevaluated
+from scaffold.model.python.conditions.guards import all_conditions, is_unevaluated
 from scaffold.model.python.module import PythonModule
-from scaffold.model.rclpy.stopping import only_while_stopping
-from scaffold.model.rclpy.uncalled import is_uncalled
+from scaffold.model.rclpy.running.stopping import only_while_stopping
+from scaffold.model.rclpy.running.uncalled import is_uncalled
 from scaffold.record import NamedTuple
 from scaffold.source import Location, ViewError
 

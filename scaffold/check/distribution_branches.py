@@ -11,11 +11,11 @@ from scaffold.distributions import VARIABLE
 from scaffold.model.cmake import distribution_branches as of_cmake
 from scaffold.model.cmake.lists import CMakeLists
 from scaffold.model.facts import fact
-from scaffold.model.launch import distribution_branches as of_launch
+from scaffold.model.launch.evaluation import distribution_branches as of_launch
 from scaffold.model.launch.markup_file import ENDINGS as LAUNCH_ENDINGS
 from scaffold.model.package import Package
-from scaffold.model.python import distribution_branches as of_python
-from scaffold.model.python.distribution_conditions import ASKED
+from scaffold.model.python.conditions import distribution_branches as of_python
+from scaffold.model.python.conditions.distribution_conditions import ASKED
 from scaffold.source import ViewError
 
 CMAKE_LISTS = "CMakeLists.txt"

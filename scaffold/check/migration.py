@@ -20,7 +20,7 @@ from scaffold.check.session import Session
 from scaffold.check.several import without_distribution
 from scaffold.diagnostic import Diagnostic, Severity
 from scaffold.model.discovery.colcon import IGNORE_MARKERS
-from scaffold.model.python.distribution_branches import is_run
+from scaffold.model.python.conditions.distribution_branches import is_run
 from scaffold.record import NamedTuple
 from scaffold.source import ViewError
 

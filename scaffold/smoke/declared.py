@@ -10,8 +10,8 @@ from scaffold.model.package import Package
 from scaffold.model.programs.entry_points import EntryPoint, run_of, starts_of
 from scaffold.model.programs.publish_reach import PublishReach, Reach
 from scaffold.model.programs.publishing import publish_rates
+from scaffold.model.python.evaluation.values import Unknown
 from scaffold.model.python.scopes import FunctionNode
-from scaffold.model.python.values import Unknown
 from scaffold.model.rclpy.entities import Endpoint
 from scaffold.model.rclpy.file import NodeClass, NodeDefinition, RclpyFile
 from scaffold.smoke.expectation import Expectation, Offer, Publication

@@ -10,11 +10,16 @@ from typing import TypeVar
 
 from scaffold import lazy_re
 from scaffold.model.package import Package
-from scaffold.model.python.distribution_branches import stretches_not_run
-from scaffold.model.python.distribution_conditions import open_parts
-from scaffold.model.python.given_arguments import arguments_for
-from scaffold.model.python.guards import Condition, all_conditions, has_fallback, values_asked
-from scaffold.model.python.handlers import is_tested_to_fail, last_names
+from scaffold.model.python.conditions.distribution_branches import stretches_not_run
+from scaffold.model.python.conditions.distribution_conditions import open_parts
+from scaffold.model.python.conditions.guards import (
+    Condition,
+    all_conditions,
+    has_fallback,
+    values_asked,
+)
+from scaffold.model.python.conditions.handlers import is_tested_to_fail, last_names
+from scaffold.model.python.evaluation.given_arguments import arguments_for
 from scaffold.model.python.module import PythonModule
 from scaffold.source import Location
 from scaffold.types import origins

@@ -8,9 +8,13 @@ from collections.abc import Set as AbstractSet
 from typing import TypeGuard
 
 from scaffold.model.package import Package
-from scaffold.model.python.given_arguments import arguments_for, given_argument, parameter_of
+from scaffold.model.python.evaluation.given_arguments import (
+    arguments_for,
+    given_argument,
+    parameter_of,
+)
+from scaffold.model.python.evaluation.values import is_none_literal
 from scaffold.model.python.module import PythonModule
-from scaffold.model.python.values import is_none_literal
 from scaffold.types.rewriting.passed import calls_from_modules
 
 _MAX_DEPTH = 20

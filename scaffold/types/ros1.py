@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.model.python.guards import all_conditions
+from scaffold.model.python.conditions.guards import all_conditions
 from scaffold.model.python.module import PythonModule
 
 _ROS1 = "rospy"

@@ -10,8 +10,8 @@ import pytest
 from scaffold.model.contents.python_facts import exports_of, imports_of
 from scaffold.model.fact_values import decode, encode
 from scaffold.model.package import Package
+from scaffold.model.python.evaluation.values import UNKNOWN
 from scaffold.model.python.module import PythonModule
-from scaffold.model.python.values import UNKNOWN
 from scaffold.model.reads import Reads, recorded
 from scaffold.source import Location, ParseError
 

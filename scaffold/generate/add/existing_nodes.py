@@ -12,7 +12,7 @@ from scaffold.generate.add.cpp_nodes import executables
 from scaffold.model.package import Package
 from scaffold.model.parameters.files import parameter_files
 from scaffold.model.programs.executables import nodes_of, programs_of
-from scaffold.model.python.values import Unknown
+from scaffold.model.python.evaluation.values import Unknown
 from scaffold.source import ViewError
 
 LIBRARY_NODES = frozenset({"nav2_simple_commander.robot_navigator.BasicNavigator"})

@@ -11,8 +11,8 @@ from scaffold.edits import Edit
 from scaffold.generate.edit.addition import Addition, ByHand, Outcome, Program, spliced
 from scaffold.model.launch.calls import LaunchCall
 from scaffold.model.launch.python_file import FUNCTION, LaunchFile
+from scaffold.model.python.evaluation.returns import returned
 from scaffold.model.python.module import PythonModule
-from scaffold.model.python.returns import returned
 from scaffold.model.setup_py import edit as setup_edit
 from scaffold.model.setup_py.edit import Block
 from scaffold.source import Source

@@ -12,7 +12,7 @@ from collections.abc import Mapping, Sequence
 from difflib import get_close_matches
 
 from scaffold.errors import InputError
-from scaffold.model.rclpy.qos import PROFILES
+from scaffold.model.rclpy.topics.qos import PROFILES
 from scaffold.record import NamedTuple
 
 MAX_DEPTH = 10_000

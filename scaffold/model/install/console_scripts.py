@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from scaffold.model.install.package_data import matches
-from scaffold.model.python.values import Glob
+from scaffold.model.python.evaluation.values import Glob
 from scaffold.source import ViewError
 
 if TYPE_CHECKING:

@@ -6,7 +6,7 @@ import posixpath
 import re
 from typing import TYPE_CHECKING
 
-from scaffold.model.python.values import Glob
+from scaffold.model.python.evaluation.values import Glob
 
 if TYPE_CHECKING:
     from collections.abc import Iterable

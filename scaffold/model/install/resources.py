@@ -8,9 +8,9 @@ from contextlib import suppress
 from typing import TYPE_CHECKING
 
 from scaffold.model.facts import fact
-from scaffold.model.python.evaluator import Evaluator
+from scaffold.model.python.evaluation.evaluator import Evaluator
+from scaffold.model.python.evaluation.values import UNKNOWN, PathValue
 from scaffold.model.python.module import is_in_tests
-from scaffold.model.python.values import UNKNOWN, PathValue
 from scaffold.record import NamedTuple
 from scaffold.source import ViewError
 

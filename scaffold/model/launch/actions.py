@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from scaffold.model.launch.calls import launch_call
 from scaffold.model.launch.python_file import NODES, LaunchFile
-from scaffold.model.python.returns import is_generator, returned
+from scaffold.model.python.evaluation.returns import is_generator, returned
 from scaffold.record import NamedTuple
 
 if TYPE_CHECKING:

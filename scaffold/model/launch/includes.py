@@ -6,8 +6,8 @@ import ast
 from typing import TYPE_CHECKING
 
 from scaffold.model.launch.calls import LaunchCall
-from scaffold.model.launch.configurations import set_names
-from scaffold.model.launch.evaluator import share_path
+from scaffold.model.launch.evaluation.configurations import set_names
+from scaffold.model.launch.evaluation.evaluator import share_path
 from scaffold.model.launch.python_file import LaunchFile
 from scaffold.record import NamedTuple
 from scaffold.source import ViewError

@@ -9,10 +9,10 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from scaffold.model.launch.calls import LaunchCall, launch_call
-from scaffold.model.launch.evaluator import LaunchEvaluator, share_path
-from scaffold.model.python.given_arguments import given_once
+from scaffold.model.launch.evaluation.evaluator import LaunchEvaluator, share_path
+from scaffold.model.python.evaluation.given_arguments import given_once
+from scaffold.model.python.evaluation.values import UNKNOWN, Unknown
 from scaffold.model.python.module import is_in_tests
-from scaffold.model.python.values import UNKNOWN, Unknown
 from scaffold.record import NamedTuple
 from scaffold.source import Location, ViewError
 

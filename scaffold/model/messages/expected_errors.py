@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Collection
 
-from scaffold.model.python.handlers import is_tested_to_fail, last_names
+from scaffold.model.python.conditions.handlers import is_tested_to_fail, last_names
 from scaffold.model.python.module import PythonModule
 
 _CAUGHT = ("AssertionError", "AttributeError", "TypeError", "ValueError")

@@ -10,10 +10,10 @@ from scaffold.model.interfaces.types import FLOATS, INTEGER_RANGES, TEXTS, Field
 from scaffold.model.messages.inference import Assigned, MessageTypes
 from scaffold.model.messages.numpy_values import numpy_class
 from scaffold.model.messages.value_types import ValueTypes, rclpy_time
-from scaffold.model.python.literals import joined_names
-from scaffold.model.python.returns import returned
+from scaffold.model.python.evaluation.literals import joined_names
+from scaffold.model.python.evaluation.returns import returned
 from scaffold.model.rclpy.api import PARAMETER, class_of, is_method
-from scaffold.model.rclpy.evaluator import NOTE
+from scaffold.model.rclpy.evaluation.evaluator import NOTE
 
 _NAMES = {
     "bool": "a bool",

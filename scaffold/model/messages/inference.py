@@ -15,9 +15,9 @@ from scaffold.model.messages.classes import MessageClass, class_named
 from scaffold.model.messages.expected_errors import is_error_expected
 from scaffold.model.messages.files import message_paths
 from scaffold.model.package import Package
-from scaffold.model.python.attributes import Store
+from scaffold.model.python.evaluation.attributes import Store
+from scaffold.model.python.evaluation.values import is_none_literal
 from scaffold.model.python.scopes import Binding
-from scaffold.model.python.values import is_none_literal
 from scaffold.model.rclpy.api import PARAMETER, class_of, future_given
 from scaffold.model.rclpy.entities import (
     ActionServer,

@@ -8,7 +8,7 @@ from contextlib import suppress
 
 from scaffold.model.messages.classes import MessageClass, class_named
 from scaffold.model.messages.inference import MessageTypes
-from scaffold.model.python.returns import returned
+from scaffold.model.python.evaluation.returns import returned
 from scaffold.record import NamedTuple
 
 _HEADER = "std_msgs/msg/Header"

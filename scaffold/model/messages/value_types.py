@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 
 from scaffold.model.interfaces.types import FLOATS, INTEGER_RANGES, TEXTS, FieldType
 from scaffold.model.messages.inference import MessageTypes
-from scaffold.model.python.values import UNKNOWN
+from scaffold.model.python.evaluation.values import UNKNOWN
 from scaffold.model.rclpy.api import class_of
 
 RCLPY_TIMES: Mapping[str | None, str] = {

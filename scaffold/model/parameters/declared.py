@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from scaffold.model.facts import fact
 from scaffold.model.programs.known_nodes import KnownNode, known_nodes
-from scaffold.model.python.values import UNKNOWN
+from scaffold.model.python.evaluation.values import UNKNOWN
 from scaffold.model.rclpy.file import rclpy_file
 from scaffold.model.rclpy.files import rclpy_files, rclpy_paths
 from scaffold.model.rclpy.nodes import NodeClass, NodeDefinition

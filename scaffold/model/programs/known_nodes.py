@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from scaffold.model.facts import fact
-from scaffold.model.python.values import Unknown
+from scaffold.model.python.evaluation.values import Unknown
 from scaffold.model.rclpy.file import rclpy_file
 from scaffold.model.rclpy.nodes import NodeClass
 from scaffold.record import NamedTuple

@@ -5,9 +5,9 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator, Sequence
 
-from scaffold.model.python.attributes import Store
+from scaffold.model.python.evaluation.attributes import Store
+from scaffold.model.python.evaluation.values import Unknown, is_none_literal
 from scaffold.model.python.scopes import FunctionNode
-from scaffold.model.python.values import Unknown, is_none_literal
 from scaffold.model.rclpy.entities import Callback, Entity, Publisher, Timer
 from scaffold.model.rclpy.file import RclpyFile
 

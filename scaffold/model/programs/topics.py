@@ -19,7 +19,7 @@ from scaffold.model.rclpy.entities import (
 )
 from scaffold.model.rclpy.file import rclpy_file
 from scaffold.model.rclpy.files import rclpy_paths
-from scaffold.model.rclpy.qos import Qos
+from scaffold.model.rclpy.topics.qos import Qos
 from scaffold.record import NamedTuple
 from scaffold.source import Location, ViewError
 

@@ -7,8 +7,12 @@ from collections.abc import Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from scaffold.model.python.distribution_conditions import holds
-from scaffold.model.python.handlers import IMPORT_ERRORS, catches_import_errors, expected_errors
+from scaffold.model.python.conditions.distribution_conditions import holds
+from scaffold.model.python.conditions.handlers import (
+    IMPORT_ERRORS,
+    catches_import_errors,
+    expected_errors,
+)
 from scaffold.record import NamedTuple
 from scaffold.source import Location
 

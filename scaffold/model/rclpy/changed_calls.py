@@ -7,10 +7,10 @@ from collections.abc import Iterator
 
 from scaffold import distributions
 from scaffold.changes import Change, of_kind
-from scaffold.model.python.distribution_branches import is_run
-from scaffold.model.python.guards import caught_around, has_fallback
+from scaffold.model.python.conditions.distribution_branches import is_run
+from scaffold.model.python.conditions.guards import caught_around, has_fallback
+from scaffold.model.python.evaluation.values import is_none_literal
 from scaffold.model.python.module import PythonModule
-from scaffold.model.python.values import is_none_literal
 from scaffold.model.rclpy.api import class_of
 from scaffold.model.rclpy.changed_names import ChangedUse, is_asked_for
 from scaffold.model.rclpy.file import RclpyFile

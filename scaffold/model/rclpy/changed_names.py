@@ -8,15 +8,20 @@ from collections.abc import Iterator, Sequence
 from scaffold import lazy_re
 from scaffold.changes import Change
 from scaffold.edits import Edit
-from scaffold.model.python.distribution_branches import cases
-from scaffold.model.python.distribution_conditions import asks, holds, open_parts
-from scaffold.model.python.guards import all_conditions, has_fallback, is_handled, values_asked
-from scaffold.model.python.handlers import last_names
-from scaffold.model.python.import_flags import asks_which_release
+from scaffold.model.python.conditions.distribution_branches import cases
+from scaffold.model.python.conditions.distribution_conditions import asks, holds, open_parts
+from scaffold.model.python.conditions.guards import (
+    all_conditions,
+    has_fallback,
+    is_handled,
+    values_asked,
+)
+from scaffold.model.python.conditions.handlers import last_names
+from scaffold.model.python.conditions.import_flags import asks_which_release
 from scaffold.model.python.imports import IMPORT_OR_SKIP
 from scaffold.model.python.module import PythonModule
 from scaffold.model.rclpy.api import class_of
-from scaffold.model.rclpy.arrays import ARRAY, DTYPE, is_array, type_names
+from scaffold.model.rclpy.evaluation.arrays import ARRAY, DTYPE, is_array, type_names
 from scaffold.model.rclpy.file import RclpyFile
 from scaffold.record import NamedTuple
 from scaffold.source import Location

@@ -6,8 +6,8 @@ import ast
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
-from scaffold.model.python.returns import returned
-from scaffold.model.python.values import UNKNOWN
+from scaffold.model.python.evaluation.returns import returned
+from scaffold.model.python.evaluation.values import UNKNOWN
 from scaffold.model.rclpy.entities import (
     ActionClient,
     ActionServer,
@@ -25,11 +25,11 @@ from scaffold.model.rclpy.entities import (
     Synchronizer,
     Timer,
 )
-from scaffold.model.rclpy.evaluator import NOTE
+from scaffold.model.rclpy.evaluation.evaluator import NOTE
 from scaffold.model.rclpy.parameters.declarations import SIGNATURES as DECLARATIONS
 from scaffold.model.rclpy.parameters.declarations import Declaration
 from scaffold.model.rclpy.parameters.descriptors import descriptor_of
-from scaffold.model.rclpy.qos import PROFILES, Qos, qos_of
+from scaffold.model.rclpy.topics.qos import PROFILES, Qos, qos_of
 
 if TYPE_CHECKING:
     from scaffold.model.rclpy.file import RclpyFile

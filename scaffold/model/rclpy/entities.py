@@ -6,7 +6,7 @@ import ast
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, TypeVar
 
-from scaffold.model.python.values import Unknown
+from scaffold.model.python.evaluation.values import Unknown
 from scaffold.record import NamedTuple
 
 if TYPE_CHECKING:
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from scaffold.model.rclpy.nodes import NodeDefinition
     from scaffold.model.rclpy.parameters.declarations import Declaration
     from scaffold.model.rclpy.parameters.descriptors import Descriptor
-    from scaffold.model.rclpy.qos import Qos
+    from scaffold.model.rclpy.topics.qos import Qos
     from scaffold.source import Location
 
 

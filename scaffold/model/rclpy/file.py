@@ -9,10 +9,9 @@ from functools import cached_property
 from typing import Any
 
 from scaffold.model import reads
+from scaffold.model.python.evaluation.values import UNKNOWN, same
 from scaffold.model.python.module import PythonModule
 from scaffold.model.python.scopes import FunctionNode
-from scaffold.model.python.values import UNKNOWN, same
-from scaffold.model.rclpy import callbacks as node_callbacks
 from scaffold.model.rclpy.class_relations import ClassRelations
 from scaffold.model.rclpy.creation import NODE_METHODS, Creation
 from scaffold.model.rclpy.entities import (
@@ -31,11 +30,12 @@ from scaffold.model.rclpy.entities import (
     Synchronizer,
     Timer,
 )
-from scaffold.model.rclpy.evaluator import NodeEvaluator
-from scaffold.model.rclpy.init_and_spin import RclpyCall, rclpy_calls
+from scaffold.model.rclpy.evaluation.evaluator import NodeEvaluator
 from scaffold.model.rclpy.nodes import NodeClass, NodeDefinition, NodeObject
 from scaffold.model.rclpy.own_modules import Modules, OwnModules
 from scaffold.model.rclpy.parameters.declarations import Declarations
+from scaffold.model.rclpy.running import callbacks as node_callbacks
+from scaffold.model.rclpy.running.init_and_spin import RclpyCall, rclpy_calls
 from scaffold.source import ViewError
 
 __all__ = [

@@ -7,8 +7,8 @@ from collections.abc import Mapping, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from scaffold.model.python.given_arguments import given_argument
-from scaffold.model.python.values import UNKNOWN, Unknown
+from scaffold.model.python.evaluation.given_arguments import given_argument
+from scaffold.model.python.evaluation.values import UNKNOWN, Unknown
 from scaffold.model.rclpy.entities import (
     ActionClient,
     ActionServer,

@@ -8,9 +8,9 @@ from typing import Protocol, TypeVar
 
 from scaffold.model import reads
 from scaffold.model.package import Package
+from scaffold.model.python.evaluation.values import UNKNOWN
 from scaffold.model.python.module import PythonModule
-from scaffold.model.python.values import UNKNOWN
-from scaffold.model.rclpy.constants import constants_of
+from scaffold.model.rclpy.evaluation.constants import constants_of
 from scaffold.source import ViewError
 
 View = TypeVar("View")

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import ast
 
-from scaffold.model.python.evaluator import Element, Evaluator
+from scaffold.model.python.evaluation.evaluator import Element, Evaluator
+from scaffold.model.python.evaluation.values import UNKNOWN, Glob, Unknown
 from scaffold.model.python.module import PythonModule
-from scaffold.model.python.values import UNKNOWN, Glob, Unknown
 from scaffold.record import NamedTuple
 from scaffold.source import Location
 

@@ -6,8 +6,8 @@ import ast
 import re
 from collections.abc import Iterator
 
-from scaffold.model.python.evaluator import Evaluator
-from scaffold.model.python.literals import string_pieces
+from scaffold.model.python.evaluation.evaluator import Evaluator
+from scaffold.model.python.evaluation.literals import string_pieces
 from scaffold.model.python.module import PythonModule
 from scaffold.record import NamedTuple
 from scaffold.source import Location

@@ -7,9 +7,9 @@ from collections.abc import Mapping, Sequence
 from fnmatch import fnmatchcase
 from functools import cached_property
 
-from scaffold.model.python.evaluator import Evaluator
+from scaffold.model.python.evaluation.evaluator import Evaluator
+from scaffold.model.python.evaluation.values import UNKNOWN, Unknown
 from scaffold.model.python.module import PythonModule
-from scaffold.model.python.values import UNKNOWN, Unknown
 from scaffold.model.setup_py.data_files import DataFile, data_file
 from scaffold.model.setup_py.entry_points import EntryPoint, EntryPointReader
 from scaffold.record import NamedTuple

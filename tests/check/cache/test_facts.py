@@ -9,7 +9,7 @@ import pytest
 from scaffold.check.cache.facts import EarlierFacts, to_store
 from scaffold.model.facts import fact
 from scaffold.model.package import Package
-from scaffold.model.rclpy.attributes import is_used_elsewhere
+from scaffold.model.rclpy.evaluation.attributes import is_used_elsewhere
 from scaffold.model.rclpy.file import rclpy_file
 from scaffold.model.reads import Fact, FactId, StoredFact
 

@@ -19,13 +19,13 @@ from scaffold.files.tree import MemoryTree
 from scaffold.formats import yaml as yaml_tree
 from scaffold.formats.yaml import Mapping, Scalar
 from scaffold.model.install.share import share_of
-from scaffold.model.launch.evaluator import share_path
-from scaffold.model.launch.nodes import started_nodes
+from scaffold.model.launch.evaluation.evaluator import share_path
 from scaffold.model.launch.python_file import LaunchFile
+from scaffold.model.launch.started.nodes import started_nodes
 from scaffold.model.package import Package
 from scaffold.model.parameters import files as parameter_files
 from scaffold.model.programs.executables import nodes_of, programs_of
-from scaffold.model.python.returns import may_end, returned
+from scaffold.model.python.evaluation.returns import may_end, returned
 from scaffold.model.workspace.workspace import Workspace
 from scaffold.source import ParseError, Source
 from tests import PATIENCE

@@ -17,12 +17,12 @@ from hypothesis import strategies as st
 from scaffold import distributions
 from scaffold.model.package import Package
 from scaffold.model.programs.publishing import publish_calls, publish_rates
+from scaffold.model.python.evaluation.values import UNKNOWN, Unknown
 from scaffold.model.python.module import PythonModule
-from scaffold.model.python.values import UNKNOWN, Unknown
 from scaffold.model.rclpy.creation import _FILTERS, _SIGNATURES
 from scaffold.model.rclpy.entities import Publisher, parameter_type
 from scaffold.model.rclpy.file import RclpyFile, rclpy_file
-from scaffold.model.rclpy.qos import PROFILES, Qos
+from scaffold.model.rclpy.topics.qos import PROFILES, Qos
 from scaffold.source import Location, NewerSyntaxError, ParseError, Source
 from scaffold.types.stubs.libraries import library_stubs
 from tests import PATIENCE

@@ -7,9 +7,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from scaffold.edits import Edit
-from scaffold.model.python.literals import string_pieces
+from scaffold.model.python.evaluation.literals import string_pieces
+from scaffold.model.python.evaluation.values import UNKNOWN, Glob
 from scaffold.model.python.module import PythonModule
-from scaffold.model.python.values import UNKNOWN, Glob
 from scaffold.model.setup_py.edit import (
     add_console_script,
     add_data_files,

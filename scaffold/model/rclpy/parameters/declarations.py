@@ -7,12 +7,12 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from scaffold.model.python.values import UNKNOWN, Unknown
+from scaffold.model.python.evaluation.values import UNKNOWN, Unknown
 from scaffold.record import NamedTuple
 
 if TYPE_CHECKING:
     from scaffold.model.python.module import PythonModule
-    from scaffold.model.rclpy.evaluator import NodeEvaluator
+    from scaffold.model.rclpy.evaluation.evaluator import NodeEvaluator
 
     _Declaration = tuple[object, ast.expr | None]
 

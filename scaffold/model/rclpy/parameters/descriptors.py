@@ -6,11 +6,11 @@ import ast
 import math
 from typing import TYPE_CHECKING
 
-from scaffold.model.python.values import is_none_literal
+from scaffold.model.python.evaluation.values import is_none_literal
 from scaffold.record import NamedTuple
 
 if TYPE_CHECKING:
-    from scaffold.model.python.attributes import AttributeEvaluator as Evaluator
+    from scaffold.model.python.evaluation.attributes import AttributeEvaluator as Evaluator
     from scaffold.model.python.scopes import Binding
 
 DESCRIPTOR = "rcl_interfaces.msg.ParameterDescriptor"

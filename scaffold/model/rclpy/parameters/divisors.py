@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from typing import TYPE_CHECKING
 
-from scaffold.model.python.guards import is_handled
+from scaffold.model.python.conditions.guards import is_handled
 
 if TYPE_CHECKING:
     from scaffold.model.rclpy.file import RclpyFile

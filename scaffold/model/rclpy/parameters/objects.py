@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
-from scaffold.model.python.given_arguments import arguments_for
+from scaffold.model.python.evaluation.given_arguments import arguments_for
 from scaffold.model.rclpy.entities import parameter_type
 from scaffold.model.rclpy.per_file import per_file
 from scaffold.record import NamedTuple

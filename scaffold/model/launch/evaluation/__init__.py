@@ -1,0 +1,1 @@
+"""Static evaluation of launch files: conditions, configurations and paths."""

@@ -1,0 +1,1 @@
+"""What launch files start: nodes, programs, their parameters and remappings."""

@@ -1,0 +1,1 @@
+"""What launch files do not use, and where else it is named."""

@@ -1,0 +1,1 @@
+"""Whether code runs: branches of distributions, guards, handlers and skips."""

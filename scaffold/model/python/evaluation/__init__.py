@@ -1,0 +1,1 @@
+"""Static evaluation of Python expressions: values, attributes, arguments and returns."""

@@ -1,0 +1,1 @@
+"""Static evaluation of node code: attributes, constants and arrays."""

@@ -1,0 +1,1 @@
+"""How nodes run: spins, callbacks, shutdown, and code that nothing calls."""

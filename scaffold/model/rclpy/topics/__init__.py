@@ -1,0 +1,1 @@
+"""Names of topics, QoS profiles, latched topics and transforms."""
