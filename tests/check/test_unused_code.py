@@ -29,6 +29,7 @@ setup(name='talker', version='0.1.0', packages=find_packages(exclude=['test']))
 CONSOLE_SCRIPT = SETUP.replace(
     ", packages", ", entry_points={'console_scripts': ['talk = talker.node:main']}, packages"
 )
+TESTED = SETUP.replace(", packages", ", tests_require=['pytest'], packages")
 MISTAKE = "from std_msgs.msg import String\n\nString().text\n"
 UNDEFINED = "print(undefined)\n"
 NODE = """import rclpy
@@ -612,6 +613,34 @@ def test_parameter_file_named_elsewhere(
     assert severities(capsys, "PF007") == {"params/talk.yaml": severity}
 
 
+@pytest.mark.parametrize(
+    ("severity", "own", "text"),
+    [
+        ("error", "params/other.yaml", ""),
+        ("warning", "params/talk.yaml", ""),
+        ("warning", "params/talk.yaml", "# talker\n"),
+        ("error", "params/talk.yaml", "share = 'talker'\n"),
+    ],
+)
+def test_parameter_file_with_the_name_of_one_in_another_package(
+    package: Path,
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+    severity: str,
+    own: str,
+    text: str,
+) -> None:
+    write(package / "params" / "talk.yaml", "talk:\n  ros__parameters:\n    rate:\n")
+    other = package.parent / "other"
+    write(other / "package.xml", MANIFEST.format("").replace("talker", "other"))
+    write(other / own, "")
+    launch = LAUNCH.format("'params/talk.yaml'").replace("talker", "other")
+    write(other / "launch" / "talk.launch.py", launch + text)
+    write(other / "launch" / "all.launch.py", LAUNCH.format("'a.yaml'"))
+    monkeypatch.chdir(package.parent)
+    assert severities(capsys, "PF007")["talker/params/talk.yaml"] == severity
+
+
 def test_robot_that_is_not_launched(package: Path, capsys: pytest.CaptureFixture[str]) -> None:
     mesh = "<mesh filename='package://talker/arm.stl'/>"
     link = f"<link name='arm'><visual><geometry>{mesh}</geometry></visual></link>"
@@ -982,6 +1011,7 @@ def test_file_for_ros_1(package: Path, capsys: pytest.CaptureFixture[str]) -> No
 def test_dependency_of_test_helper(
     package: Path, capsys: pytest.CaptureFixture[str], severity: str, path: str, text: str
 ) -> None:
+    write(package / "setup.py", TESTED)
     write(package / "test" / "__init__.py", "")
     write(package / "test" / "helper.py", "import cv2\n")
     write(package / path, text)
@@ -989,6 +1019,7 @@ def test_dependency_of_test_helper(
 
 
 def test_dependency_of_conftest(package: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    write(package / "setup.py", TESTED)
     write(package / "test" / "conftest.py", "import cv2\n")
     assert severities(capsys, "PX020") == {"test/conftest.py": "warning"}
     write(package / "test" / "test_talk.py", "def test_talk():\n    pass\n")

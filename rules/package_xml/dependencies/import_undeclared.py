@@ -24,6 +24,7 @@ from scaffold.api.manifest import (
 )
 from scaffold.api.python import rospack_lookups
 from scaffold.api.setup_py import lacks_pytest
+from scaffold.api.tests import test_modules
 
 from ._debian import key_of_debian
 
@@ -650,7 +651,7 @@ class ImportUndeclared(Rule):
             comes_otherwise = comes_otherwise or (is_built and not need.for_tests)
             comes_otherwise = comes_otherwise or dependencies.may_use(package, need.keys[0])
             comes_otherwise = comes_otherwise or is_installed_to_build(package, need.keys)
-            is_unrun = need.for_tests and _is_unrun(package, need.location.path)
+            is_unrun = need.for_tests and _runs_no_test(package)
             severity = Severity.WARNING if comes_otherwise or is_unrun else Severity.ERROR
             purposes = ("run", "test") if need.for_tests else ("run",)
             other = manifest.left_out(need.keys, *purposes)
@@ -704,9 +705,9 @@ def _comes_with_launch(need: requirements.Requirement) -> bool:
     return key in _LAUNCH or (need.for_launch and key in transitive_dependencies({"ros2launch"}))
 
 
-def _is_unrun(package: Package, path: str) -> bool:
-    """Return whether colcon runs no test of a file, because setup.py does not declare pytest."""
-    return lacks_pytest(package) and not package.module(path).classes
+def _runs_no_test(package: Package) -> bool:
+    """Return whether colcon runs no test, because setup.py does not declare pytest."""
+    return lacks_pytest(package) and not any(file.classes for file in test_modules(package))
 
 
 def _is_required(package: Package, module: str) -> bool:
