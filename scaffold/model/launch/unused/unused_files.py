@@ -41,7 +41,8 @@ _MARKUP = (".py", ".xml", ".yaml", ".yml")
 def is_left_alone(package: Package, path: str) -> bool:
     """Return whether launch files are about a package, and nothing that is used names a file.
 
-    A launch file that computes names may name any that fits.
+    A launch file that computes names may name any that fits; one of another package with a file of
+    that name means that one.
     """
     return package.remember(
         ("left alone", path), lambda: _is_left_alone(package, path, frozenset())
@@ -60,10 +61,13 @@ def _is_left_alone(package: Package, path: str, seen: frozenset[tuple[str, str]]
         if user is not package and not any(_encoded(package.name) in x for x in texts.values()):
             continue
         is_launched = is_launched or any(map(_is_launch_file, texts))
+        has_own = any(item.endswith(f"/{name}") for item in user.files)
         for file, text in texts.items():
             if (user.name, file) in seen:
                 continue
             is_about = user is package or _encoded(package.name) in text
+            if not is_about and has_own:
+                continue
             if is_about and _is_computed_in(text, name):
                 return False
             if whole.search(text) and not _is_unused_in(user, file, name, seen):
