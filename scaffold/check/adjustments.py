@@ -19,6 +19,7 @@ from scaffold.model.install.reach import is_never_run, is_unreached
 from scaffold.model.install.unused import is_apart, is_copy_of_old_code
 from scaffold.model.launch.unused.unlaunched import is_in_unlaunched_action
 from scaffold.model.launch.unused.unused_files import is_left_alone
+from scaffold.model.messages.sent import sends_nothing
 from scaffold.model.package import Package
 from scaffold.model.python.conditions.guards import all_conditions, is_unevaluated
 from scaffold.model.python.module import PythonModule
@@ -46,6 +47,10 @@ _OF_TESTS = frozenset({"LY020", "LY021", "PX050"})
 """Codes that are errors only if a test of the package checks the file."""
 _QUOTED = lazy_re.compile(r"'([^']+)'")
 _UNDEFINED = "F821"
+_OF_FIELDS = "MS006"
+"""The code of values in fields of messages."""
+_UNSENT = "it cannot be published"
+"""The end of what the type checker reports about fields of messages."""
 _OF_CALLS = "never call"
 """Part of messages about code that is not called, but should be."""
 _OF_FORMATS = ("F50", "F52")
@@ -166,6 +171,7 @@ def _is_unreached(package: Package, diagnostic: Diagnostic) -> bool:
         return is_apart(package, path) and is_unreached(package, path)
     return code.startswith((*_OF_LINTERS, *_OF_PROGRAMS)) and (
         is_unreached(package, path)
+        or _is_of_container(package, diagnostic)
         or _is_uncalled(package, diagnostic)
         or _is_hardly_reached(package, diagnostic)
     )
@@ -222,6 +228,16 @@ def _is_needed_by_unused_code(package: Package, undeclared: Diagnostic) -> bool:
 def _is_unused_import(package: Package, at: Location) -> bool:
     """Return whether an import is in a file that is never run, or in code that is not reached."""
     return is_never_run(package, at.path) or _is_dead_or_uncalled(package, at)
+
+
+def _is_of_container(package: Package, diagnostic: Diagnostic) -> bool:
+    """Return whether a message has a wrong field in a package that sends none."""
+    if diagnostic.code != _OF_FIELDS and not diagnostic.message.endswith(_UNSENT):
+        return False
+    try:
+        return sends_nothing(package)
+    except ViewError:
+        return False
 
 
 def _is_uncalled(package: Package, diagnostic: Diagnostic) -> bool:

@@ -641,6 +641,23 @@ def test_parameter_file_with_the_name_of_one_in_another_package(
     assert severities(capsys, "PF007")["talker/params/talk.yaml"] == severity
 
 
+@pytest.mark.parametrize(
+    ("severity", "used"),
+    [
+        ("warning", "print(wrench())"),
+        ("error", "node.publish(wrench())"),
+        ("error", "node.call_async(wrench())"),
+    ],
+)
+def test_message_of_a_package_that_sends_none(
+    package: Path, capsys: pytest.CaptureFixture[str], severity: str, used: str
+) -> None:
+    write(package / "setup.py", CONSOLE_SCRIPT)
+    code = "from geometry_msgs.msg import Vector3\n\n\ndef wrench():\n    return Vector3(x=1)\n"
+    write(package / "talker" / "node.py", f"{code}\n\ndef main(node):\n    {used}\n")
+    assert severities(capsys, "MS006") == {"talker/node.py": severity}
+
+
 def test_robot_that_is_not_launched(package: Path, capsys: pytest.CaptureFixture[str]) -> None:
     mesh = "<mesh filename='package://talker/arm.stl'/>"
     link = f"<link name='arm'><visual><geometry>{mesh}</geometry></visual></link>"
