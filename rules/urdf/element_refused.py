@@ -4,7 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 
-from scaffold.api import Diagnostic, Example, Package, Rule, ViewError, closest_name
+from scaffold.api import (
+    Diagnostic,
+    Example,
+    Package,
+    Report,
+    Rule,
+    Severity,
+    ViewError,
+    closest_name,
+)
 from scaffold.api.formats import Element
 from scaffold.api.robot import Part, is_known, robot_file, robot_paths, robots, urdf_parts
 
@@ -102,6 +111,7 @@ class ElementRefused(Rule):
 
     code = "UR010"
     name = "element-refused"
+    other_severities = {Severity.WARNING: "a color has an invalid value, and is dropped"}
     examples = (
         Example(
             "SRDF macro for MoveIt with <joint> elements",
@@ -216,6 +226,24 @@ class ElementRefused(Rule):
             },
         ),
         Example(
+            "color without alpha, material after the shape",
+            {
+                "robot.urdf": _ROBOT_VALUES.format(
+                    'sphere radius="0.1"', "continuous", "0 0 0"
+                ).replace(
+                    "</geometry>",
+                    '<material name="grey"/></geometry>\n'
+                    '      <material name="grey"><color rgba="0.8 0.8 0.8"/></material>',
+                )
+            },
+            Report(
+                "6:42",
+                "rgba is '0.8 0.8 0.8', but must be 4 numbers with spaces between: "
+                "urdfdom drops the color",
+                severity=Severity.WARNING,
+            ),
+        ),
+        Example(
             "misspelled joint type, joint type of Gazebo",
             {
                 "a.urdf": _ROBOT_VALUES.format('sphere radius="0.1"', "continous", "0 0 0"),
@@ -306,7 +334,7 @@ class ElementRefused(Rule):
                 hint = f"did you mean {closest!r}?" if closest else f"known: {', '.join(_TYPES)}"
                 message = f"unknown joint type {type_!r}: urdfdom rejects the whole file; {hint}"
                 yield self.report(part.at("type"), message)
-            if holder == "geometry" and part.tag not in _SHAPES and ":" not in part.tag:
+            if holder == "geometry" and part.tag not in _SHAPES and _is_shape(part):
                 message = (
                     f"unknown shape <{part.tag}>: urdfdom rejects the whole file; "
                     "known: box, cylinder, sphere, mesh"
@@ -316,11 +344,12 @@ class ElementRefused(Rule):
                 count = _COUNTS.get((part.tag, name)) if _is_read(part) else None
                 if count and is_known(value) and not _has_numbers(value, count):
                     numbers = "a number" if count == 1 else f"{count} numbers with spaces between"
-                    message = (
-                        f"{name} is {value!r}, but must be {numbers}: urdfdom rejects the whole "
-                        "file"
-                    )
-                    yield self.report(part.at(name), message)
+                    effect = "urdfdom rejects the whole file"
+                    if name == "rgba":
+                        effect = "urdfdom drops the color"
+                    message = f"{name} is {value!r}, but must be {numbers}: {effect}"
+                    severity = Severity.WARNING if name == "rgba" else None
+                    yield self.report(part.at(name), message, severity=severity)
 
 
 def _or_list(names: Sequence[str]) -> str:
@@ -345,6 +374,12 @@ def _is_skipped(part: Part) -> bool:
         return False
     alike = [child for child in part.holder.element.children if child.tag == part.tag]
     return any(child is part.element for child in alike[1:])
+
+
+def _is_shape(part: Part) -> bool:
+    """Return whether urdfdom reads a part of a geometry: the first one."""
+    children = part.holder.element.children if part.holder is not None else []
+    return ":" not in part.tag and part.element in children[:1]
 
 
 def _is_read(part: Part) -> bool:
