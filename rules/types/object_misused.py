@@ -89,6 +89,23 @@ class ObjectMisused(TypeRule):
                 "        return high - low\n"
             },
         ),
+        Example(
+            "entries of different types in the dictionaries of another method",
+            {
+                "watch.py": "from rclpy.node import Node\n\n\n"
+                "class Watch(Node):\n"
+                "    def __init__(self):\n"
+                "        super().__init__('watch')\n"
+                "        self.seen = {}\n\n"
+                "    def add(self, name, x, y):\n"
+                "        now = self.get_clock().now()\n"
+                "        self.seen[name] = {'position': (x, y), 'size': 1, 'time': now}\n\n"
+                "    def places(self):\n"
+                "        for name, item in self.seen.items():\n"
+                "            x, y = item['position']\n"
+                "            print(name, x, y)\n"
+            },
+        ),
         Example("access to a field", {"height.py": _NODE.format("point.z")}),
         Example(
             "parameters converted by a function of another package",
@@ -272,6 +289,9 @@ class ObjectMisused(TypeRule):
             return None
         if finding.kind == "not-callable" and _is_replaced(finding):
             return None  # a call before the replacement calls the method
+        match finding.expression():
+            case ast.Subscript(slice=ast.Constant(value=str())):
+                return None  # the type may be that of another key
         type_ = matched["type"]
         if type_ in _NUMBERS:
             return self._judge_number(finding, type_)
