@@ -73,6 +73,16 @@ class WaitsUnspun(Rule):
             "in this call",
         ),
         Example(
+            "a rate, after a function that loops until rclpy is shut down",
+            {
+                **_FILES,
+                "demo/talker.py": "import rclpy\n\n\n"
+                "def work():\n    while rclpy.ok():\n        print('work')\n\n\n"
+                "def main():\n    rclpy.init()\n    node = rclpy.create_node('talker')\n"
+                "    rate = node.create_rate(2)\n    work()\n    rate.sleep()\n",
+            },
+        ),
+        Example(
             "a rate, and a thread that does not spin",
             {
                 **_FILES,

@@ -15,6 +15,7 @@ from scaffold.model.programs.threads import (
     spins_elsewhere,
     spins_in_one_thread,
 )
+from scaffold.model.python.evaluation.returns import may_end
 from scaffold.model.rclpy.entities import (
     ActionClient,
     ActionServer,
@@ -259,8 +260,29 @@ def _waits(run: Execution, method: str) -> Iterator[_Wait]:
     for call in calls:
         if isinstance(call, ast.Call):
             where = places.get(file.function_of(call) or file.module)
-            if where is not None or call in run.calls:
+            is_reached = where is not None or call in run.calls
+            if is_reached and not _is_after_loop(file, call):
                 yield _Wait(call, where or _BLOCKED, where not in {None, _BLOCKED})
+
+
+def _is_after_loop(file: RclpyFile, call: ast.Call) -> bool:
+    """Return whether a function called before loops until rclpy is shut down; none waits then."""
+    function = file.module.enclosing_function(call)
+    calls = file.module.below(function, ast.Call) if function is not None else ()
+    return any(
+        isinstance(other.func, ast.Attribute | ast.Name)
+        and other.lineno < call.lineno
+        and _never_ends(file, other.func)
+        for other in calls
+    )
+
+
+def _never_ends(file: RclpyFile, func: ast.Attribute | ast.Name) -> bool:
+    name = func.attr if isinstance(func, ast.Attribute) else func.id
+    functions = [node for node in file.module.walk(ast.FunctionDef) if node.name == name]
+    if len(functions) != 1 or may_end(functions[0]):
+        return False
+    return not any(file.module.below(functions[0], ast.Return, ast.Raise))
 
 
 def _places(run: Execution) -> dict[object, str]:
