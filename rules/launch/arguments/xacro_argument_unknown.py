@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import itertools
 import re
 from collections.abc import Iterator
 
@@ -56,6 +57,19 @@ class XacroArgumentUnknown(LaunchRule):
             },
         ),
         Example(
+            "another file as the value of an argument",
+            {
+                "package.xml": "<package><name>demo</name></package>\n",
+                "urdf/wheels.xacro": _ROBOT.format("").replace(' name="robot"', "", 1),
+                "launch/a.launch.py": _LAUNCH.format("use_arm")
+                .replace("    model", "    wheels")
+                .replace("robot.xacro", "wheels.xacro")
+                .replace(
+                    "'xacro ', model,", "'xacro ', '/other/robot.xacro', ' wheels:=', wheels,"
+                ),
+            },
+        ),
+        Example(
             "an include of another package",
             {
                 "package.xml": "<package><name>demo</name></package>\n",
@@ -105,7 +119,12 @@ def _is_xacro(parts: ast.List) -> bool:
 
 def _robot(package: Package, launch: LaunchFile, parts: ast.List) -> Expansion | None:
     """Return the only robot of the package whose file a command names."""
-    texts = [launch.evaluator.joined_text(part) for part in parts.elts]
+    values = {
+        value
+        for before, value in itertools.pairwise(parts.elts)
+        if isinstance(before, ast.Constant) and str(before.value).endswith(":=")
+    }
+    texts = [launch.evaluator.joined_text(part) for part in parts.elts if part not in values]
     names = {
         text.rpartition("/")[2]
         for text in texts

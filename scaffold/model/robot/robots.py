@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from contextlib import suppress
 from typing import TYPE_CHECKING
 
 from scaffold import lazy_re
@@ -91,13 +92,29 @@ def _robots(package: Package) -> Robots:
 
 
 def is_launched(package: Package, path: str) -> bool:
-    """Return whether a launch file of a package mentions a file."""
-    return _mentioned_by_launch(package, path.rpartition("/")[2])
+    """Return whether a launch file of a package mentions a file, not only as an argument's value.
+
+    Xacro includes such a file from another one: ``['xacro ', robot, ' wheels:=', wheels]``.
+    """
+    name = path.rpartition("/")[2]
+    return _mentioned_by_launch(package, name) and not _is_given(package, name)
 
 
 def is_argument_given(package: Package, name: str) -> bool:
     """Return whether a launch file of a package, or its configuration, may pass an argument."""
     return _mentioned_by_launch(package, name, (".yaml", ".yml"))
+
+
+def _is_given(package: Package, name: str) -> bool:
+    """Return whether a launch file passes a variable with a path to xacro as an argument."""
+    for path in package.files:
+        with suppress(ViewError):
+            if path.endswith("launch.py") and mentions(package, path, name, ":="):
+                text = package.source(path).text
+                named = re.findall(rf"(\w+)\s*=[^=\n][^\n]*{re.escape(name)}", text)
+                if any(re.search(rf":=[\"'],\s*{variable}\b", text) for variable in named):
+                    return True
+    return False
 
 
 def _mentioned_by_launch(package: Package, word: str, others: tuple[str, ...] = ()) -> bool:
