@@ -289,13 +289,10 @@ class ObjectMisused(TypeRule):
             return None
         if finding.kind == "not-callable" and _is_replaced(finding):
             return None  # a call before the replacement calls the method
-        match finding.expression():
-            case ast.Subscript(slice=ast.Constant(value=str())):
-                return None  # the type may be that of another key
         type_ = matched["type"]
         if type_ in _NUMBERS:
             return self._judge_number(finding, type_)
-        is_known = class_in(type_) and is_certain(type_)
+        is_known = class_in(type_) and is_certain(type_) and not _is_entry(finding)
         if not is_known and not (is_function(type_) and finding.kind != "not-callable"):
             return None
         message = f"{in_words(type_)} {_DOES[finding.kind]}: TypeError"
@@ -360,6 +357,14 @@ def _is_of_table(finding: TypeFinding) -> bool:
 
 def _has_key(node: ast.expr) -> bool:
     return isinstance(node, ast.Subscript) and isinstance(node.slice, ast.Constant | ast.Name)
+
+
+def _is_entry(finding: TypeFinding) -> bool:
+    """Return whether the object is looked up by a text; its type may be that of another key."""
+    match finding.expression():
+        case ast.Subscript(slice=ast.Constant(value=str())):
+            return True
+    return False
 
 
 def _mentions(node: ast.expr, name: str) -> bool:
