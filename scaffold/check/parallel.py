@@ -14,6 +14,7 @@ from scaffold.check.cache import worker_reads
 from scaffold.diagnostic import Diagnostic
 from scaffold.files.disk import size
 from scaffold.model.package import Package
+from scaffold.programs.termination import SIGNALS, leave_to_default
 from scaffold.record import NamedTuple
 
 if TYPE_CHECKING:
@@ -223,7 +224,7 @@ def _start_pool(workers: int) -> Iterator[Pool]:
 
     gc.freeze()  # so that workers only collect their own objects
     with _no_interruption():
-        pool = multiprocessing.get_context("fork").Pool(workers)
+        pool = multiprocessing.get_context("fork").Pool(workers, leave_to_default)
     try:
         yield pool
     finally:
@@ -234,7 +235,7 @@ def _start_pool(workers: int) -> Iterator[Pool]:
 
 @contextmanager
 def _no_interruption() -> Iterator[None]:
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT, *SIGNALS})
     try:
         yield
     finally:

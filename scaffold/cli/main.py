@@ -72,8 +72,9 @@ def _run(given: list[str]) -> int:
     from importlib import import_module
 
     from scaffold.cli.parser import build_parser
+    from scaffold.programs.termination import cleaned_up
 
-    with _rules_ahead(verb, given) as process:
+    with cleaned_up(), _rules_ahead(verb, given) as process:
         parser = build_parser(verb, comes_first=given[:1] == [verb], words=given)
         options = parser.parse_args(given)
         options.entry = entry

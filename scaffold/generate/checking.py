@@ -223,7 +223,10 @@ def _serve_request(requests: int, back: int) -> NoReturn:
         import pickle
         import signal
 
+        from scaffold.programs.termination import leave_to_default
+
         signal.signal(signal.SIGINT, signal.SIG_IGN)  # the first process reports the interruption
+        leave_to_default()
         with open(requests, "rb") as source, open(back, "wb") as sink:
             session = _session(_built_in())
             _prepare()
