@@ -10,6 +10,7 @@ from functools import lru_cache
 from scaffold import distributions
 from scaffold.ament.files import broken_links, lintable
 from scaffold.configuration import content
+from scaffold.distributions import DATA
 from scaffold.files.disk import LargeFileError
 from scaffold.model.facts import fact
 from scaffold.model.package import Package
@@ -20,7 +21,7 @@ EXTENSIONS = frozenset({".c", ".cc", ".cpp", ".cxx", ".h", ".hh", ".hpp", ".hxx"
 CONTRIBUTING = "CONTRIBUTING.md"
 REPOSITORY_FILES = (CONTRIBUTING, "LICENSE")
 
-_DATA = os.path.join(os.path.dirname(os.path.dirname(__file__)), "data", "licenses.tsv")
+_LICENSES = os.path.join(DATA, "licenses.tsv")
 _YEARS = r"\d{4}(?:-\d{4})?(?:,\s*\d{4}(?:-\d{4})?)*"
 _NOTICE = rf"Copyright(?:\s+\(c\))?\s+({_YEARS}),?\s+([^\n]+)$"
 _NEAR = 12  # common words from which a header is a variant of a known one
@@ -264,7 +265,7 @@ def _known_texts(kind: str) -> tuple[KnownText, ...]:
 def known_texts() -> dict[str, list[KnownText]]:
     """Return the known texts of ament_copyright by kind: ``header``, or the name of a file."""
     result: dict[str, list[KnownText]] = {}
-    with open(_DATA, encoding="utf-8") as file:
+    with open(_LICENSES, encoding="utf-8") as file:
         for line in file:
             kind, license_, *sections = line.rstrip("\n").split("\t")
             result.setdefault(kind, []).append(KnownText(license_, tuple(sections)))

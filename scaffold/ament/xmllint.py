@@ -15,6 +15,7 @@ from xml.parsers import expat
 
 from scaffold.ament import xml_validate
 from scaffold.ament.files import broken_links, lintable
+from scaffold.distributions import DATA
 from scaffold.files.disk import LargeFileError
 from scaffold.model.package import Package
 from scaffold.record import NamedTuple
@@ -316,9 +317,6 @@ def _first_line(message: str) -> str:
     return message.partition("\n")[0].rstrip(". ")
 
 
-_DATA = os.path.join(os.path.dirname(os.path.dirname(__file__)), "data")
-
-
 def violations(data: bytes, number: int) -> list[tuple[int, str]]:
     """Return the lines of a manifest rejected by the schema of a format, with messages of libxml2.
 
@@ -348,4 +346,4 @@ def _schema(number: int) -> etree.RelaxNG:
 
     if number not in {1, 2, 3}:
         raise ValueError(f"package.xml has no format {number}")
-    return etree.RelaxNG(file=os.path.join(_DATA, f"manifest_format{number}.rng"))
+    return etree.RelaxNG(file=os.path.join(DATA, f"manifest_format{number}.rng"))

@@ -21,6 +21,7 @@ from scaffold.ament.codes.code import (
 )
 from scaffold.ament.finding import FLAKE8, PEP257
 from scaffold.diagnostic import Diagnostic, Severity
+from scaffold.distributions import DATA
 from scaffold.edits import Fix, Safety
 from scaffold.source import Location
 
@@ -35,9 +36,7 @@ __all__ = [
     "diagnostic",
 ]
 
-_STYLE_FILE = os.path.join(
-    os.path.dirname(os.path.dirname(os.path.dirname(__file__))), "data", "style_codes.txt"
-)
+_STYLE_FILE = os.path.join(DATA, "style_codes.txt")
 _STYLE_LINTERS = {"flake8": FLAKE8, "pep257": PEP257, "both": BOTH}
 
 

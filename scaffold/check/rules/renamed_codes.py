@@ -5,9 +5,9 @@ from __future__ import annotations
 import os
 from functools import cache
 
-_FILE = os.path.join(
-    os.path.dirname(os.path.dirname(os.path.dirname(__file__))), "data", "renamed_codes.txt"
-)
+from scaffold.distributions import DATA
+
+_FILE = os.path.join(DATA, "renamed_codes.txt")
 
 
 @cache

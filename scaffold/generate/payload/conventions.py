@@ -6,12 +6,11 @@ import os
 from collections.abc import Mapping
 from functools import cache
 
+from scaffold.distributions import DATA
 from scaffold.generate.questions.names import header_name
 from scaffold.record import NamedTuple
 
-_TABLE = os.path.join(
-    os.path.dirname(os.path.dirname(os.path.dirname(__file__))), "data", "conventions.tsv"
-)
+_TABLE = os.path.join(DATA, "conventions.tsv")
 _OF_ONE_TOPIC = "* "
 """The prefix of types whose convention only applies to a topic with this name."""
 _VALUES = "std_msgs"

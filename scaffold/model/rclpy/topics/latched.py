@@ -6,11 +6,9 @@ import os
 from collections.abc import Mapping
 from functools import cache
 
-_TABLE = os.path.join(
-    os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))),
-    "data",
-    "conventions.tsv",
-)
+from scaffold.distributions import DATA
+
+_TABLE = os.path.join(DATA, "conventions.tsv")
 _LATCHED = ("latched", "transient_local")
 
 
