@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import os
 import re
+import shutil
 import signal
 import subprocess
 import sys
@@ -261,7 +262,7 @@ sys.meta_path.insert(0, Finder())
 
 
 def run_with_signal(
-    at: str, number: signal.Signals, where: Path
+    at: str, number: signal.Signals, where: Path, **variables: str
 ) -> subprocess.CompletedProcess[str]:
     (where / "sitecustomize.py").write_text(SIGNALS_ITSELF)
     return subprocess.run(
@@ -272,6 +273,7 @@ def run_with_signal(
             "PYTHONPATH": os.pathsep.join([str(where / "."), str(ROOT)]),
             "AT_MODULE": at,
             "SIGNAL": str(int(number)),
+            **variables,
         },
         check=False,
         capture_output=True,
@@ -304,6 +306,21 @@ def test_other_signals_end_the_run_silently(number: signal.Signals, tmp_path: Pa
     run = run_with_signal(IMPORTED[0], number, tmp_path)
 
     assert (run.returncode, run.stdout, run.stderr) == (-number, "", "")
+
+
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGHUP])
+def test_other_signals_leave_no_temporary_files(
+    number: signal.Signals, package: Path, tmp_path: Path
+) -> None:
+    scratch = tmp_path / "scratch"
+    scratch.mkdir()
+    shutil.copytree(package, tmp_path / "talker")
+
+    # The type checker has its files by then.
+    run = run_with_signal("scaffold.ament.xmllint", number, tmp_path, TMPDIR=str(scratch))
+
+    assert (run.returncode, run.stdout, run.stderr) == (-number, "", "")
+    assert [*scratch.iterdir()] == []
 
 
 INTERRUPTING_RULE = """
