@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
@@ -47,18 +47,28 @@ def home(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
         yield empty
 
 
-@pytest.fixture
-def own_cache(tmp_path: Path, home: str) -> Path:
-    """Return a directory for ``XDG_CACHE_HOME`` without results.
+@pytest.fixture(scope="session")
+def new_cache(tmp_path_factory: pytest.TempPathFactory, home: str) -> Callable[[], Path]:
+    """Return a function that makes a directory for ``XDG_CACHE_HOME`` without results.
 
     The tests of a session share the stubs and the bytecode of the rules, which take half a second
     to write.
     """
-    directory = tmp_path / "cache"
-    kept = directory / "ros2-scaffold"
-    kept.mkdir(parents=True)
-    for kind in ("rules", "stubs"):
-        shared = Path(home) / "shared" / kind
-        shared.mkdir(parents=True, exist_ok=True)
-        (kept / kind).symlink_to(shared)
-    return directory
+
+    def make() -> Path:
+        directory = tmp_path_factory.mktemp("cache")
+        kept = directory / "ros2-scaffold"
+        kept.mkdir()
+        for kind in ("rules", "stubs"):
+            shared = Path(home) / "shared" / kind
+            shared.mkdir(parents=True, exist_ok=True)
+            (kept / kind).symlink_to(shared)
+        return directory
+
+    return make
+
+
+@pytest.fixture
+def own_cache(new_cache: Callable[[], Path]) -> Path:
+    """Return a directory for ``XDG_CACHE_HOME`` without results."""
+    return new_cache()

@@ -122,6 +122,12 @@ YAML_LAUGHS = b"a0: &a0 [ha]\n" + b"".join(
 )
 
 
+@pytest.fixture(autouse=True)
+def _no_results(own_cache: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Start each test without results of others."""
+    monkeypatch.setenv("XDG_CACHE_HOME", str(own_cache))
+
+
 def _package(directory: Path, files: dict[str, bytes]) -> Path:
     """Write a package and return its directory."""
     given = {
@@ -143,7 +149,7 @@ def _run(*arguments: str | os.PathLike[str]) -> subprocess.CompletedProcess[byte
 
     done = subprocess.run(
         [sys.executable, "-m", "scaffold", "check", *arguments],
-        env={**os.environ, "SCAFFOLD_NO_CACHE": "1", "SCAFFOLD_DEBUG": "1"},
+        env={**os.environ, "SCAFFOLD_DEBUG": "1"},
         check=False,
         stdin=subprocess.DEVNULL,
         capture_output=True,

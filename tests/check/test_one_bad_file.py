@@ -42,6 +42,12 @@ MEMORY = 600_000_000
 """Bytes of addresses for a process, which has some hundred megabytes of them from the start."""
 
 
+@pytest.fixture(autouse=True)
+def _no_results(own_cache: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Start each test without results of others."""
+    monkeypatch.setenv("XDG_CACHE_HOME", str(own_cache))
+
+
 def _write(directory: Path, files: dict[str, str]) -> Path:
     """Write a package and return its directory."""
     for path, text in {"package.xml": MANIFEST.format(name=directory.name), **files}.items():
@@ -56,7 +62,7 @@ def _run(*arguments: str | os.PathLike[str]) -> subprocess.CompletedProcess[str]
 
     return subprocess.run(
         [sys.executable, "-m", "scaffold", "check", *arguments],
-        env={**os.environ, "SCAFFOLD_NO_CACHE": "1", "SCAFFOLD_DEBUG": "1"},
+        env={**os.environ, "SCAFFOLD_DEBUG": "1"},
         check=False,
         stdin=subprocess.DEVNULL,
         capture_output=True,

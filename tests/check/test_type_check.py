@@ -59,10 +59,13 @@ Check = Callable[..., list[str]]
 
 @pytest.fixture
 def check(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    own_cache: Path,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
 ) -> Check:
     """Return a function that checks types and returns file, line and code of the findings."""
-    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    monkeypatch.setenv("XDG_CACHE_HOME", str(own_cache))
     monkeypatch.delenv(cache.SWITCH, raising=False)
     monkeypatch.delenv("AMENT_PREFIX_PATH", raising=False)
     (tmp_path / "src").mkdir()
@@ -431,8 +434,14 @@ def test_edit_keeps_type_findings_of_other_files(
 
 @pytest.mark.parametrize("damage", ["clean", "edit", "remove"])
 def test_damaged_stubs_are_written_again(
-    check: Check, source: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], damage: str
+    check: Check,
+    source: Path,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+    damage: str,
 ) -> None:
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))  # not shared with other tests
     make_package(source, "talker", {"talker/talk.py": NODE})
     assert check("talker") == [f"talker/{FOUND}"]
     (stub,) = (tmp_path / "cache").rglob("rclpy/node.pyi")

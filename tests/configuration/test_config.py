@@ -33,10 +33,12 @@ def generated(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.fixture
-def workspace(generated: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+def workspace(
+    own_cache: Path, generated: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> Path:
     """Return the current directory, with two packages without findings."""
     monkeypatch.setenv("XDG_CONFIG_HOME", str(tmp_path / "config"))
-    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    monkeypatch.setenv("XDG_CACHE_HOME", str(own_cache))
     top = tmp_path / "workspace"
     shutil.copytree(generated, top)
     monkeypatch.chdir(top)
@@ -212,14 +214,14 @@ excluded by ros2-scaffold.toml: 1 package, 1 file
 
 
 def test_change_in_excluded_package_invalidates_the_cache(
-    workspace: Path, capsys: pytest.CaptureFixture[str]
+    own_cache: Path, workspace: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     depend_on(workspace / "listener", "talker")
     (workspace / "ros2-scaffold.toml").write_text('[check]\nexclude = ["talker"]\n')
     before = check(capsys)
     depend_on(workspace / "talker", "listener")
     after = check(capsys)
-    shutil.rmtree(workspace.parent / "cache")
+    shutil.rmtree(own_cache)
     assert check(capsys) == after
     assert (before[0], after[0]) == (0, 1), "the two depend on each other now"
 

@@ -113,11 +113,11 @@ class Repository:
 
 
 @pytest.fixture
-def repository(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Repository:
+def repository(own_cache: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Repository:
     """Return a repository that is the current directory, of a user without configuration."""
     for name, directory in (("HOME", "home"), ("XDG_CONFIG_HOME", "home/config")):
         monkeypatch.setenv(name, str(tmp_path / directory))
-    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "home" / "cache"))
+    monkeypatch.setenv("XDG_CACHE_HOME", str(own_cache))
     for name in (cache.SWITCH, "AMENT_PREFIX_PATH", "SUDO_UID"):
         monkeypatch.delenv(name, raising=False)
     root = tmp_path / "work" / "repository"

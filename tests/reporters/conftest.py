@@ -27,9 +27,9 @@ def main():
 
 
 @pytest.fixture
-def repository(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+def repository(own_cache: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """Return a repository with ``src/talker``; it is the current directory."""
-    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    monkeypatch.setenv("XDG_CACHE_HOME", str(own_cache))
     monkeypatch.delenv("GITHUB_STEP_SUMMARY", raising=False)
     top = tmp_path / "top"
     package = make_package(top / "src", "talker")

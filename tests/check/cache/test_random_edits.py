@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shutil
+from collections import defaultdict
 from collections.abc import Callable
 from pathlib import Path
 from random import Random
@@ -23,9 +24,13 @@ Report = Callable[[str], str]
 
 @pytest.fixture
 def report(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    new_cache: Callable[[], Path],
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
 ) -> Report:
     """Return a function that checks the current directory with a named cache."""
+    caches: defaultdict[str, Path] = defaultdict(new_cache)
     monkeypatch.setenv("XDG_CONFIG_HOME", str(tmp_path / "config"))
     monkeypatch.delenv(cache.SWITCH, raising=False)
     # Somebody may edit the tool while its tests run.
@@ -33,7 +38,7 @@ def report(
     monkeypatch.setattr(runs, "tool", lambda: tool)
 
     def check(name: str) -> str:
-        kept = tmp_path / "caches" / name
+        kept = caches[name]
         monkeypatch.setenv("XDG_CACHE_HOME", str(kept))
         if name == "cold":
             # The style of a file goes by its content alone.

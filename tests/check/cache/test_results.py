@@ -88,9 +88,15 @@ def make_package(root: Path, name: str, dependencies: str = "") -> Path:
 class Runs:
     """Runs `check` in this process and records which packages were really checked."""
 
-    def __init__(self, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    def __init__(
+        self,
+        monkeypatch: pytest.MonkeyPatch,
+        capsys: pytest.CaptureFixture[str],
+        new_cache: Callable[[], Path],
+    ) -> None:
         self.checked: list[str] = []
         self._capsys = capsys
+        self._new_cache = new_cache
         check = Session.check_rules  # the place where the rules run
 
         def watched(session: Session, package: Package, *earlier: Earlier | None) -> object:
@@ -106,6 +112,12 @@ class Runs:
         out, err = self._capsys.readouterr()
         assert err == ""
         return out
+
+    def first(self, *words: str) -> str:
+        """Return the output of `check` that finds no results in its cache."""
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setenv("XDG_CACHE_HOME", str(self._new_cache()))
+            return self(*words)
 
     def settle(self, *words: str) -> str:
         """Check, and make sure that the same run is cached."""
@@ -125,10 +137,12 @@ def source(tmp_path: Path) -> Path:
 def runs(
     tmp_path: Path,
     source: Path,
+    own_cache: Path,
+    new_cache: Callable[[], Path],
     monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],
 ) -> Runs:
-    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    monkeypatch.setenv("XDG_CACHE_HOME", str(own_cache))
     monkeypatch.setenv("XDG_CONFIG_HOME", str(tmp_path / "config"))
     monkeypatch.delenv(cache.SWITCH, raising=False)
     monkeypatch.delenv("AMENT_PREFIX_PATH", raising=False)
@@ -136,7 +150,7 @@ def runs(
     tool = memory.tool()
     monkeypatch.setattr(memory, "tool", lambda: tool)
     monkeypatch.chdir(source)
-    return Runs(monkeypatch, capsys)
+    return Runs(monkeypatch, capsys, new_cache)
 
 
 @pytest.fixture
@@ -259,15 +273,12 @@ CHANGES: list[Callable[[Path], None]] = [
 
 
 @pytest.mark.parametrize("change", CHANGES, ids=lambda change: change.__name__)
-def test_change_is_noticed(
-    runs: Runs, package: Path, monkeypatch: pytest.MonkeyPatch, change: Callable[[Path], None]
-) -> None:
+def test_change_is_noticed(runs: Runs, package: Path, change: Callable[[Path], None]) -> None:
     runs.settle(".")
     change(package)
     reported = runs(".")
     assert runs.checked != []
-    monkeypatch.setenv(cache.SWITCH, "1")
-    assert runs(".") == reported
+    assert runs.first(".") == reported
 
 
 def test_changed_file_mode_is_noticed(runs: Runs, tmp_path: Path) -> None:
@@ -419,7 +430,7 @@ def test_change_in_another_package_is_noticed(runs: Runs, workspace: Path) -> No
 
 @pytest.mark.parametrize("count", [0, 10])
 def test_partial_run_reports_the_same_as_a_full_one(
-    runs: Runs, workspace: Path, monkeypatch: pytest.MonkeyPatch, count: int
+    runs: Runs, workspace: Path, count: int
 ) -> None:
     """With ten more packages, worker processes are used."""
     write_launch(workspace)
@@ -436,15 +447,13 @@ def test_partial_run_reports_the_same_as_a_full_one(
     ):
         change(workspace / item)
         reported = runs(".")
-        with monkeypatch.context() as context:
-            context.setenv(cache.SWITCH, "1")
-            assert runs(".") == reported
+        assert runs.first(".") == reported
         assert runs(".") == reported
 
 
 @pytest.mark.parametrize("count", [0, 10])
 def test_change_in_packages_that_are_not_checked_is_noticed(
-    runs: Runs, workspace: Path, count: int, monkeypatch: pytest.MonkeyPatch
+    runs: Runs, workspace: Path, count: int
 ) -> None:
     """Only some packages are checked; the one that a launch file needs is not."""
     write_launch(workspace)
@@ -454,9 +463,7 @@ def test_change_in_packages_that_are_not_checked_is_noticed(
     for change in (rename_module, new_executable, shutil.rmtree):
         change(workspace / "called")
         reported = runs(*given)
-        with monkeypatch.context() as context:
-            context.setenv(cache.SWITCH, "1")
-            assert runs(*given) == reported
+        assert runs.first(*given) == reported
 
 
 def test_changed_interfaces_of_another_package_are_noticed(runs: Runs, workspace: Path) -> None:
@@ -498,8 +505,7 @@ def test_other_output_formats_use_the_cache(
     runs.settle(str(package))
     shown = runs(str(package), *words)
     assert runs.checked == []
-    monkeypatch.setenv(cache.SWITCH, "1")
-    assert runs(str(package), *words) == shown
+    assert runs.first(str(package), *words) == shown
     assert runs.checked == ["talker"]
 
 
@@ -545,10 +551,10 @@ def test_fixes_are_applied_to_the_current_files(runs: Runs, package: Path) -> No
 
 
 @pytest.fixture
-def results_file(runs: Runs, package: Path, tmp_path: Path) -> Path:
+def results_file(runs: Runs, package: Path, own_cache: Path) -> Path:
     """Return the cache file with the results of a run; another one has its report."""
     runs.settle(str(package))
-    files = (tmp_path / "cache" / "ros2-scaffold" / "runs").iterdir()
+    files = (own_cache / "ros2-scaffold" / "runs").iterdir()
     return max(files, key=lambda file: file.stat().st_size)
 
 
@@ -579,6 +585,7 @@ def test_damaged_cache_file_is_ignored(package: Path, results_file: Path) -> Non
 def test_disabled_cache_is_neither_read_nor_written(
     runs: Runs, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
     monkeypatch.setenv(cache.SWITCH, "1")
     for _ in range(2):
         runs(".")
@@ -587,8 +594,11 @@ def test_disabled_cache_is_neither_read_nor_written(
 
 
 @pytest.mark.usefixtures("package")
-def test_unwritable_cache_is_ignored(runs: Runs, tmp_path: Path) -> None:
+def test_unwritable_cache_is_ignored(
+    runs: Runs, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     (tmp_path / "cache").write_text("a file")
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
     for _ in range(2):
         runs(".")
         assert runs.checked == ["talker"]
@@ -601,7 +611,7 @@ def test_unwritable_cache_is_ignored(runs: Runs, tmp_path: Path) -> None:
 @pytest.mark.usefixtures("package")
 def test_old_runs_are_deleted(
     runs: Runs,
-    tmp_path: Path,
+    own_cache: Path,
     monkeypatch: pytest.MonkeyPatch,
     module: ModuleType,
     limit: str,
@@ -612,7 +622,7 @@ def test_old_runs_are_deleted(
     monkeypatch.setattr(module, limit, value)
     for code in ("PX", "SP", "LY", "NM", "ND"):
         runs(".", "--select", code)
-    directory = tmp_path / "cache" / "ros2-scaffold" / "runs"
+    directory = own_cache / "ros2-scaffold" / "runs"
     assert 1 <= len(list(directory.iterdir())) <= most
     runs(".", "--select", "ND")
     assert runs.checked == []
@@ -967,7 +977,6 @@ ament_package()
 def test_edited_manifest_gives_the_report_of_a_first_run(
     runs: Runs,
     source: Path,
-    monkeypatch: pytest.MonkeyPatch,
     build_type: str,
     path: str,
     old: str,
@@ -987,9 +996,7 @@ def test_edited_manifest_gives_the_report_of_a_first_run(
         runs.settle(".")
         (talker / path).write_text(changed)
         reported = runs(".")
-        with monkeypatch.context() as patch:
-            patch.setenv(cache.SWITCH, "1")
-            assert runs(".") == reported
+        assert runs.first(".") == reported
 
 
 # -- several distributions

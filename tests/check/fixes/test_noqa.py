@@ -38,10 +38,13 @@ def other(
 
 @pytest.fixture
 def talker(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    own_cache: Path,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
 ) -> Path:
     """Return a package with findings in files of all kinds, in the current directory."""
-    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    monkeypatch.setenv("XDG_CACHE_HOME", str(own_cache))
     monkeypatch.chdir(tmp_path)
     assert main(["new", "talker"]) == 0
     root = tmp_path / "talker"
