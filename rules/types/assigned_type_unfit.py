@@ -168,6 +168,39 @@ class AssignedTypeUnfit(TypeRule):
                 "    flag.data = target['is_on']\n"
             },
         ),
+        Example(
+            "method instead of its result, in an array field",
+            {
+                "arm.py": "from rclpy.node import Node\nfrom sensor_msgs.msg import JointState\n\n\n"
+                "class Arm(Node):\n"
+                "    def angles(self):\n"
+                "        return [0.0, 1.0]\n\n"
+                "    def tick(self):\n"
+                "        state = JointState(name=['a', 'b'])\n"
+                "        state.velocity = self.angles()\n"
+                "        state.position = self.angles\n"
+                "        return state\n"
+            },
+            "12:26: 'position' of sensor_msgs.msg.JointState is a list, not the function "
+            "'angles': it cannot be published",
+        ),
+        Example(
+            "constant of a table instead of a message",
+            {
+                "keep.py": "from lifecycle_msgs.msg import State, Transition\n"
+                "from lifecycle_msgs.srv import ChangeState\n\n"
+                "NEXT = {\n"
+                "    State.PRIMARY_STATE_INACTIVE: Transition.TRANSITION_ACTIVATE,\n"
+                "    State.PRIMARY_STATE_UNCONFIGURED: Transition.TRANSITION_CONFIGURE,\n"
+                "}\n\n\n"
+                "def change(state: State):\n"
+                "    request = ChangeState.Request()\n"
+                "    request.transition = NEXT[state.id]\n"
+                "    return request\n"
+            },
+            "12:26: 'transition' of lifecycle_msgs.srv.ChangeState.Request is a "
+            "lifecycle_msgs.msg.Transition, not an int: it cannot be published",
+        ),
         Example("list with the correct message type", {"trail.py": _TRAIL.format("pose")}),
         Example(
             "list with a wrong message type",

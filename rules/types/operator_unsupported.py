@@ -126,6 +126,67 @@ class OperatorUnsupported(TypeRule):
             "Duration(seconds=...), or compare .nanoseconds",
         ),
         Example(
+            "comparisons of a Duration and parameters",
+            {
+                "watch.py": "from rclpy.node import Node\n\n\n"
+                "class Watch(Node):\n"
+                "    def __init__(self):\n"
+                "        super().__init__('watch')\n"
+                "        self.limit = self.declare_parameter('limit', 1.5).value\n"
+                "        self.declare_parameters('', [('name', 'a'), ('hold', 0.5), ('any', 1)])\n"
+                "        self.last = self.get_clock().now()\n\n"
+                "    def seconds(self):\n"
+                "        if self.get_parameter('name').value:\n"
+                "            seconds = 2 * self.get_parameter('hold').value\n"
+                "        else:\n"
+                "            seconds = 0.5\n"
+                "        return seconds\n\n"
+                "    def tick(self):\n"
+                "        age = self.get_clock().now() - self.last\n"
+                "        is_old = age > self.limit or age > self.seconds()\n"
+                "        return is_old and age > self.get_parameter(\n"
+                "            'any').value\n",
+            },
+            "20:18: '>' does not work on an rclpy.duration.Duration and a float: TypeError; use "
+            "Duration(seconds=...), or compare .nanoseconds",
+            "20:38: '>' does not work on an rclpy.duration.Duration and a float: TypeError; use "
+            "Duration(seconds=...), or compare .nanoseconds",
+            "21:27: '>' does not work on an rclpy.duration.Duration and an int: TypeError; use "
+            "Duration(seconds=...), or compare .nanoseconds",
+        ),
+        Example(
+            "comparisons of a Duration and parameters whose types are not certain",
+            {
+                "watch.py": "from rclpy.node import Node\n\n\n"
+                "class Watch(Node):\n"
+                "    def __init__(self, other):\n"
+                "        super().__init__('watch')\n"
+                "        self.other = other\n"
+                "        self.declare_parameter('limit', None)\n"
+                "        self.declare_parameter('hold', 1 if other else 0.5)\n"
+                "        self.declare_parameter('name', '' if other is None else 0.5)\n"
+                "        self.last = self.get_clock().now()\n\n"
+                "    def declare_one(self):\n"
+                "        self.declare_parameter('sum', 0)\n\n"
+                "    def declare_other(self):\n"
+                "        self.declare_parameter('sum', 0.5)\n\n"
+                "    def tick(self):\n"
+                "        age = self.get_clock().now() - self.last\n"
+                "        is_old = age > self.get_parameter('limit').value\n"
+                "        is_old = is_old or age > self.get_parameter('hold').value\n"
+                "        is_old = is_old or age > self.get_parameter('sum').value\n"
+                "        is_old = is_old or age > self.get_parameter('name').value\n"
+                "        return is_old or age > self.other.get_parameter('sum').value\n",
+                "free.py": "from rcl_interfaces.msg import ParameterDescriptor\n"
+                "from rclpy.node import Node\n\n\n"
+                "class Free(Node):\n"
+                "    def tick(self):\n"
+                "        free = ParameterDescriptor(dynamic_typing=True)\n"
+                "        self.declare_parameter('sum', 0.5, free)\n"
+                "        return self.get_clock().now() > self.get_parameter('sum').value\n",
+            },
+        ),
+        Example(
             "float added to a Time",
             {
                 "ticker.py": _NODE.format("Duration(seconds=1.0)").replace(

@@ -10,6 +10,8 @@ from scaffold.model.contents.python_facts import (
     rospack_lookups,
 )
 from scaffold.model.python.conditions.guards import (
+    Condition,
+    all_conditions,
     caught_around,
     conditions_on,
     is_guarded_by,
@@ -40,6 +42,7 @@ from scaffold.model.python.scopes import FunctionNode
 
 __all__ = [
     "UNKNOWN",
+    "Condition",
     "Exports",
     "FunctionNode",
     "Glob",
@@ -47,6 +50,7 @@ __all__ = [
     "PathValue",
     "PythonModule",
     "Unknown",
+    "all_conditions",
     "arguments_for",
     "caught_around",
     "conditions_on",

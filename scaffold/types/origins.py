@@ -277,6 +277,10 @@ def _source(module: PythonModule, value: ast.expr) -> str:
         classes = [module.text(item) for item in value.args if _is_class(item)]
         classes += [module.text(item.value) for item in value.keywords if _is_class(item.value)]
         return f"{module.text(value.func)}({', '.join(classes)})"
+    if isinstance(value, ast.Constant):
+        return type(value.value).__name__
+    if isinstance(value, ast.Attribute) and value.attr.isupper() and _is_class(value.value):
+        return f"a constant of {module.text(value.value)}"
     function = module.enclosing_function(value) if isinstance(value, ast.Name) else None
     return f"{module.text(value)} of {function.name if function else ''}"
 

@@ -6,6 +6,7 @@ from collections.abc import Callable
 
 from scaffold.record import NamedTuple
 from scaffold.types.findings_cache import Cache
+from scaffold.types.rewriting import parameter_values
 from scaffold.types.rewriting.added_lines import Extended
 from scaffold.types.rewriting.arguments import with_arguments
 from scaffold.types.rewriting.mixins import with_nodes_as_self
@@ -27,6 +28,7 @@ class Rewritten(NamedTuple):
         text = source.with_callback_types
         if not is_annotated:
             text = without_annotations(text) or b""  # if it does not parse
+        text = parameter_values.with_types(text)
         others = other_roots(source.package, source.data)
         return cls(text, with_nodes_as_self(with_arguments(text, source.dotted, (), others)))
 

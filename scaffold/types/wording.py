@@ -76,7 +76,7 @@ def is_certain_misfit(expected: str, given: str) -> bool:
 
 def _lacks_elements(expected: str, given: str) -> bool:
     """Return whether a list is expected, of whatever elements, and something else is given."""
-    if _ITERABLE.match(expected) and _SCALAR.fullmatch(given):
+    if _ITERABLE.match(expected) and (_SCALAR.fullmatch(given) or is_function(given)):
         return True
     is_sequence = _SEQUENCE.fullmatch(expected) and "|" not in _without_arguments(expected)
     return bool(is_sequence and _NO_SEQUENCE.fullmatch(given))

@@ -84,6 +84,24 @@ class ComparisonNeverTrue(MessageRule):
             "GoalStatus",
         ),
         Example(
+            "identity of fields with True and None",
+            {
+                "pad.py": "from rclpy.node import Node\nfrom sensor_msgs.msg import Joy\n"
+                "from std_srvs.srv import SetBool\n\n\n"
+                "class Pad(Node):\n"
+                "    def __init__(self):\n"
+                "        super().__init__('pad')\n"
+                "        self.create_subscription(Joy, 'joy', self.on_joy, 10)\n"
+                "        self.create_service(SetBool, 'set', self.on_set)\n\n"
+                "    def on_joy(self, msg):\n"
+                "        self.held = msg.buttons[0] is True and msg.axes[0] is not None\n\n"
+                "    def on_set(self, request, response):\n"
+                "        response.success = request.data is True\n"
+                "        return response\n"
+            },
+            "13:21: msg.buttons[0] is of type int, which is never True; use == or the field alone",
+        ),
+        Example(
             "header compared with a str, number compared with NaN",
             {
                 "watch.py": _NODE.format(
@@ -111,6 +129,8 @@ class ComparisonNeverTrue(MessageRule):
                 problem = problems[0] if problems and all(problems) else ""
             elif isinstance(node.ops[0], ast.Eq | ast.NotEq) and not problem:
                 problem = _problem(types, left, right) or _problem(types, right, left)
+            elif isinstance(node.ops[0], ast.Is | ast.IsNot):
+                problem = _identity_problem(types, left, right)
             if problem:
                 yield self.report(types.module.location(node), problem)
 
@@ -163,6 +183,19 @@ def _problem(types: MessageTypes, field: ast.expr, other: ast.expr) -> str:
         if not low <= value <= high:
             return f"{text} is of {type_.name}, {low} to {high}: it never equals {value}"
     return ""
+
+
+def _identity_problem(types: MessageTypes, field: ast.expr, other: ast.expr) -> str:
+    """Return why a field is never True or False; empty if it may be."""
+    type_ = types.field_type_of(field)
+    is_bool = isinstance(other, ast.Constant) and isinstance(other.value, bool)
+    if type_ is None or not is_bool or not type_.is_primitive or type_.is_array:
+        return ""
+    if type_.name == "bool":
+        return ""
+    kind = _allowed(type_)[0].__name__ if type_.name not in INTEGER_RANGES else "int"
+    text, value = types.module.text(field), types.module.text(other)
+    return f"{text} is of type {kind}, which is never {value}; use == or the field alone"
 
 
 def _is_goal_status(types: MessageTypes, node: ast.expr) -> bool:

@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator, Mapping
 
 from scaffold.api import Diagnostic, Example, RclpyRule, Report, Severity
-from scaffold.api.python import conditions_on, is_handled
+from scaffold.api.python import Condition, all_conditions, is_handled
 from scaffold.api.rclpy import RclpyFile
 
 from ._times import NUMBER, clocks_of
@@ -107,6 +107,29 @@ class ClocksMixed(RclpyRule):
                 "other.py": _NODE.format("0.0", "if not self.last:\n            return\n        "),
             },
             "driver.py:15:20: an rclpy Time and a number cannot be subtracted: TypeError; "
+            "initialize it with self.get_clock().now()",
+        ),
+        Example(
+            "initialized with a number, and a flag that is only set later",
+            {
+                "stop.py": "import time\n\n"
+                + _NODE.format("time.time()", "")
+                .replace(
+                    "        self.last = time.time()\n",
+                    "        self.last = time.time()\n        self.done = False\n",
+                )
+                .replace("self.age = now - self.last", "self.age = self.done or now - self.last")
+                + "        self.done = False\n",
+                "go.py": "import time\n\n"
+                + _NODE.format("time.time()", "")
+                .replace(
+                    "        self.last = time.time()\n",
+                    "        self.last = time.time()\n        self.going = False\n",
+                )
+                .replace("self.age = now - self.last", "self.age = self.going and now - self.last")
+                + "        self.going = True\n",
+            },
+            "stop.py:16:33: an rclpy Time and a number cannot be subtracted: TypeError; "
             "initialize it with self.get_clock().now()",
         ),
         Example(
@@ -223,6 +246,19 @@ def _begins_wrong(
     }
     return not any(
         isinstance(part, ast.Attribute) and part.attr in together
-        for condition in conditions_on(file.module, node)
-        for part in ast.walk(condition)
+        for condition in all_conditions(file.module, node)
+        if not _holds_at_first(file, constructor, condition)
+        for part in ast.walk(condition.test)
     )
+
+
+def _holds_at_first(file: RclpyFile, constructor: ast.AST, condition: Condition) -> bool:
+    """Return whether a condition is met by the flag that the constructor sets."""
+    test, needed = condition.test, condition.needed
+    while isinstance(test, ast.UnaryOp) and isinstance(test.op, ast.Not):
+        test, needed = test.operand, not needed
+    if not isinstance(test, ast.Attribute):
+        return False
+    stores = file.evaluator.stores(test.attr)
+    first = [store.value for store in stores if file.function_of(store.node) is constructor]
+    return len(first) == 1 and file.evaluator.evaluate(first[0]) is needed
