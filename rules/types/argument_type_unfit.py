@@ -33,7 +33,7 @@ _SPEAKER = (
     "    def __init__(self):\n"
     "        super().__init__('speaker')\n"
     "        self.talker = self.create_publisher(String, 'talk', 10)\n"
-    "        self.greeting = self.declare_parameter('greeting', 'hello').value\n\n"
+    "        self.greeting = self.get_parameter('greeting').value\n\n"
     "    def say(self, text):\n"
     "        self.talker.publish(text)\n\n"
     "    def show(self, text):\n"

@@ -171,7 +171,8 @@ class AssignedTypeUnfit(TypeRule):
         Example(
             "method instead of its result, in an array field",
             {
-                "arm.py": "from rclpy.node import Node\nfrom sensor_msgs.msg import JointState\n\n\n"
+                "arm.py": "from rclpy.node import Node\n"
+                "from sensor_msgs.msg import JointState\n\n\n"
                 "class Arm(Node):\n"
                 "    def angles(self):\n"
                 "        return [0.0, 1.0]\n\n"

@@ -7,7 +7,8 @@ from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, MessageRule, Report, Severity
 from scaffold.api.distributions import target
-from scaffold.api.messages import MessageTypes, TypeMismatches, rclpy_time
+from scaffold.api.interfaces import FLOATS
+from scaffold.api.messages import Assigned, MessageTypes, TypeMismatches, rclpy_time
 from scaffold.api.python import PythonModule
 
 _TEST = (
@@ -365,6 +366,40 @@ class FieldValueUnfit(MessageRule):
             ),
             fixed={"talker.py": _CODE_TIMES.format(".to_msg()", ".to_msg()")},
         ),
+        Example(
+            "int that a function of the package assigns to a float field",
+            {
+                "package.xml": "<package><name>rover</name></package>\n",
+                "rover/__init__.py": "",
+                "rover/poses.py": "from geometry_msgs.msg import PoseStamped\n\n\n"
+                "def to_pose(frame, x, y=0):\n"
+                "    pose = PoseStamped()\n"
+                "    pose.header.frame_id = frame\n"
+                "    pose.pose.position.x = x\n"
+                "    pose.pose.position.y = float(y)\n"
+                "    return pose\n",
+                "rover/drive.py": "from geometry_msgs.msg import Twist\n"
+                "from rclpy.node import Node\n\n"
+                "from rover.poses import to_pose\n\n\n"
+                "class Drive(Node):\n"
+                "    def move(self, speed, turn=0.0, kind='drive'):\n"
+                "        twist = Twist()\n"
+                "        twist.linear.x = speed\n"
+                "        if kind == 'turn':\n"
+                "            twist.angular.z = turn\n"
+                "        return twist\n\n"
+                "    def tick(self):\n"
+                "        self.move(0.5, 1)\n"
+                "        self.move(speed=0)\n"
+                "        self.move(1)\n"
+                "        to_pose('map', 0.5, 1)\n"
+                "        return to_pose('map', 2, 1)\n",
+            },
+            "rover/drive.py:18:19: self.move() assigns this to 'x' of geometry_msgs/msg/Vector3, "
+            "a float64, but 1 is an int: subscribers get another number; write float(...)",
+            "rover/drive.py:20:31: to_pose() assigns this to 'x' of geometry_msgs/msg/Point, a "
+            "float64, but 2 is an int: subscribers get another number; write float(...)",
+        ),
     )
 
     def check_file(self, types: MessageTypes) -> Iterator[Diagnostic]:
@@ -383,6 +418,21 @@ class FieldValueUnfit(MessageRule):
                 severity = Severity.WARNING if is_harmless else Severity.ERROR
                 message += "" if is_harmless else _effect(item.field.type.name, problem)
                 yield self.report(types.module.location(item.value), message, severity=severity)
+
+        for item in types.passed:
+            yield from self._check_passed(types, misfits, item)
+
+    def _check_passed(
+        self, types: MessageTypes, misfits: TypeMismatches, item: Assigned
+    ) -> Iterator[Diagnostic]:
+        """Judge an argument that a function assigns to a field; TY007 judges other types."""
+        problem = misfits.misfit(item) if item.field.type.name in FLOATS else None
+        if problem and problem.endswith(" is an int") and not misfits.is_harmless_int(item):
+            name = types.module.text(item.holder.func) if isinstance(item.holder, ast.Call) else ""
+            field = f"{item.field.name!r} of {item.owner.name}, a {item.field.type}"
+            message = f"{name}() assigns this to {field}, but {problem}"
+            effect = _effect(item.field.type.name, problem)
+            yield self.report(types.module.location(item.value), f"{message}{effect}")
 
     def _check_times(self, types: MessageTypes) -> Iterator[Diagnostic]:
         for value, field in _times(types):

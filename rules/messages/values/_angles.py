@@ -12,10 +12,10 @@ Flaw = tuple[ast.expr, str]
 """The place and the problem."""
 _WORDS = frozenset({"yaw", "theta", "heading", "psi"})
 """Parts of the names of such angles."""
-_OF_EULER = ("tf_transformations.quaternion_from_euler", "transforms3d.euler.euler2quat")
+OF_EULER = ("tf_transformations.quaternion_from_euler", "transforms3d.euler.euler2quat")
 """Functions of roll, pitch and yaw."""
-_DEGREES = frozenset({30, 45, 60, 90, 120, 135, 180, 270, 360})
-"""Angles in degrees that are no sensible velocities in radians per second."""
+DEGREES = frozenset({30, 45, 60, 90, 120, 135, 180, 270, 360})
+"""Angles in degrees that are no sensible angles or velocities in radians."""
 
 
 def flaws(types: MessageTypes) -> Iterator[Flaw]:
@@ -36,7 +36,7 @@ def flaws(types: MessageTypes) -> Iterator[Flaw]:
                     f"implausibly fast; use math.radians()"
                 ),
             )
-    for call in types.module.calls_of(*_OF_EULER):
+    for call in types.module.calls_of(*OF_EULER):
         match call.args:
             case [angle, _, ast.Constant(value=0)] if _is_angle(angle) and not call.keywords:
                 text = types.module.text(angle)
@@ -56,7 +56,7 @@ def _is_in_degrees(types: MessageTypes, holder: ast.expr, given: ast.expr) -> bo
     """Return whether a whole angle in degrees is written into an angular velocity."""
     value = types.file.evaluator.evaluate(given)
     is_velocity = isinstance(holder, ast.Attribute) and holder.attr == "angular"
-    return is_velocity and isinstance(value, int | float) and abs(value) in _DEGREES
+    return is_velocity and isinstance(value, int | float) and abs(value) in DEGREES
 
 
 def _written_problem(types: MessageTypes, holder: ast.expr, z: ast.expr) -> str:

@@ -9,6 +9,8 @@ from collections.abc import Iterator, Mapping
 from scaffold.api import Diagnostic, Example, MessageRule, Report, Severity
 from scaffold.api.messages import MessageTypes
 
+from ._angles import DEGREES, OF_EULER
+
 _NODE = (
     "import math\n\nfrom sensor_msgs.msg import FluidPressure, Imu, JointState, Range\n\n\n"
     "def read(board):\n"
@@ -127,6 +129,8 @@ _CONVERSIONS: Mapping[str, str] = {
 _OF_RADIANS = frozenset(
     f"{module}.{name}" for module in ("math", "numpy") for name in ("sin", "cos", "tan")
 )
+_COLDEST, _HOTTEST, _FRACTION = 200.0, 400.0, 0.15
+"""The range of usual temperatures in kelvins, and the fraction of 0 °C in it."""
 _SAME = frozenset({"float", "abs", "round", "list", "array", "asarray", "float32", "float64"})
 _OF_ITSELF = frozenset({"tolist", "copy", "astype", "item", "flatten"})
 _AXES = frozenset({"x", "y", "z"})
@@ -253,10 +257,51 @@ class UnitDiffers(MessageRule):
             "16:35: the argument of math.cos() is in radians, but this is in degrees; use "
             "math.radians()",
         ),
+        Example(
+            "whole degrees, kelvins",
+            {
+                "package.xml": "<package><name>rover</name></package>\n",
+                "rover/__init__.py": "",
+                "rover/turn.py": "import math\n\nfrom geometry_msgs.msg import Quaternion\n\n\n"
+                "def to_quaternion(yaw):\n"
+                "    return Quaternion(z=math.sin(yaw / 2), w=math.cos(yaw / 2))\n",
+                "rover/base.py": "from sensor_msgs.msg import JointState, Temperature\n"
+                "from tf_transformations import quaternion_from_euler\n\n"
+                "from rover.turn import to_quaternion\n\n\n"
+                "def turns(outside):\n"
+                "    warm = Temperature(temperature=outside.celsius + 273.15)\n"
+                "    cold = Temperature(temperature=outside.celsius + 3.15)\n"
+                "    back = to_quaternion(180.0), quaternion_from_euler(0, 0, 90)\n"
+                "    ahead = to_quaternion(1.5), quaternion_from_euler(0, 0, 3)\n"
+                "    return warm, cold, back, ahead, JointState(position=[45.0, 0.5])\n",
+            },
+            Report(
+                "rover/base.py:8:36",
+                "temperature is in degrees Celsius, but this is in kelvins; subtract 273.15",
+                severity=Severity.WARNING,
+            ),
+            Report(
+                "rover/base.py:10:26",
+                "'yaw' of to_quaternion() is in radians, but this is in degrees; use "
+                "math.radians()",
+                severity=Severity.WARNING,
+            ),
+            Report(
+                "rover/base.py:10:62",
+                "the argument of tf_transformations.quaternion_from_euler() is in "
+                "radians, but this is in degrees; use math.radians()",
+                severity=Severity.WARNING,
+            ),
+            Report(
+                "rover/base.py:12:58",
+                "position is in radians, but this is in degrees; use math.radians()",
+                severity=Severity.WARNING,
+            ),
+        ),
     )
 
     def check_file(self, types: MessageTypes) -> Iterator[Diagnostic]:
-        for item in types.assigned:
+        for item in (*types.assigned, *types.passed):
             key = (item.owner.name, item.field.name)
             wanted = _FIELDS.get(key, "")
             if not wanted and item.field.name in _AXES:
@@ -266,25 +311,51 @@ class UnitDiffers(MessageRule):
                 if item.field.name in _AXES:
                     shown = f"{_vector(types, item.holder)[1]}.{shown}"
                 yield from self._check(types, item.value, wanted, shown)
-        for name in _OF_RADIANS:
-            for call in types.module.calls_of(name):
-                if len(call.args) == 1:
-                    angle = _without_factor(call.args[0])
-                    shown = f"the argument of {name}()"
-                    yield from self._check(types, angle, "radians", shown)
-                    for value, parameter in _passed(types, angle):
-                        yield from self._check(types, value, "radians", parameter)
+        for angle, name in _angles(types):
+            yield from self._check(types, angle, "radians", f"the argument of {name}()")
+        known: dict[MessageTypes, Mapping[ast.AST, str]] = {}
+        for own in types.own_calls:
+            if own.types not in known:
+                known[own.types] = _parameters(own.types)
+            for parameter in own.function.args.args:
+                value = own.given(parameter) if parameter in known[own.types] else None
+                if value is not None:
+                    yield from self._check(types, value, "radians", known[own.types][parameter])
 
     def _check(
         self, types: MessageTypes, value: ast.expr, wanted: str, shown: str
     ) -> Iterator[Diagnostic]:
         for node in _elements(value):
             unit, is_by_name = _unit(types, node)
+            if not unit:
+                unit, is_by_name = _unit_of_number(types, node, wanted), True
             hint = _HINTS[wanted].get(unit, "")
             if hint:
                 message = f"{shown} is in {wanted}, but this is in {unit}; {hint}"
                 severity = Severity.WARNING if is_by_name else None
                 yield self.report(types.module.location(node), message, severity=severity)
+
+
+def _unit_of_number(types: MessageTypes, node: ast.expr, wanted: str) -> str:
+    """Return the unit that a number is typical of: 90 in degrees, 293.15 in kelvins."""
+    if wanted == "radians" and abs(_number(types, node)) in DEGREES:
+        return "degrees"
+    numbers = [_number(types, node)]
+    match node:
+        case ast.BinOp(op=ast.Add(), left=left, right=right):
+            numbers = [_number(types, left), _number(types, right)]
+    is_celsius = wanted == "degrees Celsius"
+    return "kelvins" if is_celsius and any(map(_is_in_kelvins, numbers)) else ""
+
+
+def _number(types: MessageTypes, node: ast.expr) -> float:
+    """Return a number; 0 if it is not known."""
+    value = types.file.evaluator.number(node)
+    return value if isinstance(value, int | float) else 0
+
+
+def _is_in_kelvins(number: float) -> bool:
+    return _COLDEST < number < _HOTTEST and round(number % 1, 2) == _FRACTION
 
 
 def _without_factor(angle: ast.expr) -> ast.expr:
@@ -297,31 +368,28 @@ def _without_factor(angle: ast.expr) -> ast.expr:
     return angle
 
 
-def _passed(types: MessageTypes, angle: ast.expr) -> Iterator[tuple[ast.expr, str]]:
-    """Yield what calls in the file pass for the parameter that an angle is, each with its name."""
-    function = types.module.enclosing_function(angle)
-    bindings = types.module.index.bindings_of(angle)
-    if not isinstance(function, ast.FunctionDef) or len(bindings) != 1:
-        return
-    parameters = function.args.args
-    if bindings[0].node not in parameters or function.decorator_list:
-        return
-    place = parameters.index(bindings[0].node)
-    is_method = parameters[0].arg == "self"
-    for call in types.module.walk(ast.Call):
-        match call.func:
-            case ast.Name(id=name) if name == function.name and not is_method:
-                pass
-            case ast.Attribute(attr=name, value=ast.Name(id="self")) if (
-                name == function.name and is_method
-            ):
-                pass
-            case _:
-                continue
-        given = call.args[place - is_method : place - is_method + 1]
-        given += [word.value for word in call.keywords if word.arg == parameters[place].arg]
-        for value in given:
-            yield value, f"{parameters[place].arg!r} of {function.name}()"
+def _angles(types: MessageTypes) -> Iterator[tuple[ast.expr, str]]:
+    """Yield the angles in radians that functions take, each with the name of the function."""
+    for name in _OF_RADIANS:
+        for call in types.module.calls_of(name):
+            if len(call.args) == 1:
+                yield _without_factor(call.args[0]), name
+    for name in OF_EULER:
+        for call in types.module.calls_of(name):
+            yield from ((angle, name) for angle in call.args[:3])
+
+
+def _parameters(types: MessageTypes) -> Mapping[ast.AST, str]:
+    """Return the parameters of functions of a file that are angles in radians, by parameter."""
+    result: dict[ast.AST, str] = {}
+    for angle, _ in _angles(types):
+        function = types.module.enclosing_function(angle)
+        if not isinstance(angle, ast.Name) or not isinstance(function, ast.FunctionDef):
+            continue
+        bindings = types.module.index.bindings_of(angle)
+        if len(bindings) == 1 and bindings[0].node in function.args.args:
+            result[bindings[0].node] = f"{angle.id!r} of {function.name}()"
+    return result
 
 
 def _elements(value: ast.expr) -> Iterator[ast.expr]:

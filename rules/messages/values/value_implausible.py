@@ -365,6 +365,39 @@ class ValueImplausible(MessageRule):
             },
             "6:18: grid.shape[0] is the number of rows, the height; width is grid.shape[1]",
         ),
+        Example(
+            "percentages from a function of another file, and in sums",
+            {
+                "package.xml": "<package><name>rover</name></package>\n",
+                "rover/__init__.py": "",
+                "rover/charge.py": "def charge(volts):\n"
+                "    if volts > 12.5:\n"
+                "        return 100.0\n"
+                "    return 40.0 * (volts - 10.0)\n\n\n"
+                "def share(volts):\n"
+                "    if volts > 12.5:\n"
+                "        return 1.0\n"
+                "    return 0.4 * (volts - 10.0)\n",
+                "rover/battery.py": "from sensor_msgs.msg import BatteryState, RelativeHumidity\n\n"
+                "from rover.charge import charge, share\n\n\n"
+                "def read(board):\n"
+                "    full = BatteryState(percentage=charge(board.volts))\n"
+                "    part = BatteryState(percentage=share(board.volts))\n"
+                "    wet = RelativeHumidity(relative_humidity=40.0 + board.offset)\n"
+                "    dry = RelativeHumidity(relative_humidity=0.4 + board.offset)\n"
+                "    return full, part, wet, dry\n",
+            },
+            Report(
+                "rover/battery.py:7:36",
+                "percentage is a fraction from 0 to 1, not a percentage; divide by 100",
+                severity=Severity.WARNING,
+            ),
+            Report(
+                "rover/battery.py:9:46",
+                "relative_humidity is a fraction from 0 to 1, not a percentage; divide by 100",
+                severity=Severity.WARNING,
+            ),
+        ),
     )
 
     def check_file(self, types: MessageTypes) -> Iterator[Diagnostic]:
@@ -377,7 +410,7 @@ class ValueImplausible(MessageRule):
         for at, is_used in _components.zero_quaternions(types):
             severity = Severity.ERROR if is_used else Severity.WARNING
             yield self.report(module.location(at), _OF_ZEROS, severity=severity)
-        for item in types.assigned:
+        for item in (*types.assigned, *types.passed):
             problem = _problem(types, item.owner.name, item.field.name, item.value)
             if problem:
                 yield self.report(module.location(item.value), problem, severity=Severity.WARNING)
@@ -390,20 +423,37 @@ def _problem(types: MessageTypes, owner: str, name: str, node: ast.expr) -> str:
     if key in _RANGES and isinstance(value, int | float) and not isinstance(value, bool):
         low, high, meaning = _RANGES[key]
         return "" if low <= value <= high else f"{name} is {meaning}, not {value:g}"
-    if key in _SHARES and _is_times_hundred(types, node):
-        return f"{name} is a fraction from 0 to 1, not a percentage; remove the factor 100"
+    for source, result in _results(types, node) if key in _SHARES else ():
+        if _factors(source, result).count(_PERCENT) == 1 and isinstance(result, ast.BinOp):
+            return f"{name} is a fraction from 0 to 1, not a percentage; remove the factor 100"
+        if any(map(_is_percentage, _terms(source, result))):
+            return f"{name} is a fraction from 0 to 1, not a percentage; divide by 100"
     return ""
 
 
-def _is_times_hundred(types: MessageTypes, node: ast.expr) -> bool:
-    """Return whether an expression is a product with 100, or the result of a method that is."""
+def _results(types: MessageTypes, node: ast.expr) -> Iterator[tuple[MessageTypes, ast.expr]]:
+    """Yield a value, or the results of the function of the package that returns it."""
     node = types.file.evaluator.single_value(node)
-    callback = types.file.callback(node.func) if isinstance(node, ast.Call) else None
-    if callback is not None and isinstance(callback.function, ast.FunctionDef):
-        values = [statement.value for statement in returned(callback.function)]
-        if len(values) == 1 and values[0] is not None:
-            node = types.file.evaluator.single_value(values[0])
-    return _factors(types, node).count(_PERCENT) == 1
+    defined = types.file.definition_of(node.func) if isinstance(node, ast.Call) else None
+    other = types.of_file(defined[0]) if defined is not None else None
+    if defined is None or other is None or not isinstance(defined[1], ast.FunctionDef):
+        yield types, node
+        return
+    for statement in returned(defined[1]):
+        if statement.value is not None:
+            yield other, other.file.evaluator.single_value(statement.value)
+
+
+def _is_percentage(value: object) -> bool:
+    return isinstance(value, int | float) and 1 < value <= _PERCENT
+
+
+def _terms(types: MessageTypes, node: ast.expr) -> list[object]:
+    """Return the value of an expression, or the known terms of a sum."""
+    match node:
+        case ast.BinOp(left=left, op=ast.Add(), right=right):
+            return [*_terms(types, left), *_terms(types, right)]
+    return [types.file.evaluator.evaluate(node)]
 
 
 def _factors(types: MessageTypes, node: ast.expr) -> list[object]:

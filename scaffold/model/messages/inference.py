@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
 
 from scaffold import lazy_re
+from scaffold.model import reads
 from scaffold.model.interfaces.definitions import Definitions
 from scaffold.model.interfaces.syntax import Field
 from scaffold.model.interfaces.types import FieldType
@@ -14,10 +15,11 @@ from scaffold.model.messages.actions import ActionMessages
 from scaffold.model.messages.classes import MessageClass, class_named
 from scaffold.model.messages.expected_errors import is_error_expected
 from scaffold.model.messages.files import message_paths
+from scaffold.model.messages.passed import Fields, OwnCall, fields_of_parameters, own_calls, passed
 from scaffold.model.package import Package
 from scaffold.model.python.evaluation.attributes import Store
 from scaffold.model.python.evaluation.values import is_none_literal
-from scaffold.model.python.scopes import Binding
+from scaffold.model.python.scopes import Binding, FunctionNode
 from scaffold.model.rclpy.api import PARAMETER, class_of, future_given
 from scaffold.model.rclpy.entities import (
     ActionServer,
@@ -58,6 +60,7 @@ class MessageTypes:
         """The types by expression, or by name and scope."""
         self._classes: dict[ast.expr, MessageClass | None] = {}
         self._depth = 0
+        self._reads = reads.current()
 
     @classmethod
     def of(cls, package: Package, path: str) -> MessageTypes:
@@ -321,6 +324,29 @@ class MessageTypes:
         """All values assigned to fields of known messages, in source order."""
         result = [*self._assigned_attributes(), *self._keywords()]
         return sorted(result, key=lambda item: (item.value.lineno, item.value.col_offset))
+
+    @cached_property
+    def passed(self) -> Sequence[Assigned]:
+        """The arguments that functions of the package assign to fields, unchanged."""
+        return [*passed(self)]
+
+    @cached_property
+    def own_calls(self) -> Sequence[OwnCall]:
+        """The calls of functions of the package, with arguments."""
+        with reads.recorded(self._reads):
+            return [*own_calls(self)]
+
+    @cached_property
+    def fields_of_parameters(self) -> Mapping[FunctionNode, Fields]:
+        """The fields that the functions of the file assign their parameters to."""
+        return fields_of_parameters(self)
+
+    def of_file(self, file: RclpyFile) -> MessageTypes | None:
+        """Return the view of a file of the same package."""
+        if file is self.file:
+            return self
+        package = self.file.modules
+        return MessageTypes.of(package, file.module.path) if isinstance(package, Package) else None
 
     def _assigned_attributes(self) -> Iterator[Assigned]:
         for store in self._attribute_stores():

@@ -134,7 +134,7 @@ class ValueTypes:
             kind = self._common_type(node.args)
             return kind if kind in _NUMBERS else None
         if name == "round" and len(node.args) == 1:
-            return "int" if self.of(node.args[0]) in _NUMBERS else None
+            return "int" if self.of(node.args[0]) in {None, *_NUMBERS} else None
         match node.func:
             case ast.Attribute(attr=method, value=text) if method in _OF_TEXT:
                 return _OF_TEXT[method] if self.of(text) == "str" else None

@@ -15,6 +15,7 @@ from scaffold.types.rewriting.callbacks import arguments_of
 _OF = "_ros2_param_"
 _RECEIVER = r"(?<![\w.])(?P<receiver>(?:self\.)?\w+)"
 _NAMED = r"\(\s*(?P<quote>['\"])(?P<name>[\w.]+)(?P=quote)\s*"
+_ALSO_NAMED = r"\(\s*(?P<mark>['\"])(?P<declared>[\w.]+)(?P=mark)\s*"
 _CONSTANT = (
     r"(?P<bool>True|False)|(?P<float>-?(?:\d+\.\d*|\.\d+|\d+(?:\.\d*)?[eE]-?\d+))"
     r"|(?P<int>-?\d+)|(?P<str>'[^'\\\n]*'|\"[^\"\\\n]*\")"
@@ -26,8 +27,8 @@ _DECLARED = lazy_re.compile(
 _DECLARED_TOGETHER = lazy_re.compile(rf"{_RECEIVER}\.declare_parameters\(")
 _ROW = lazy_re.compile(rf"{_NAMED},\s*(?:{_CONSTANT})?\s*(?P<next>[,)])?")
 _READ = lazy_re.compile(
-    rf"{_RECEIVER}\.(?:get_parameter{_NAMED}|declare_parameter{_NAMED.replace('quote', 'mark').replace('name', 'declared')},"
-    r"\s*[^()\[\]{},]+)\)\s*\.value\b(?!\s*=[^=])"
+    rf"{_RECEIVER}\.(?:get_parameter{_NAMED}|declare_parameter{_ALSO_NAMED},\s*[^()\[\]{{}},]+)\)"
+    r"\s*\.value\b(?!\s*=[^=])"
 )
 _TYPES = {"BOOL": "bool", "DOUBLE": "float", "INTEGER": "int", "STRING": "str"}
 _EXACT = {"float": f"'_Ros2TypeOfParameter[{_OF}exact]'"}
