@@ -34,6 +34,17 @@ _NODE = (
     "from rclpy.node import Node\n\n\nclass Talker(Node):\n    def __init__(self):\n"
     "        super().__init__('talker')\n        self.declare_parameter('rate', 2.0)\n"
 )
+_LAUNCH = (
+    "import os\n\nfrom ament_index_python.packages import get_package_share_directory\n"
+    "from launch import LaunchDescription\nfrom launch_ros.actions import LoadComposableNodes\n"
+    "from launch_ros.descriptions import ComposableNode\n\n\n"
+    "def generate_launch_description():\n"
+    "    plan = os.path.join(get_package_share_directory('demo'), 'maps', 'hall.yaml')\n"
+    "    server = ComposableNode(package='demo', plugin='demo::Plan', parameters=[plan])\n"
+    "    return LaunchDescription([\n"
+    "        LoadComposableNodes(target_container='all', composable_node_descriptions=[server]),\n"
+    "    ])\n"
+)
 
 
 class RosParametersMissing(Rule):
@@ -82,6 +93,15 @@ class RosParametersMissing(Rule):
             fixed={
                 "config/a.yaml": _FILE.format("ros__parameters"),
                 "config/b.yaml": _FILE.format("ros__parameters"),
+            },
+        ),
+        Example(
+            "a map as the parameters of a component, which launch_ros reads",
+            {
+                "package.xml": "<package><name>demo</name></package>\n",
+                "CMakeLists.txt": "project(demo)\ninstall(DIRECTORY maps DESTINATION share/demo)\n",
+                "maps/hall.yaml": "image: hall.png\nresolution: 0.05\n",
+                "launch/map.launch.py": _LAUNCH,
             },
         ),
         Example(
@@ -136,7 +156,11 @@ class RosParametersMissing(Rule):
             file = parameter_file(package, path)
             if file is None or not file.misplaced:
                 continue
-            is_given = bool(use_of(package, path).nodes)
+            nodes = use_of(package, path).nodes
+            is_flat = not (file.sections or file.misplaced[0].above)
+            if nodes and is_flat and all(node.is_component for node in nodes):
+                continue  # launch_ros reads it itself, and accepts parameters at the top level
+            is_given = bool(nodes)
             is_read = is_given or bool(file.sections and not is_loaded(package, path))
             for entry in file.misplaced[:1]:
                 if entry.node_key is not None and (is_read or self._is_meant(file.misplaced)):
