@@ -306,6 +306,24 @@ class AttributeMissing(TypeRule):
             },
         ),
         Example(
+            "argument that the only call of the class leaves out, so that others are shifted",
+            {
+                "talker.py": "from rclpy.node import Node\n\n\n"
+                "class Text:\n"
+                "    def __init__(self, node, size):\n"
+                "        self.node = node\n"
+                "        self.size = size\n\n"
+                "    def say(self):\n"
+                "        self.node.get_logger().info('hello')\n\n\n"
+                "class Talker(Node):\n"
+                "    def __init__(self):\n"
+                "        super().__init__('talker')\n"
+                "        size = self.get_parameter('size').get_parameter_value()\n"
+                "        self.size = size.integer_value\n"
+                "        self.text = Text(self.size)\n"
+            },
+        ),
+        Example(
             "dictionary key used as an attribute",
             {
                 "lamps.py": "from rclpy.node import Node\nfrom std_msgs.msg import Bool\n\n\n"

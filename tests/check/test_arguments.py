@@ -57,6 +57,10 @@ def test_argument_is_stored_before_the_call_and_read_in_the_function() -> None:
     assert kept == f"global {name}; {name} = [name]"
 
 
+def test_call_without_a_required_argument_is_no_source() -> None:
+    assert inserted_for_call("self.say(times=2)") == []
+
+
 @pytest.mark.parametrize(
     ("call", "taken"),
     [

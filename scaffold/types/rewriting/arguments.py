@@ -388,7 +388,7 @@ class _Parameters:
         return "(None,)" if is_certain else f"[{constant}]"  # a list has elements of any value
 
     def given(self, words: Mapping[str, str], *, is_partial: bool = False) -> Mapping[str, str]:
-        """Return the arguments of a call by parameter; empty if uncertain.
+        """Return the arguments of a call by parameter; empty if uncertain, or if some are missing.
 
         A partial call leaves the other parameters to a later call.
         """
@@ -402,6 +402,10 @@ class _Parameters:
                 result[self._positional[int(key)]] = value
             elif value:
                 return {}
+        if not is_partial and any(
+            self._defaults.get(name) == "" and name not in result for name in self._positional
+        ):
+            return {}
         defaults = {
             name: default
             for name, default in self._defaults.items()
