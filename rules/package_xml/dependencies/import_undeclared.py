@@ -71,28 +71,6 @@ class ImportUndeclared(Rule):
     }
     examples = (
         Example(
-            "by a test, if setup.py does not declare pytest",
-            {
-                "package.xml": _manifest("<export><build_type>ament_python</build_type></export>"),
-                "setup.py": "from setuptools import setup\n\nsetup(name='talker')\n",
-                "test/test_copyright.py": "import ament_copyright\n\n\n"
-                "def test_copyright():\n    assert ament_copyright\n",
-            },
-            Report(
-                "test/test_copyright.py:1:1",
-                "imports 'ament_copyright', which package.xml does not declare; add "
-                "<test_depend>ament_copyright</test_depend>",
-                fix="Declare ament_copyright",
-                severity=Severity.WARNING,
-            ),
-            fixed={
-                "package.xml": _manifest(
-                    "<test_depend>ament_copyright</test_depend>",
-                    "<export><build_type>ament_python</build_type></export>",
-                )
-            },
-        ),
-        Example(
             "declared; the standard library, own modules and guarded imports",
             {
                 "package.xml": _manifest("rclpy"),
@@ -628,6 +606,37 @@ class ImportUndeclared(Rule):
             ),
             fixed={"package.xml": _manifest("rclpy", "std_msgs")},
         ),
+        Example(
+            "by a test that finds the sources of another package itself",
+            {
+                "package.xml": _manifest(),
+                "test/test_node.py": "import sys\nfrom pathlib import Path\n\n"
+                "sys.path.insert(0, str(Path(__file__).parents[2] / 'hand'))\n\nimport hand\n",
+            },
+            neighbors={"hand": {"package.xml": _MANIFEST.format("").replace("talker", "hand")}},
+        ),
+        Example(
+            "by a test, if setup.py does not declare pytest",
+            {
+                "package.xml": _manifest("<export><build_type>ament_python</build_type></export>"),
+                "setup.py": "from setuptools import setup\n\nsetup(name='talker')\n",
+                "test/test_copyright.py": "import ament_copyright\n\n\n"
+                "def test_copyright():\n    assert ament_copyright\n",
+            },
+            Report(
+                "test/test_copyright.py:1:1",
+                "imports 'ament_copyright', which package.xml does not declare; add "
+                "<test_depend>ament_copyright</test_depend>",
+                fix="Declare ament_copyright",
+                severity=Severity.WARNING,
+            ),
+            fixed={
+                "package.xml": _manifest(
+                    "<test_depend>ament_copyright</test_depend>",
+                    "<export><build_type>ament_python</build_type></export>",
+                )
+            },
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
@@ -643,8 +652,8 @@ class ImportUndeclared(Rule):
                 continue
             if any(key_of_debian(item.name) in need.keys for item in manifest.dependencies):
                 continue  # reported by dependency-malformed
-            if need.module == "rospkg" and rospack_lookups(package, need.location.path):
-                continue  # reported by module-of-ros1-imported
+            if _is_by_rospkg(package, need) or _adds_sources(package, need):
+                continue
             comes_otherwise = _comes_with_launch(need) or need.module in _INDEX or need.in_data
             comes_otherwise = comes_otherwise or is_from_pip
             is_built = package.workspace.get(need.module) is not None
@@ -703,6 +712,20 @@ def _is_unknown(package: Package, module: str) -> bool:
 def _comes_with_launch(need: requirements.Requirement) -> bool:
     key = need.keys[0]
     return key in _LAUNCH or (need.for_launch and key in transitive_dependencies({"ros2launch"}))
+
+
+def _is_by_rospkg(package: Package, need: requirements.Requirement) -> bool:
+    """Return whether module-of-ros1-imported reports a need, as rospkg looks packages up."""
+    return need.module == "rospkg" and bool(rospack_lookups(package, need.location.path))
+
+
+def _adds_sources(package: Package, need: requirements.Requirement) -> bool:
+    """Return whether a test adds the sources of a package of the workspace to ``sys.path``."""
+    if not need.for_tests or package.workspace.get(need.module) is None:
+        return False
+    text = package.source(need.location.path).text
+    named = re.search(rf"[\"'/]{re.escape(need.module)}[\"'/]", text)
+    return "sys.path" in text and named is not None
 
 
 def _runs_no_test(package: Package) -> bool:
