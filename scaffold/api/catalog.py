@@ -15,6 +15,7 @@ from scaffold.model.catalog import (
     similar_key,
     similar_package,
 )
+from scaffold.model.released import dependencies as released_dependencies
 from scaffold.model.released import is_released, transitive_dependencies
 
 __all__ = [
@@ -28,6 +29,7 @@ __all__ = [
     "keys_of_module",
     "module_keys",
     "module_of_key",
+    "released_dependencies",
     "similar_key",
     "similar_package",
     "transitive_dependencies",

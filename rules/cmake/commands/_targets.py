@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     from scaffold.api.cmake import Argument, CMakeLists, Command
 
 
-_DEFINING = (
+DEFINING = (
     "add_executable",
     "add_library",
     "add_custom_target",
@@ -26,6 +26,7 @@ _DEFINING = (
     "pybind11_add_module",
     "qt5_add_executable",
 )
+"""Commands whose first argument is the name of a new target."""
 TAKING_TARGETS = (
     "ament_target_dependencies",
     "target_link_libraries",
@@ -38,7 +39,7 @@ def defined_targets(cmake: CMakeLists) -> set[str] | None:
     """Return the defined targets; ``None`` if the name of one is unknown."""
     defined: set[str] = set()
     for command in cmake.commands:
-        if command.name in _DEFINING and command.arguments:
+        if command.name in DEFINING and command.arguments:
             name = cmake.expand(command.arguments[0], command)
             if name is None:
                 return None

@@ -8,6 +8,7 @@ from difflib import get_close_matches
 from scaffold.api import Diagnostic, Effect, Example, Package, Rule, closest_name
 from scaffold.api.cmake import BUILT_IN, OF_AMENT, CMakeLists, has_unknown_commands, uses_ament
 
+from ._found import packages_found
 from ._targets import TAKING_TARGETS, defined_targets, targets_named_once
 
 _OF_ROS1 = {
@@ -44,45 +45,20 @@ PROVIDERS = {
     "ament_flake8": ("ament_cmake_flake8",),
     "ament_lint_auto_find_test_dependencies": ("ament_lint_auto",),
     "ament_lint_cmake": ("ament_cmake_lint_cmake",),
-    "ament_package": (
-        "ament_cmake",
-        "ament_cmake_auto",
-        "ament_cmake_core",
-        "ament_cmake_pytest",
-        "ament_cmake_ros",
-        "ament_lint_auto",
-        "rclcpp",
-        "std_srvs",
-        "tf2",
-        "tf2_ros",
-    ),
+    "ament_package": ("ament_cmake",),
     "ament_pep257": ("ament_cmake_pep257",),
     "ament_python_install_package": ("ament_cmake_python", "ament_cmake", "ament_cmake_auto"),
     "ament_xmllint": ("ament_cmake_xmllint",),
+    "generate_parameter_library": ("generate_parameter_library",),
+    "pluginlib_export_plugin_description_file": ("pluginlib",),
     "rclcpp_components_register_node": ("rclcpp_components",),
     "rclcpp_components_register_nodes": ("rclcpp_components",),
     "rosidl_generate_interfaces": ("rosidl_default_generators", "rosidl_core_generators"),
 }
 """The packages that provide a command."""
 
-_BRING_NOTHING = (
-    "ament_cmake",
-    "ament_cmake_python",
-    "ament_cmake_pytest",
-    "ament_index_cpp",
-    "ament_index_python",
-    "ament_lint_auto",
-    "launch",
-    "launch_ros",
-    "rclcpp",
-    "rclpy",
-    "std_srvs",
-    "tf2",
-    "tf2_ros",
-)
-"""Packages that only provide their own commands, and those of ament_cmake_core in part."""
-_MESSAGES = "_msgs"
-"""The ending of message packages, which find ament_cmake_core."""
+_WITHOUT_CORE = ("ament_index_cpp", "ament_index_python", "launch", "launch_ros", "rclpy")
+"""Packages that do not find ament_cmake_core, as message packages and most others may."""
 
 _CALL = "project(talker)\nfind_package(ament_cmake REQUIRED)\n{}()\n"
 _LISTS = "project(talker)\n{}ament_add_pytest_test(talk test/test_talk.py)\n"
@@ -146,6 +122,36 @@ class CommandOrTargetUndefined(Rule):
             {"CMakeLists.txt": _LISTS.format("")},
             "2:1: ament_add_pytest_test() is undefined without find_package(ament_cmake_pytest "
             "REQUIRED)",
+        ),
+        Example(
+            "a tool of a package that is found, and one that an unknown package may find",
+            {
+                "CMakeLists.txt": "project(talker)\nfind_package(ament_cmake_ros REQUIRED)\n"
+                "ament_add_gtest(walk walk.cpp)\n",
+                "walk.cpp": "",
+            },
+        ),
+        Example(
+            "not found, next to other tools and libraries",
+            {
+                "CMakeLists.txt": "project(talker)\nfind_package(ament_cmake REQUIRED)\n"
+                "find_package(Eigen3 REQUIRED)\nfind_package(rclcpp_action REQUIRED)\n"
+                "find_package(ament_cmake_gtest REQUIRED)\n"
+                "ament_add_pytest_test(talk test/test_talk.py)\n"
+                "rclcpp_components_register_node(talk PLUGIN Talk EXECUTABLE talker)\n"
+                "pluginlib_export_plugin_description_file(nav2_core plugins.xml)\n",
+                "plugins.xml": "<library path='talk'/>\n",
+            },
+            "CMakeLists.txt:6:1: ament_add_pytest_test() is undefined without "
+            "find_package(ament_cmake_pytest REQUIRED)",
+            "CMakeLists.txt:7:1: rclcpp_components_register_node() is undefined without "
+            "find_package(rclcpp_components REQUIRED)",
+            "CMakeLists.txt:8:1: pluginlib_export_plugin_description_file() is undefined without "
+            "find_package(pluginlib REQUIRED)",
+        ),
+        Example(
+            "perhaps found by an unknown package",
+            {"CMakeLists.txt": _LISTS.format("find_package(talk_common REQUIRED)\n")},
         ),
         Example(
             "launch tests",
@@ -218,12 +224,13 @@ class CommandOrTargetUndefined(Rule):
             return
         if any("$" in call.values[0] for call in cmake.find("find_package") if call.values):
             return
-        if not all(name in _BRING_NOTHING or name.endswith(_MESSAGES) for name in packages):
+        brought = packages_found(package)
+        if brought is None:
             return
         for name, providers in PROVIDERS.items():
-            if name in own or not (packages | tests).isdisjoint(providers):
+            if name in own or not (brought | tests).isdisjoint(providers):
                 continue
-            if name == "ament_package" and any(item.endswith(_MESSAGES) for item in packages):
+            if name == "ament_package" and not packages.issubset(_WITHOUT_CORE):
                 continue
             for command in cmake.find(name):
                 message = f"{name}() is undefined without find_package({providers[0]} REQUIRED)"

@@ -82,6 +82,16 @@ class FindImpossible(Rule):
             {"CMakeLists.txt": _LISTS.format("ament_cmake") + "find_package(catkin REQUIRED)\n"},
             "3:14: 'catkin' is a ROS 1 package: CMake stops; use ament_cmake",
         ),
+        Example(
+            "the CMakeLists.txt of ROS 1 for a package of ROS 2",
+            {
+                "CMakeLists.txt": "project(talker)\nfind_package(catkin REQUIRED)\n"
+                "catkin_package()\n",
+                "package.xml": '<package format="3"><name>talker</name>'
+                "<export><build_type>ament_cmake</build_type></export></package>\n",
+            },
+            "CMakeLists.txt:2:14: 'catkin' is a ROS 1 package: CMake stops; use ament_cmake",
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
@@ -119,8 +129,14 @@ class FindImpossible(Rule):
             if call.name.startswith(("python3-", "python-")) or call.name in _PURE:
                 message = f"{call.name!r} is a pure Python package without CMake files: CMake stops"
                 yield self.report(call, message)
-            elif call.name == "catkin" and call.command.depth == 0 and uses_ament(package):
+            elif call.name == "catkin" and call.command.depth == 0 and _is_for_ament(package):
                 yield self.report(call, "'catkin' is a ROS 1 package: CMake stops; use ament_cmake")
+
+
+def _is_for_ament(package: Package) -> bool:
+    """Return whether CMakeLists.txt or package.xml uses ament."""
+    is_declared = package.has("package.xml") and package.manifest.build_type == "ament_cmake"
+    return is_declared or uses_ament(package)
 
 
 def _is_of_ros(name: str) -> bool:

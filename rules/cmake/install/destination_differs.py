@@ -5,8 +5,18 @@ from __future__ import annotations
 import re
 from collections.abc import Container, Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, Severity
-from scaffold.api.cmake import Command, Install
+from scaffold.api import (
+    Diagnostic,
+    Edit,
+    Example,
+    Fix,
+    Package,
+    Report,
+    Rule,
+    Severity,
+    listed_names,
+)
+from scaffold.api.cmake import CMakeLists, Command, Install
 from scaffold.api.distributions import target
 from scaffold.api.launch import DATA_DIRECTORIES, is_named
 
@@ -17,6 +27,10 @@ _WANTED = "share/${PROJECT_NAME}"
 _LISTS_SHARE = "project(talker)\ninstall(DIRECTORY launch DESTINATION {})\n"
 _FILES = {"launch/talk.launch.py": ""}
 _LISTS_ABSOLUTE = "project(talker)\ninstall(DIRECTORY launch DESTINATION {})\n"
+_LISTS_TARGET = (
+    "project(talker)\nadd_executable(talk talk.cpp)\n"
+    "target_link_libraries(talk rclcpp::rclcpp)\ninstall(TARGETS talk DESTINATION {})\n"
+)
 _LISTS_PYTHON = "project(talker)\ninstall(DIRECTORY talker DESTINATION {})\n"
 
 
@@ -55,6 +69,28 @@ class DestinationDiffers(Rule):
                 fix="Install to lib/${PROJECT_NAME}",
             ),
             fixed={"CMakeLists.txt": _LISTS.format(_RIGHT)},
+        ),
+        Example(
+            "an executable that is no node, and a library",
+            {
+                "CMakeLists.txt": "project(talker)\nadd_executable(talk talk.cpp)\n"
+                "add_library(talking talk.cpp)\nament_target_dependencies(talking rclcpp)\n"
+                "install(TARGETS talk talking RUNTIME DESTINATION bin LIBRARY DESTINATION lib)\n",
+                "talk.cpp": "",
+            },
+        ),
+        Example(
+            "an executable that is a node",
+            {
+                "CMakeLists.txt": _LISTS_TARGET.format("bin"),
+                "talk.cpp": "",
+            },
+            Report(
+                "CMakeLists.txt:4:1",
+                "installs talk to bin, but `ros2 run talker` searches lib/talker",
+                fix="Install to lib/${PROJECT_NAME}",
+            ),
+            fixed={"CMakeLists.txt": _LISTS_TARGET.format(_RIGHT)},
         ),
         Example(
             "programs in a path without the braces",
@@ -159,6 +195,7 @@ class DestinationDiffers(Rule):
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         yield from self._check_programs(package)
+        yield from self._check_targets(package)
         yield from self._check_share(package)
         yield from self._check_absolute(package)
         yield from self._check_python(package)
@@ -177,6 +214,33 @@ class DestinationDiffers(Rule):
             fix = Fix(f"Install to {_RIGHT}", (edit,)) if not given.startswith("/") else None
             message = f"installs to {given}, but `ros2 run {cmake.project_name}` searches {wanted}"
             yield self.report(argument, message, fix)
+
+    def _check_targets(self, package: Package) -> Iterator[Diagnostic]:
+        """Report executables of nodes that `ros2 run` does not find."""
+        cmake = package.cmake
+        wanted = f"lib/{cmake.project_name}"
+        targets = [install for install in cmake.installs if install.kind == "TARGETS"]
+        nodes = _linked_nodes(cmake)
+        found = {
+            item.value
+            for install in targets
+            for item in install.items
+            if _runtime(install) in {None, wanted}
+        }
+        for install in targets:
+            given, argument = _runtime(install), install.destination_argument
+            names = [item.value for item in install.items if item.value in nodes - found]
+            if not names or given is None or argument is None:
+                continue
+            fix = None
+            if install.command.values.count("DESTINATION") == 1:
+                edit = Edit("CMakeLists.txt", argument.start, argument.end, _RIGHT)
+                fix = Fix(f"Install to {_RIGHT}", (edit,))
+            message = (
+                f"installs {listed_names(names, '')} to {given}, but "
+                f"`ros2 run {cmake.project_name}` searches {wanted}"
+            )
+            yield self.report(install.command.name_location, message, fix)
 
     def _is_meant_for_run(self, package: Package, install: Install, given: str) -> bool:
         """Return whether a program is a node, not a helper such as an environment hook."""
@@ -256,6 +320,29 @@ class DestinationDiffers(Rule):
                 is_searched = f"python{target().python_version}/" in where
                 severity = Severity.WARNING if is_searched else None
                 yield self.report(argument, message, severity=severity)
+
+
+def _runtime(install: Install) -> str | None:
+    """Return the directory of installed executables; ``None`` if unknown."""
+    destination = install.destinations.get("RUNTIME", install.destinations.get(""))
+    return None if destination is None else destination.rstrip("/")
+
+
+def _linked_nodes(cmake: CMakeLists) -> set[str | None]:
+    """Return the executables that are linked with rclcpp."""
+    executables = {
+        cmake.expand(call.arguments[0], call) for call in _calls(cmake, "add_executable")
+    }
+    linked = {
+        cmake.expand(call.arguments[0], call)
+        for call in _calls(cmake, "ament_target_dependencies", "target_link_libraries")
+        if any("rclcpp" in value for value in call.values[1:])
+    }
+    return executables & linked - {None}
+
+
+def _calls(cmake: CMakeLists, *names: str) -> Iterator[Command]:
+    return (call for call in cmake.find(*names) if call.arguments)
 
 
 def _holds_data(package: Package, install: Install, placed: Container[str | None]) -> bool:

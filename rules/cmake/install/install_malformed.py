@@ -1,4 +1,4 @@
-"""CM092: ``install`` has a valid kind and a destination."""
+"""CM092: the arguments of ``install`` are valid."""
 
 from __future__ import annotations
 
@@ -21,18 +21,21 @@ _KINDS = (
 )
 _KIND = "project(talker)\ninstall({} talker/node.py DESTINATION lib/${{PROJECT_NAME}})\n"
 _LISTS = "project(talker)\ninstall(DIRECTORY launch{})\nament_package()\n"
+_RENAMED = (
+    "project(talker)\ninstall(FILES {} DESTINATION share/${{PROJECT_NAME}} RENAME talk.yaml)\n"
+)
 _FILES = {"launch/talk.launch.py": ""}
 
 
 class InstallMalformed(Rule):
-    """``install`` has no destination, or starts with an unknown keyword.
+    """``install`` has no destination, starts with an unknown keyword, or renames several files.
 
     **Why.** CMake stops: ``install DIRECTORY given no DESTINATION!``, ``install called with unknown
-    mode PROGRAM``.
+    mode PROGRAM``, ``install PROGRAMS given RENAME option with more than one file``.
 
     **Fix.** Add ``DESTINATION share/${PROJECT_NAME}``, for programs ``lib/${PROJECT_NAME}``. The
     keywords are ``PROGRAMS`` for scripts, ``TARGETS`` for executables and libraries, ``DIRECTORY``
-    and ``FILES``, in upper case.
+    and ``FILES``, in upper case. Call ``install`` once for each renamed file.
 
     **Source.** CMake documentation, ``install``.
     """
@@ -79,6 +82,15 @@ class InstallMalformed(Rule):
             {"CMakeLists.txt": _KIND.format("BINARY"), "talker/node.py": "pass\n"},
             "CMakeLists.txt:2:9: unknown install() keyword 'BINARY': CMake stops",
         ),
+        Example(
+            "a renamed file",
+            {"CMakeLists.txt": _RENAMED.format("a.yaml"), "a.yaml": "", "b.yaml": ""},
+        ),
+        Example(
+            "several renamed files",
+            {"CMakeLists.txt": _RENAMED.format("a.yaml b.yaml"), "a.yaml": "", "b.yaml": ""},
+            "CMakeLists.txt:2:1: RENAME with 2 files: CMake stops; call install(FILES) for each",
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
@@ -92,6 +104,17 @@ class InstallMalformed(Rule):
                 continue  # a variable may hold the keyword
             message = f"install({values[0]}) has no DESTINATION: CMake stops"
             yield self.report(command.name_location, message)
+        yield from self._check_renamed(package)
+
+    def _check_renamed(self, package: Package) -> Iterator[Diagnostic]:
+        for install in package.cmake.installs:
+            if install.kind in {"FILES", "PROGRAMS"} and install.command.has("RENAME"):
+                if len(install.items) > 1:
+                    message = (
+                        f"RENAME with {len(install.items)} files: CMake stops; "
+                        f"call install({install.kind}) for each"
+                    )
+                    yield self.report(install.command.name_location, message)
 
     def _check_kind(self, package: Package, kind: Argument) -> Iterator[Diagnostic]:
         if kind.value in _KINDS or "$" in kind.value:
