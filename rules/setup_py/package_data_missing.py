@@ -24,6 +24,8 @@ _FILES = {
 class PackageDataMissing(Rule):
     """A module reads a file next to it that setup.py does not install.
 
+    Or ``package_data`` names a Python package that does not exist, so that it installs nothing.
+
     **Why.** It works in the source tree and with ``--symlink-install``, but fails after
     installation: ``FileNotFoundError: .../site-packages/talker/words.txt``.
 
@@ -127,11 +129,24 @@ class PackageDataMissing(Rule):
             "setup.py:6:18: talker/text.py:3 reads talker/words.txt, which is not installed; add "
             "package_data={'talker': ['words.txt']}",
         ),
+        Example(
+            "for every package, and for one of another name",
+            {
+                **_FILES,
+                "talker/py.typed": "",
+                "setup.py": _SETUP.format(
+                    "    package_data={'': ['words.txt'], 'talk': ['py.typed']},\n"
+                ),
+            },
+            "setup.py:6:18: package_data names the Python package 'talk', which does not exist: "
+            "its files are not installed",
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         if package.build_type != "ament_python":
             return
+        yield from self._check_names(package)
         setup = package.setup_py
         patterns = package_data(package)
         if patterns is None:
@@ -155,6 +170,21 @@ class PackageDataMissing(Rule):
             )
             is_unused = is_never_run(package, where.path)
             yield self.report(at, message, severity=Severity.WARNING if is_unused else None)
+
+    def _check_names(self, package: Package) -> Iterator[Diagnostic]:
+        """Report Python packages of package_data that do not exist."""
+        setup = package.setup_py
+        word = setup.keyword("package_data")
+        if word is None or not isinstance(word.value, dict) or setup.keyword("package_dir"):
+            return
+        for name in word.value:
+            if isinstance(name, str) and name.strip("*"):
+                if not package.has_directory(name.replace(".", "/")):
+                    message = (
+                        f"package_data names the Python package {name!r}, which does not exist: "
+                        f"its files are not installed"
+                    )
+                    yield self.report(word, message)
 
     def _owning_package(self, package: Package, path: str) -> str | None:
         """Return the Python package that a file is installed with."""

@@ -141,6 +141,14 @@ class WorkspaceView(Generic[AnyMember]):
         """Return whether another package of the workspace with the same name takes precedence."""
         return self._workspace.get(package.name) not in {None, package}
 
+    def namesakes(self, package: AnyMember) -> list[AnyMember]:
+        """Return the other checked packages with the name of a package."""
+        return [
+            other
+            for other in self._workspace
+            if other.name == package.name and other.directory != package.directory
+        ]
+
     @property
     def names(self) -> list[str]:
         """The sorted names of the packages, which are part of the cache key of every package."""
