@@ -178,13 +178,13 @@ class PackageDataMissing(Rule):
         if word is None or not isinstance(word.value, dict) or setup.keyword("package_dir"):
             return
         for name in word.value:
-            if isinstance(name, str) and name.strip("*"):
-                if not package.has_directory(name.replace(".", "/")):
-                    message = (
-                        f"package_data names the Python package {name!r}, which does not exist: "
-                        f"its files are not installed"
-                    )
-                    yield self.report(word, message)
+            directory = str(name).replace(".", "/").strip("*")
+            if directory and not package.has_directory(directory):
+                message = (
+                    f"package_data names the Python package {name!r}, which does not exist: "
+                    f"its files are not installed"
+                )
+                yield self.report(word, message)
 
     def _owning_package(self, package: Package, path: str) -> str | None:
         """Return the Python package that a file is installed with."""

@@ -52,8 +52,8 @@ class SetupValueRefused(Rule):
             {
                 "setup.py": _SETUP.format(
                     "version='1.0.0rc1',\n    python_requires='>=3.10, <4',\n"
-                    "    install_requires=['setuptools', 'numpy[all]>=1.2,!=1.3; os_name == \"nt\"',"
-                    "\n        'talk @ https://example.com/talk.zip']"
+                    "    install_requires=[\n        'numpy[all]>=1.2,!=1.3; os_name == \"nt\"',\n"
+                    "        'talk @ https://example.com/talk.zip']"
                 )
             },
         ),

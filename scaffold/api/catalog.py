@@ -16,7 +16,12 @@ from scaffold.model.catalog import (
     similar_package,
 )
 from scaffold.model.released import dependencies as released_dependencies
-from scaffold.model.released import is_released, transitive_dependencies
+from scaffold.model.released import (
+    has_rosdep_rule,
+    is_released,
+    is_rosdep_key,
+    transitive_dependencies,
+)
 
 __all__ = [
     "BUILD_TOOLS",
@@ -24,8 +29,10 @@ __all__ = [
     "OTHER_NAMES",
     "ROS1_PACKAGES",
     "ROS_PACKAGES",
+    "has_rosdep_rule",
     "is_near",
     "is_released",
+    "is_rosdep_key",
     "keys_of_module",
     "module_keys",
     "module_of_key",

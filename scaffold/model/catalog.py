@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Iterable, Mapping
 
-from scaffold.model.released import is_released
+from scaffold.model.released import has_rosdep_rule, is_released, is_rosdep_key
 
 _ROS_PACKAGES = """
 ackermann_msgs action_msgs action_tutorials_cpp action_tutorials_interfaces action_tutorials_py
@@ -278,6 +278,17 @@ def keys_of_module(root: str) -> tuple[str, ...]:
     if root in _OTHER_MODULES:
         return tuple(_OTHER_MODULES[root].split())
     return (root,) if root in ROS_PACKAGES else ()
+
+
+def library_keys(root: str) -> tuple[str, ...]:
+    """Return the rosdep keys that are named after a Python module, as in Debian.
+
+    Args:
+        root: The first part of the imported name.
+    """
+    name = f"{_PYTHON}{root.lower().replace('_', '-')}"
+    keys = (name, f"{name}-pip")
+    return tuple(key for key in keys if is_rosdep_key(key) and has_rosdep_rule(key))
 
 
 def keys_brought(keys: Iterable[str]) -> set[str]:

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from functools import cache
 
-from scaffold.distributions import DATA, target
+from scaffold.distributions import ALIASES, DATA, target
 
 
 @cache
@@ -29,6 +29,25 @@ def _by_distribution() -> Mapping[tuple[str, str], str]:
 def is_released(name: str) -> bool:
     """Return whether some distribution has a package of this name."""
     return name in _lines()
+
+
+@cache
+def _lacking() -> Mapping[str, Sequence[str]]:
+    """Return the distributions without a rule for a name, by name."""
+    with open(os.path.join(DATA, "rosdep_keys.txt"), encoding="utf-8") as file:
+        lines = (line.rstrip().partition(":") for line in file)
+        return {name: lacking.split() for name, _, lacking in lines}
+
+
+def is_rosdep_key(name: str) -> bool:
+    """Return whether rosdep had a rule for a name, on any system, when the data were written."""
+    return name in _lacking()
+
+
+def has_rosdep_rule(name: str) -> bool:
+    """Return whether a known key or package has a rule for Ubuntu on the target."""
+    distribution = ALIASES.get(target().name, target().name)
+    return distribution not in _lacking().get(name, ())
 
 
 def dependencies(name: str) -> Iterable[str]:

@@ -7,8 +7,14 @@ from pathlib import Path
 import pytest
 
 from scaffold.distributions import named, targeting
-from scaffold.model.released import dependencies, is_released, transitive_dependencies
-from scripts import bundle_dependencies
+from scaffold.model.released import (
+    dependencies,
+    has_rosdep_rule,
+    is_released,
+    is_rosdep_key,
+    transitive_dependencies,
+)
+from scripts import bundle_dependencies, bundle_rosdep
 
 RECIPE = """ROS_CN = "talker"
 ROS_BPN = "{name}"
@@ -65,4 +71,43 @@ def test_recipes_give_rosdep_keys_by_distribution(tmp_path: Path) -> None:
         "talker_msgs: rosidl_default_generators\n",
         "talker_py: python3-yaml\n",
         "talker_py jazzy: rosidl_default_generators talker_msgs\n",
+    ]
+
+
+@pytest.mark.parametrize(("distribution", "has_rule"), [("humble", True), ("rolling", False)])
+def test_a_library_may_lack_a_rule_for_newer_systems(distribution: str, has_rule: bool) -> None:
+    assert is_rosdep_key("ignition-gazebo6")
+    assert not is_rosdep_key("my_talker")
+    with targeting(named(distribution)):
+        assert has_rosdep_rule("ignition-gazebo6") is has_rule
+
+
+def test_names_that_rosdep_resolves(tmp_path: Path) -> None:
+    (tmp_path / "rosdep").mkdir()
+    (tmp_path / "rosdep" / "base.yaml").write_text(
+        "eigen:\n  ubuntu: [libeigen3-dev]\n"
+        "gazebo:\n  ubuntu:\n    jammy: [gazebo]\n"
+        "omniorb:\n  fedora: [omniORB]\n"
+        "protobuf:\n  ubuntu:\n    '*': [libprotobuf32]\n    jammy: null\n"
+    )
+    (tmp_path / "rosdep" / "python.yaml").write_text(
+        "python3-tree-pip:\n  ubuntu:\n    pip: {packages: [tree]}\n"
+    )
+    (tmp_path / "rosdep" / "ruby.yaml").write_text("ruby: {ubuntu: [ruby]}\n")
+    for name in ("humble", "jazzy", "kilted", "lyrical"):
+        (tmp_path / name).mkdir()
+        (tmp_path / name / "distribution.yaml").write_text(
+            "repositories:\n"
+            "  talk: {release: {packages: [talker, listener], version: 1.0.0-1}}\n"
+            + ("  walk: {release: {version: 1.0.0-1}}\n" if name == "humble" else "")
+            + "  planned: {release: {packages: [planner]}}\n"
+        )
+    assert [*bundle_rosdep.lines(bundle_rosdep.lacking(tmp_path))] == [
+        "eigen\n",
+        "gazebo: jazzy kilted lyrical\n",
+        "omniorb\n",
+        "protobuf: humble\n",
+        "python3-tree-pip\n",
+        "ruby\n",
+        "walk: jazzy kilted lyrical\n",
     ]

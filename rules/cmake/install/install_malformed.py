@@ -108,13 +108,12 @@ class InstallMalformed(Rule):
 
     def _check_renamed(self, package: Package) -> Iterator[Diagnostic]:
         for install in package.cmake.installs:
-            if install.kind in {"FILES", "PROGRAMS"} and install.command.has("RENAME"):
-                if len(install.items) > 1:
-                    message = (
-                        f"RENAME with {len(install.items)} files: CMake stops; "
-                        f"call install({install.kind}) for each"
-                    )
-                    yield self.report(install.command.name_location, message)
+            count = len(install.items)
+            if install.kind in _OF_FILES[:2] and install.command.has("RENAME") and count > 1:
+                message = (
+                    f"RENAME with {count} files: CMake stops; call install({install.kind}) for each"
+                )
+                yield self.report(install.command.name_location, message)
 
     def _check_kind(self, package: Package, kind: Argument) -> Iterator[Diagnostic]:
         if kind.value in _KINDS or "$" in kind.value:

@@ -3,20 +3,29 @@
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule, Severity
+from scaffold.api import Diagnostic, Effect, Example, Package, Report, Rule, Severity
 from scaffold.api.catalog import (
     OTHER_NAMES,
     ROS1_PACKAGES,
     ROS_PACKAGES,
+    has_rosdep_rule,
     is_released,
+    is_rosdep_key,
+    keys_of_module,
     module_of_key,
     similar_key,
     similar_package,
 )
 from scaffold.api.distributions import removed_package, target
+from scaffold.api.manifest import is_fetched
 
+from ._no_keys import why_no_key
+
+_PACKAGE = re.compile(r"[a-z][a-z0-9_]*")
+"""Matches what the packages of ROS are named like."""
 KINDS = frozenset(
     {"depend", "build_depend", "buildtool_depend", "exec_depend", "run_depend", "test_depend"}
     | {"build_export_depend", "buildtool_export_depend"}
@@ -29,8 +38,9 @@ _KEYS = ("python3-serial", "libserial-dev")
 class DependencyUnresolvable(Rule):
     """A dependency is neither a rosdep key nor an available package.
 
-    Only reported after ``rosdep update``. A rule for any operating system is enough, because the
-    package may be meant for another one. The keys include the packages of the distribution.
+    The keys are those of ``rosdep update``, and those that this tool knows, which include the
+    packages of the distribution. A key that has rules for other versions of Ubuntu only is
+    reported; a key for other systems is not, because the package may be meant for them.
 
     **Why.** ``rosdep install`` stops: ``Cannot locate rosdep definition for [pyserial-3]``. The
     build farm and users who install the dependencies get the same error.
@@ -43,7 +53,10 @@ class DependencyUnresolvable(Rule):
 
     code = "PX028"
     name = "dependency-unresolvable"
-    severity = Severity.WARNING
+    effect = Effect.STOPS_ROSDEP
+    other_severities = {
+        Severity.WARNING: "it may be a package of ROS that is built from other sources"
+    }
     release_refused = "bloom finds no rosdep rule for the name"
     examples = (
         Example(
@@ -57,13 +70,33 @@ class DependencyUnresolvable(Rule):
             neighbors={"serial": {"package.xml": "<package><name>robot-serial</name></package>"}},
             rosdep_keys=_KEYS,
         ),
-        Example("rosdep is not installed", {"package.xml": _MANIFEST.format("pyserial-3")}),
+        Example(
+            "keys, one of them only for other systems",
+            {
+                "package.xml": "<package>\n  <name>talker</name>\n"
+                "  <depend>python3-serial</depend>\n  <depend>omniorb</depend>\n</package>\n"
+            },
+        ),
         Example(
             "a package from another prefix",
             {"package.xml": _MANIFEST.format("robot_serial")},
-            "3:11: unknown dependency 'robot_serial': rosdep has no rule for it, and it is not a "
-            "package in the workspace or AMENT_PREFIX_PATH",
+            Report(
+                "3:11",
+                "unknown dependency 'robot_serial': rosdep has no rule for it, and it "
+                "is not a package in the workspace or AMENT_PREFIX_PATH",
+                severity=Severity.WARNING,
+            ),
             rosdep_keys=_KEYS,
+        ),
+        Example(
+            "a package from another prefix, without the cache of rosdep",
+            {"package.xml": _MANIFEST.format("robot_serial")},
+            Report(
+                "3:11",
+                "unknown dependency 'robot_serial': rosdep has no rule for it, and it "
+                "is not a package in the workspace or AMENT_PREFIX_PATH",
+                severity=Severity.WARNING,
+            ),
         ),
         Example(
             "neither a key nor a package",
@@ -73,18 +106,45 @@ class DependencyUnresolvable(Rule):
             rosdep_keys=_KEYS,
         ),
         Example(
+            "neither a key nor a package, without the cache of rosdep",
+            {"package.xml": _MANIFEST.format("dotenv")},
+            "3:11: unknown dependency 'dotenv': rosdep has no rule for it, and it is not a "
+            "package in the workspace or AMENT_PREFIX_PATH; the key is 'python3-dotenv'",
+        ),
+        Example(
+            "the name of a library in the index of Python packages",
+            {"package.xml": _MANIFEST.format("python3-pillow")},
+            "3:11: unknown dependency 'python3-pillow': rosdep has no rule for it, and it is not "
+            "a package in the workspace or AMENT_PREFIX_PATH; the key is 'python3-pil'",
+        ),
+        Example(
             "a package of another distribution",
             {"package.xml": _MANIFEST.format("turtlebot4_desktop")},
-            "3:11: unknown dependency 'turtlebot4_desktop': rosdep has no rule for it, and it is "
-            "not a package in the workspace or AMENT_PREFIX_PATH; Jazzy lacks it, other "
-            "distributions have it",
-            rosdep_keys=_KEYS,
+            Report(
+                "3:11",
+                "unknown dependency 'turtlebot4_desktop': rosdep has no rule for it, "
+                "and it is not a package in the workspace or AMENT_PREFIX_PATH; Kilted "
+                "lacks it, other distributions have it",
+                severity=Severity.WARNING,
+            ),
+            distro="kilted",
+        ),
+        Example(
+            "a library of older versions of Ubuntu",
+            {"package.xml": _MANIFEST.format("ignition-gazebo6")},
+            "3:11: rosdep has no rule for 'ignition-gazebo6' on Ubuntu Noble, the system of "
+            "Jazzy: it stops",
+        ),
+        Example(
+            "a library of this version of Ubuntu",
+            {"package.xml": _MANIFEST.format("ignition-gazebo6")},
+            distro="humble",
         ),
         Example(
             "another spelling",
             {"package.xml": _MANIFEST.format("Serial")},
             "3:11: unknown dependency 'Serial': rosdep has no rule for it, and it is not a "
-            "package in the workspace or AMENT_PREFIX_PATH; it has 'python3-serial'",
+            "package in the workspace or AMENT_PREFIX_PATH; the key is 'python3-serial'",
             rosdep_keys=_KEYS,
         ),
     )
@@ -98,22 +158,42 @@ class DependencyUnresolvable(Rule):
             seen.add(name)
             if not name or "$" in name or _is_known(package, name):
                 continue
-            rosdep = package.workspace.rosdep
-            if rosdep is None:
-                return
-            if rosdep.resolves(name) is False:
-                message = (
-                    f"unknown dependency {name!r}: rosdep has no rule for it, and it is not a "
-                    f"package in the workspace or AMENT_PREFIX_PATH{_hint(package, name)}"
-                )
-                yield self.report(dependency, message, cause=f"dependency {name}")
+            problem, severity = _problem(package, name)
+            if problem:
+                cause = f"dependency {name}"
+                yield self.report(dependency, problem, cause=cause, severity=severity)
+
+
+def _problem(package: Package, name: str) -> tuple[str, Severity | None]:
+    """Return why rosdep does not resolve a name, if so, and how severe that is."""
+    rosdep = package.workspace.rosdep
+    is_in_cache = None if rosdep is None else rosdep.resolves(name)
+    is_key = is_rosdep_key(name) and not is_released(name)
+    if is_key and not has_rosdep_rule(name):
+        system = f"Ubuntu {target().fact('ubuntu').capitalize()}, the system of {target().title}"
+        return f"rosdep has no rule for {name!r} on {system}: it stops", None
+    if is_in_cache or (is_in_cache is None and (is_key or _is_of_target(name))):
+        return "", None
+    hint = _hint(package, name)
+    message = (
+        f"unknown dependency {name!r}: rosdep has no rule for it, and it is not a package in the "
+        f"workspace or AMENT_PREFIX_PATH{hint}"
+    )
+    is_library = hint.startswith("; the key") and not package.has("CMakeLists.txt")
+    is_certain = is_library or not _PACKAGE.fullmatch(name)
+    return message, None if is_certain else Severity.WARNING
+
+
+def _is_of_target(name: str) -> bool:
+    """Return whether the distribution has a released package."""
+    return is_released(name) and has_rosdep_rule(name)
 
 
 def _is_known(package: Package, name: str) -> bool:
     """Return whether a name is a known package, or another rule reports it."""
     if name in {*ROS_PACKAGES, *ROS1_PACKAGES, *OTHER_NAMES, package.name}:
         return True
-    if removed_package(name) is not None:
+    if why_no_key(package, name) or removed_package(name) is not None or is_fetched(package, name):
         return True
     if (
         similar_package(name)
@@ -133,8 +213,12 @@ def _hint(package: Package, name: str) -> str:
     if is_released(name):
         return f"; {target().title} lacks it, other distributions have it"
     rosdep = package.workspace.rosdep
+    module = module_of_key(name.removeprefix("python3-"))
+    if module is not None:
+        return f"; the key is {keys_of_module(module)[0]!r}"
     plain = name.replace("_", "-").lower()
     for guess in (f"python3-{plain.removeprefix('python-')}", plain, f"{plain}-dev"):
-        if guess != name and rosdep is not None and rosdep.resolves(guess):
-            return f"; it has {guess!r}"
+        is_in_cache = rosdep is not None and rosdep.resolves(guess)
+        if guess != name and (is_in_cache or is_rosdep_key(guess)):
+            return f"; the key is {guess!r}"
     return ""

@@ -2,37 +2,18 @@
 
 from __future__ import annotations
 
-import re
-import sys
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Effect, Example, Fix, Package, Report, Rule, ViewError
 from scaffold.api.catalog import (
-    LIBRARY_KEYS,
-    is_released,
     keys_of_module,
-    module_keys,
     module_of_key,
 )
 from scaffold.api.manifest import is_fetched
-from scaffold.api.python import paths_importing
 
-from ._debian import key_of_debian
+from ._no_keys import is_found_by_cmake, is_of_cpp, why_no_key
 
 _PYTHON = "  <export><build_type>ament_python</build_type></export>\n</package>"
-_MODULES = (".msg", ".srv", ".action")
-_OF_PYTHON_2 = frozenset(
-    {"lxml", "matplotlib", "numpy", "opencv", "pandas", "pil", "psutil", "pyqt5", "requests"}
-    | {"scipy", "serial", "setuptools", "tk", "yaml", "zmq"}
-)
-_WITHOUT_PYTHON_2 = frozenset(
-    {"argparse", "cpplint", "docx", "fysom", "is-python3", "kdtree", "lttngust", "multicast"}
-    | {"path.py", "percol", "slacker-cli", "telegram-bot", "trep"}
-)
-"""The last parts of keys ``python-...`` that are still resolved, most of them with pip."""
-_NO_KEYS = frozenset({"ament_python"})
-_KEYS_LIKE_MODULES = frozenset({"sqlite3", "time", "uuid", "zlib"})
-"""Rosdep keys with names of modules of the standard library."""
 _MANIFEST = (
     '<package format="3">\n  <name>talker</name>\n  <exec_depend>{}</exec_depend>\n</package>\n'
 )
@@ -224,7 +205,7 @@ class DependencyWithoutKey(Rule):
                 continue
             problem = ""
             if dependency.active and not _is_source(package, dependency.name):
-                problem = _problem(dependency.name) or _why_unknown(package, dependency.name)
+                problem = why_no_key(package, dependency.name)
             if problem and dependency.kind != "doc_depend":
                 yield self.report(dependency, problem, cause=f"dependency {dependency.name}")
 
@@ -235,13 +216,13 @@ class DependencyWithoutKey(Rule):
                 continue
             if dependency.kind == "doc_depend" or not dependency.may_be_active:
                 continue  # which rosdep does not install
-            if _is_found_by_cmake(package, dependency.name):
+            if is_found_by_cmake(package, dependency.name):
                 continue
             key = _key(package, module)
             message = f"{dependency.name!r} is not a rosdep key: rosdep stops; the key"
             edit = Edit("package.xml", *dependency.element.text_span, key)
             fix: Fix | None = Fix(f"Replace with {key}", (edit,))
-            if key.startswith("python3-") and _is_of_cpp(package, module):
+            if key.startswith("python3-") and is_of_cpp(package, module):
                 message, fix = f"{message} of the Python library", None
             yield self.report(dependency, f"{message} is {key!r}", fix, cause=f"dependency {key}")
 
@@ -249,80 +230,6 @@ class DependencyWithoutKey(Rule):
 def _is_source(package: Package, name: str) -> bool:
     """Return whether a package is in the workspace, or fetched into it."""
     return package.workspace.get(name) is not None or is_fetched(package, name)
-
-
-def _problem(name: str) -> str:
-    key = key_of_debian(name)
-    problem = ""
-    if key:
-        problem = f"{name!r} is a Debian package; its rosdep key is {key!r}"
-    elif re.search(r"[<>=~!]", name):
-        problem = (
-            f"{name!r} contains a version, which rosdep treats as part of the name; use "
-            "version_gte='...'"
-        )
-    elif len(name.split()) > 1:
-        problem = f"{name!r} contains several names: rosdep stops; write an element for each"
-    elif name.endswith(_MODULES):
-        problem = f"{name!r} is a module: rosdep stops; the package is {name.rpartition('.')[0]!r}"
-    elif name.startswith("python3_"):
-        problem = f"rosdep keys contain dashes, not underscores; use {name.replace('_', '-')!r}"
-    elif name.startswith("python-") and not name.endswith("-pip"):
-        problem = _problem_of_python_2(name)
-    elif name in _NO_KEYS:
-        problem = f"{name!r} is a build type, not a package: rosdep cannot resolve it; remove it"
-    return problem
-
-
-def _why_unknown(package: Package, name: str) -> str:
-    """Return why a name is certainly no key, unless the local rosdep cache has it."""
-    rosdep = package.workspace.rosdep
-    if rosdep is not None and rosdep.resolves(name):
-        return ""
-    if name in LIBRARY_KEYS:
-        return f"{name!r} is not a rosdep key: rosdep stops; the key is {LIBRARY_KEYS[name]!r}"
-    if _is_of_python(package, name):
-        return f"{name!r} is a module of Python itself: rosdep stops; remove it"
-    if _is_own_module(package, name):
-        return f"{name!r} is a Python package in this package: rosdep stops; remove it"
-    return ""
-
-
-def _problem_of_python_2(name: str) -> str:
-    rest = name.removeprefix("python-")
-    if rest in _WITHOUT_PYTHON_2:
-        return ""
-    key = f"python3-{rest}"
-    is_known = rest in _OF_PYTHON_2 or key in module_keys()
-    advice = f"use {key!r}" if is_known else "use the key for Python 3"
-    return f"{name!r} is a Python 2 package: rosdep stops; {advice}"
-
-
-def _is_of_python(package: Package, name: str) -> bool:
-    """Return whether a name is that of a module of the standard library, which is not a key."""
-    is_module = name in sys.stdlib_module_names and name not in _KEYS_LIKE_MODULES
-    # ``argparse`` and others are also C++ libraries.
-    return is_module and not _is_found_by_cmake(package, name) and not _is_of_cpp(package, name)
-
-
-def _is_own_module(package: Package, name: str) -> bool:
-    """Return whether setup.py installs a Python package of a name that no other package has."""
-    if name == package.name or is_released(name) or package.build_type != "ament_python":
-        return False
-    try:
-        packages = package.setup_py.packages
-    except ViewError:
-        return False
-    is_packed = isinstance(packages, list) and name in packages
-    return is_packed and package.has(f"{name}/__init__.py")
-
-
-def _is_found_by_cmake(package: Package, name: str) -> bool:
-    """Return whether a name is also a C++ library, such as serial."""
-    try:
-        return bool(package.cmake.finds(name))
-    except ViewError:
-        return False
 
 
 def _key(package: Package, module: str) -> str:
@@ -333,8 +240,3 @@ def _key(package: Package, module: str) -> str:
     except ViewError:
         is_found = False
     return "libopencv-dev" if is_found and module == "cv2" else keys[0]
-
-
-def _is_of_cpp(package: Package, module: str) -> bool:
-    """Return whether a package with C++ imports no such module, and may mean a C++ library."""
-    return package.has("CMakeLists.txt") and not any(paths_importing(package, module))

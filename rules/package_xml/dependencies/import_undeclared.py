@@ -9,7 +9,7 @@ from scaffold.api import Diagnostic, Effect, Example, Package, Report, Rule, Sev
 from scaffold.api.catalog import (
     ROS_PACKAGES,
     is_released,
-    keys_of_module,
+    is_rosdep_key,
     transitive_dependencies,
 )
 from scaffold.api.distributions import removed_package, target
@@ -211,6 +211,28 @@ class ImportUndeclared(Rule):
                 "talker/__init__.py": "",
                 "talker/node.py": "import rclpy\nfrom pygazebo.msg import pose_pb2\n",
             },
+        ),
+        Example(
+            "libraries with keys named after them, and one without",
+            {
+                "package.xml": _manifest("rclpy"),
+                "talker/__init__.py": "",
+                "talker/node.py": "import can\nimport dotenv\nimport our_driver\nimport rclpy\n",
+                "setup.py": "setup(install_requires=['python-can'])\n",
+            },
+            Report(
+                "talker/node.py:1:1",
+                "imports 'can', which package.xml does not declare; add "
+                "<exec_depend>python3-can</exec_depend>",
+                fix="Declare python3-can",
+            ),
+            Report(
+                "talker/node.py:2:1",
+                "imports 'dotenv', which package.xml does not declare; add "
+                "<exec_depend>python3-dotenv</exec_depend>",
+                fix="Declare python3-dotenv",
+            ),
+            fixed={"package.xml": _manifest("python3-can", "python3-dotenv", "rclpy")},
         ),
         Example(
             "a library that dependencies outside of every distribution may bring",
@@ -683,7 +705,7 @@ class ImportUndeclared(Rule):
                     else f": `colcon build --packages-up-to {package.name}` leaves it out"
                 )
             message += f"; {needed.advice}"
-            if _is_unknown(package, need.module):
+            if _is_unknown(package, need):
                 message += f", and the package to the workspace: {target().title} lacks it"
             cause = f"dependency {need.keys[0]}"
             yield self.report(need, message, needed.fix, severity=severity, cause=cause)
@@ -702,9 +724,10 @@ def _why_missing(package: Package, need: requirements.Requirement) -> str:
     return "package.xml does not declare"
 
 
-def _is_unknown(package: Package, module: str) -> bool:
+def _is_unknown(package: Package, need: requirements.Requirement) -> bool:
     """Return whether interfaces are those of a package that is neither released nor nearby."""
-    is_known = is_released(module) or module in ROS_PACKAGES or bool(keys_of_module(module))
+    module = need.module
+    is_known = is_released(module) or module in ROS_PACKAGES or is_rosdep_key(need.keys[0])
     is_near = package.workspace.get(module) is not None or is_fetched(package, module)
     return not (is_known or is_near)
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from scaffold import lazy_re
 from scaffold.formats.hash_comments import without_comments
-from scaffold.model.catalog import ROS1_PACKAGES, keys_of_module
+from scaffold.model.catalog import ROS1_PACKAGES, keys_of_module, library_keys
 from scaffold.model.contents.ament_cmake import programs
 from scaffold.model.contents.interface_files import generations
 from scaffold.model.contents.python_facts import imports_by_path
@@ -221,7 +221,7 @@ def _keys(package: Package, node: Import, local: frozenset[str]) -> tuple[str, .
     is_interface = is_interface and root not in _libraries(package)
     if is_interface or package.workspace.get(root) is not None:
         return (root,)
-    return ()
+    return library_keys(root)
 
 
 def _libraries(package: Package) -> frozenset[str]:

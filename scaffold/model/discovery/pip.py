@@ -17,8 +17,8 @@ if TYPE_CHECKING:
 _PLACES = ("", "docker", ".devcontainer")
 """Directories of a repository with requirements files."""
 _NAME = lazy_re.compile(r"^[ \t]*([A-Za-z0-9][\w.-]*)", re.MULTILINE)
-# linear: few lines of a file start with the key
-_PROJECT = lazy_re.compile(r"^dependencies\s*=\s*\[(.*?)\][ \t]*$", re.MULTILINE | re.DOTALL)
+# linear: few lines of a file start with a key
+_PROJECT = lazy_re.compile(r"^[\w-]+\s*=\s*\[(.*?)\][ \t]*$", re.MULTILINE | re.DOTALL)
 _QUOTED = lazy_re.compile(r"""["']([A-Za-z0-9][\w.-]*)""")
 _MAX_BYTES = 100_000
 
@@ -26,7 +26,9 @@ _MAX_BYTES = 100_000
 def is_in_requirements(package: Package, module: str) -> bool:
     """Return whether the package of a module is listed for pip."""
     names = package.remember("names for pip", lambda: frozenset(_names(package)))
-    return any(name == module.lower() or module_of_key(name) == module for name in names)
+    plain = module.lower().replace("_", "-")
+    usual = {plain, plain.replace("-", "_"), f"python-{plain}", f"py{plain}", f"{plain}-python"}
+    return not usual.isdisjoint(names) or any(module_of_key(name) == module for name in names)
 
 
 def _names(package: Package) -> Iterator[str]:
