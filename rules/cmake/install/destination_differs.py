@@ -229,7 +229,7 @@ class DestinationDiffers(Rule):
         }
         for install in targets:
             given, argument = _runtime(install), install.destination_argument
-            names = [item.value for item in install.items if item.value in nodes - found]
+            names = [item.value or "" for item in install.items if item.value in nodes - found]
             if not names or given is None or argument is None:
                 continue
             fix = None
