@@ -27,6 +27,7 @@ help:
 	@echo 'make test-rules  the examples of all rules, in a small environment; PYTEST_ARGS=...'
 	@echo 'make versions    all tests on every Python from 3.10 to 3.14 that is installed'
 	@echo 'make lint        ruff, mypy and the direction of imports, on the whole repository'
+	@echo 'make style       style compared with the linters of ament, on the Python of Jazzy'
 	@echo 'make format      let ruff format the code'
 	@echo 'make examples    write what rules report now into their examples; CODES=... for some'
 	@echo 'make docs        write the pages below docs/ that are made from the code'
@@ -68,6 +69,11 @@ lint: $(VENV)/test.stamp
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
 	$(BIN)/lint-imports
+
+# Without a Python 3.12, nox says so and goes on.
+.PHONY: style
+style: $(VENV)/test.stamp
+	$(BIN)/nox --session style -- --quiet
 
 .PHONY: format
 format: $(VENV)/test.stamp

