@@ -20,6 +20,11 @@ settings.register_profile("random", settings.get_profile("repository"), derandom
 settings.load_profile("repository")
 
 
+def pytest_xdist_auto_num_workers() -> int:
+    """Return one process more than there are processors: tests of nodes wait most of the time."""
+    return len(os.sched_getaffinity(0)) + 1
+
+
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
     """Deselect tests that take hours unless their marker is given; run slow files first.
 
