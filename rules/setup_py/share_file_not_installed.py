@@ -86,7 +86,7 @@ class ShareFileNotInstalled(Rule):
                     "        ('share/talker/launch', glob('launch/*.launch.py')),\n"
                 ),
                 "launch/talk.launch.py": "CONFIG = 'src/talker/config/talker.yaml'\n"
-                "RVIZ = 'my_view.rviz'\nMAP = 'share/talker/maps/hall.pgm'\n" + _LAUNCH,
+                "RVIZ = 'my_view.rviz'\nopen('share/talker/maps/hall.pgm')\n" + _LAUNCH,
                 "config/talker.yaml": "",
                 "maps/hall.pgm": "",
                 "worlds/hall.yaml": "model: hall.dae\n",

@@ -34,7 +34,19 @@ _OF_SYNTAX = "E9"
 _OF_PROGRAMS = ("IM", "LF", "MS", "ND", "TY")
 """Areas of rules about run-time behavior."""
 _OF_ACTIONS = (
-    *("LF006", "LF010", "LF016", "LF045", "LF053", "LF058", "LF060", "LF065", "LF066", "LF067"),
+    *(
+        "LF006",
+        "LF010",
+        "LF016",
+        "LF044",
+        "LF045",
+        "LF053",
+        "LF058",
+        "LF060",
+        "LF065",
+        "LF066",
+        "LF067",
+    ),
     *("LF08", "PF"),
 )
 """Areas and codes of rules about what happens when an action of a launch file is executed."""

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from scaffold import lazy_re
 from scaffold.model.facts import fact
 from scaffold.model.launch.python_file import LaunchFile
+from scaffold.model.launch.unused.unlaunched import is_only_stored
 from scaffold.source import ViewError
 
 if TYPE_CHECKING:
@@ -82,6 +83,7 @@ def _named_in(
     if directory not in text or not _INSTALLED.search(text):
         return set()
     named = {name for name in wanted if name in text and _is_named_in(text, name)}
+    named = {name for name in named if not is_only_stored(user, path, name)}
     if named:
         named -= _of_other_packages(package, user, path)
     if user.name == package.name:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from scaffold.model.facts import fact
 from scaffold.model.launch.python_file import LaunchFile
+from scaffold.source import ViewError
 
 if TYPE_CHECKING:
     from scaffold.model.package import Package
@@ -32,6 +33,22 @@ def is_in_unlaunched_action(package: Package, path: str, line: int, column: int)
     launch = LaunchFile.of(package, path)
     around = [call for call in launch.module.walk(ast.Call) if covers(call, line, column)]
     return any(is_never_used(launch, call) for call in around[-1:] if _makes_object(call))
+
+
+def is_only_stored(package: Package, path: str, text: str) -> bool:
+    """Return whether a launch file has a text only in values that it never uses."""
+    if not path.endswith(_ENDING):
+        return False
+    try:
+        launch = LaunchFile.of(package, path)
+    except ViewError:
+        return False
+    constants = [
+        constant
+        for constant in launch.module.walk(ast.Constant)
+        if isinstance(constant.value, str) and text in constant.value
+    ]
+    return bool(constants) and all(is_never_used(launch, constant) for constant in constants)
 
 
 def covers(node: ast.expr, line: int, column: int) -> bool:
