@@ -109,6 +109,7 @@ def test_script_only_mentioned_in_a_comment(
         "node - Kopie.py",
         "(UNUSED)talker/nodes.py",
         "old/nodes.py",
+        "temp/nodes.py",
         "untitled1.py",
         "node_obsolete.py",
     ],

@@ -27,7 +27,8 @@ The last ones are written by file managers: ``talk (copy).py``, ``talk (3rd copy
 ``talk - Copy.py``.
 """
 _UNUSED_DIRECTORY = lazy_re.compile(
-    r"(?:^|[\W_])(?:unused|deprecated|backups?|bak|archived?|old)(?:$|[\W_])", re.IGNORECASE
+    r"(?:^|[\W_])(?:unused|deprecated|backups?|bak|archived?|old)(?:$|[\W_])|^te?mp$",
+    re.IGNORECASE,
 )
 """Matches the name of a directory with unused code."""
 _KEPT = (".py", ".xacro", ".urdf", ".launch", ".xml", ".yaml", ".yml")
