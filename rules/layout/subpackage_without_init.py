@@ -62,6 +62,14 @@ class SubpackageWithoutInit(Rule):
             {**_FILES, "setup.py": "from setuptools import setup\n\nsetup(packages=['robot'])\n"},
         ),
         Example(
+            "package in a directory in which find_packages() does not search",
+            {
+                **_FILES,
+                "setup.py": "from setuptools import find_packages, setup\n\n"
+                "setup(packages=find_packages('talker', 'talker/text'))\n",
+            },
+        ),
+        Example(
             "modules that are package data",
             {
                 **_FILES,
@@ -165,7 +173,7 @@ class SubpackageWithoutInit(Rule):
 def _is_needless(packages: object, directory: str) -> bool:
     """Return whether a directory is installed without the file, or not even with it."""
     if isinstance(packages, FindPackages):
-        return packages.namespace
+        return packages.namespace or packages.where != "."
     if not isinstance(packages, list | tuple):
         return False
     return directory.partition("/")[0] not in packages or directory.replace("/", ".") in packages
