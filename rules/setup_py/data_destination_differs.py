@@ -65,6 +65,23 @@ class DataDestinationDiffers(Rule):
             },
         ),
         Example(
+            "a marker of the package in the ament index, and another file there",
+            {
+                **_FILES,
+                "config/talker": "",
+                "config/talker.yaml": "",
+                "setup.py": _SETUP.format(
+                    "'share/ament_index/resource_index/configuration'", "['config/talker']"
+                ).replace(
+                    "]),",
+                    "]),\n        ('share/ament_index/resource_index/configuration', "
+                    "['config/talker.yaml']),",
+                ),
+            },
+            "setup.py:7:10: installs config/talker.yaml to "
+            "share/ament_index/resource_index/configuration, but ROS 2 searches share/talker/",
+        ),
+        Example(
             "without the package",
             {**_FILES, "setup.py": _SETUP.format("'share/launch'", _GLOB)},
             "setup.py:6:10: installs launch/talk.launch.py to share/launch, but ROS 2 searches "
@@ -135,9 +152,15 @@ def _problem(data: DataFile, share: str) -> str:
         source == "package.xml" or source.startswith(tuple(f"{name}/" for name in _DIRECTORIES))
         for source in sources
     )
-    if is_data and target.rstrip("/") != share and not target.startswith(f"{share}/"):
+    is_marker = target.startswith(_INDEX) and all(
+        source.rpartition("/")[2] == share.rpartition("/")[2] for source in sources
+    )
+    is_found = is_marker or f"{target}/".startswith(f"{share}/")
+    if is_data and not is_found:
         return f"installs {sources[0]} to {target}, but ROS 2 searches {share}/"
     return ""
 
 
+_INDEX = "share/ament_index/resource_index/"
+"""The directory with markers of any type, named after packages."""
 _DIRECTORIES = ("launch", *DATA_DIRECTORIES)

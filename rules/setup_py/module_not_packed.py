@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
-from scaffold.api import Diagnostic, Edit, Effect, Example, Fix, Package, Report, Rule
+from scaffold.api import Diagnostic, Edit, Effect, Example, Fix, Location, Package, Report, Rule
 from scaffold.api.python import Unknown
 from scaffold.api.setup_py import FindPackages, SetupPy, installed_data
+from scaffold.api.workspace import is_of_submodule
 
 _SETUP = (
     "from setuptools import find_packages, setup\n\nsetup(\n    name='talker',\n{}"
@@ -165,6 +166,15 @@ class ModuleNotPacked(Rule):
             "setup.py:5:17: package_dir names lib/, which does not exist: nothing is installed",
         ),
         Example(
+            "a directory of package_dir in a git submodule, which a clone may not have",
+            {
+                "setup.py": _SETUP_PLACES.format(
+                    "    package_dir={'': 'solver/src'},\n    packages=['solver'],\n"
+                ),
+                ".gitmodules": '[submodule "solver"]\n\tpath = solver\n\turl = ../solver.git\n',
+            },
+        ),
+        Example(
             "a package in py_modules",
             {
                 "setup.py": _SETUP_PLACES.format("    py_modules=['talker'],\n"),
@@ -195,20 +205,24 @@ class ModuleNotPacked(Rule):
         if (keyword is not None and names is None) or setup.keyword("py_modules"):
             return
         at = keyword or setup
-        for name in names or ():
-            root = name.partition(".")[0]
-            if not package.has_directory(root):
-                message = f"packages lists {name!r}, which does not exist: the build stops"
-                yield self.report(at, message, cause=f"directory {root}")
-                continue
-            place = name.replace(".", "/")
-            if not package.has_directory(place):
-                message = f"packages lists {name!r}, but {place}/ does not exist: the build stops"
-                yield self.report(at, message, cause=f"directory {place}")
+        yield from self._check_listed(package, at.location, names or ())
         for root in sorted(roots - {item.partition(".")[0] for item in names or ()}):
             if package.has_directory(root):
                 message = f"packages does not include {root!r}, which the entry points start"
                 yield self.report(at, message)
+
+    def _check_listed(
+        self, package: Package, at: Location, names: Iterable[str]
+    ) -> Iterator[Diagnostic]:
+        for name in names:
+            place = name.replace(".", "/")
+            root = place.partition("/")[0]
+            if package.has_directory(place) or is_of_submodule(package, place):
+                continue
+            is_top = not package.has_directory(root)
+            missing = "which" if is_top else f"but {place}/"
+            message = f"packages lists {name!r}, {missing} does not exist: the build stops"
+            yield self.report(at, message, cause=f"directory {root if is_top else place}")
 
     def _check_found(
         self, package: Package, setup: SetupPy, packages: FindPackages, roots: set[str]
@@ -218,6 +232,8 @@ class ModuleNotPacked(Rule):
             return
         where = packages.where.strip("./")
         if where and not package.has_directory(where):
+            if is_of_submodule(package, where):
+                return
             message = f"find_packages searches {where}/, which does not exist: nothing is installed"
             yield self.report(keyword, message)
             return
@@ -292,5 +308,6 @@ def _missing(package: Package, places: object) -> Iterator[str]:
     for place in places.values() if isinstance(places, dict) else ():
         path = place.removeprefix("./").rstrip("/") if isinstance(place, str) else ""
         is_own = path not in {"", "."} and not path.startswith(("/", ".."))
-        if is_own and not package.has_directory(path):
+        is_missing = is_own and not package.has_directory(path)
+        if is_missing and not is_of_submodule(package, path):
             yield path

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from scaffold.model.discovery.gitignore import is_untracked
+from scaffold.model.discovery.gitignore import is_of_submodule, is_untracked
 
 __all__ = [
+    "is_of_submodule",
     "is_untracked",
 ]

@@ -110,6 +110,22 @@ class AttributeOfNodeUnknown(RclpyRule):
             "'on_gains'?",
             "19:9: neither Wheels nor rclpy's Node has 'rear_pub': AttributeError",
         ),
+        Example(
+            "private attributes of a base class by their full names",
+            {
+                "package.xml": "<package><name>talker</name></package>\n",
+                "talker/__init__.py": "",
+                "talker/base.py": _NODE.format("on_timer", "_Talker__pub").replace(
+                    "self.pub", "self.__pub"
+                ),
+                "talker/derived.py": "import rclpy\n\nfrom .base import Talker\n\n\n"
+                "class Loud(Talker):\n"
+                "    def shout(self):\n"
+                "        print(self._Talker__pub, self._Talker__loud)\n",
+            },
+            "talker/derived.py:8:34: neither Loud nor rclpy's Node has '_Talker__loud': "
+            "AttributeError; did you mean '_Talker__pub'?",
+        ),
         Example("defined", {"talker.py": _NODE.format("on_timer", "pub")}),
         Example(
             "never reached",

@@ -21,7 +21,7 @@ def is_untracked(package: Package, path: str) -> bool:
 
     Negated patterns are not supported.
     """
-    if _is_of_submodule(package, path):
+    if is_of_submodule(package, path):
         return True
     return any(
         _is_named(pattern, below, full_path)
@@ -61,7 +61,7 @@ def _is_named(pattern: str, path: str, full_path: str) -> bool:
     return any(fnmatchcase(item, pattern.removeprefix("/")) for item in above)
 
 
-def _is_of_submodule(package: Package, path: str) -> bool:
+def is_of_submodule(package: Package, path: str) -> bool:
     """Return whether a path is in a git submodule."""
     for prefix, text in _texts(package, _SUBMODULES):
         for line in text.splitlines():

@@ -36,8 +36,19 @@ def defined_by(node: NodeClass) -> set[str]:
             parent = owner.file.module.parent(attribute)
             if not isinstance(parent, ast.AugAssign):  # which needs an initial value
                 result.add(attribute.attr)
+        result |= {_mangled(name, owner.name) for name in result if _is_private(name)}
         owner = owner.base
     return result
+
+
+def _is_private(name: str) -> bool:
+    """Return whether Python adds the name of the class to an attribute."""
+    return name.startswith("__") and not name.endswith("__")
+
+
+def _mangled(name: str, class_: str) -> str:
+    """Return the full name of a private attribute, by which other classes use it."""
+    return f"_{class_.lstrip('_')}{name}"
 
 
 def is_read_in_full(node: NodeClass) -> bool:
