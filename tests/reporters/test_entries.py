@@ -78,6 +78,13 @@ def test_missing_packages_come_before_harmless_findings() -> None:
     assert [entry.first.code for entry in ordered] == ["CM020", "PX020", "LF005", "PX001", "LY020"]
 
 
+def test_builds_that_always_stop_come_before_missing_dependencies() -> None:
+    results = [_result(".", code, "a") for code in ("CM020", "PX031")]
+    results[0].diagnostics[0] = results[0].diagnostics[0]._replace(cause="dependency rclpy")
+    ordered = in_order([entry for result in results for entry in by_cause(result)])
+    assert [entry.first.code for entry in ordered] == ["PX031", "CM020"]
+
+
 def test_style_of_cmake_files_comes_last() -> None:
     results = [_result(".", code, "a", Severity.WARNING) for code in ("CM075", "CM084", "PX020")]
     results[2].diagnostics[0] = results[2].diagnostics[0]._replace(cause="dependency rclpy")
