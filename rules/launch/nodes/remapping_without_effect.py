@@ -9,7 +9,9 @@ from scaffold.api import (
     Effect,
     Example,
     Package,
+    Report,
     Rule,
+    Severity,
     closest_name,
     listed_names,
 )
@@ -58,6 +60,9 @@ class RemappingWithoutEffect(Rule):
     code = "LF065"
     name = "remapping-without-effect"
     effect = Effect.WRONG_BEHAVIOR
+    other_severities = {
+        Severity.WARNING: "the node already has the new name, as a full name in its code"
+    }
     examples = (
         Example(
             "a name remapped to itself",
@@ -100,6 +105,21 @@ class RemappingWithoutEffect(Rule):
             },
             "launch/a.launch.py:8:27: 'talk' uses 'chatter', not 'robot/chatter': nothing is "
             "remapped; the name in the code comes first",
+        ),
+        Example(
+            "a name that the node has anyway",
+            {
+                **_FILES,
+                "demo/talker.py": _FILES["demo/talker.py"].replace("~/input", "/robot/input"),
+                "launch/a.launch.xml": '<launch><node pkg="demo" exec="talk">'
+                '<remap from="in" to="robot/input"/></node></launch>\n',
+            },
+            Report(
+                "launch/a.launch.xml:1:51",
+                "'talk' has no topic, service or action 'in': nothing is remapped; it "
+                "has /robot/input, chatter",
+                severity=Severity.WARNING,
+            ),
         ),
         Example(
             "a full name, in a namespace",
@@ -157,7 +177,10 @@ class RemappingWithoutEffect(Rule):
             for source, target, location in node.remappings if names is not None else ():
                 problem = _problem(package, node, names or set(), (source, target))
                 if problem:
-                    yield self.report(location, problem, cause=f"names of {node.program}")
+                    is_kept = _is_absolute_in(names or set(), target)
+                    severity = Severity.WARNING if is_kept else None
+                    cause = f"names of {node.program}"
+                    yield self.report(location, problem, severity=severity, cause=cause)
 
 
 def _problem(
@@ -213,8 +236,16 @@ def _remapped_nodes(package: Package) -> Iterator[Remapped]:
             )
     for file in markup_files(package):
         for node in file.nodes:
-            attributes = [attribute for attribute in node.remappings if is_known(attribute)]
-            if not attributes or node.package is None or node.executable is None:
+            remappings = [
+                (
+                    source.value,
+                    target.value if target and is_known(target) else None,
+                    source.location,
+                )
+                for source, target in node.remappings
+                if is_known(source)
+            ]
+            if not remappings or node.package is None or node.executable is None:
                 continue
             owner = code_of(package, node.package.value, node.executable.value)
             if owner is not None:
@@ -224,7 +255,7 @@ def _remapped_nodes(package: Package) -> Iterator[Remapped]:
                     node.executable.value,
                     name,
                     None,
-                    [(attribute.value, None, attribute.location) for attribute in attributes],
+                    remappings,
                     node.parameter_names,
                 )
 
@@ -263,6 +294,11 @@ def _is_reversed(names: set[str], source: str, target: str | None, node: object)
     if wanted & plain or source.startswith("/") or source.strip("/") in _ALWAYS:
         return False
     return target in names
+
+
+def _is_absolute_in(names: set[str], target: str | None) -> bool:
+    """Return whether a node has the target of a remapping as a full name, whatever is remapped."""
+    return target is not None and f"/{target.lstrip('/')}" in names
 
 
 def _misses_namespace(names: set[str], source: str, namespace: object) -> str:

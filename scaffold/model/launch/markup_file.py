@@ -28,8 +28,8 @@ class _Element(NamedTuple):
     attributes: dict[str, Attribute]
     parameters: list[dict[str, Attribute]]
     """The attributes of its parameters; in YAML, those without quotes."""
-    remappings: list[Attribute]
-    """The remapped names."""
+    remappings: list[tuple[Attribute, Attribute | None]]
+    """The remapped names, with their targets."""
     has_parameter_files: bool
 
 
@@ -48,8 +48,8 @@ class MarkupNode(NamedTuple):
     location: Location
     parameters: list[tuple[Attribute, Attribute]]
     """Name and value of single parameters without a type."""
-    remappings: list[Attribute]
-    """The remapped names."""
+    remappings: list[tuple[Attribute, Attribute | None]]
+    """The remapped names, with their targets."""
     parameter_names: frozenset[str] | None
     """The given parameters; ``None`` if files or arguments may give others."""
     arguments: Attribute | None
@@ -227,10 +227,12 @@ def _paths(attribute: Attribute) -> Iterator[MarkupPath]:
         yield MarkupPath(item[1], path, place)
 
 
-def _renamed(remaps: Iterable[dict[str, Attribute]]) -> list[Attribute]:
+def _renamed(
+    remaps: Iterable[dict[str, Attribute]],
+) -> list[tuple[Attribute, Attribute | None]]:
     pairs = [(given["from"], given.get("to")) for given in remaps if "from" in given]
     return [
-        source
+        (source, target)
         for source, target in pairs
         if target is None or changes_name(source.value, target.value)
     ]
