@@ -1,4 +1,4 @@
-"""PF011: the plugins of Nav2 exist, and those in a list are configured."""
+"""PF011: the plugins of Nav2 exist, those in a list are configured, and none is loaded twice."""
 
 from __future__ import annotations
 
@@ -25,6 +25,7 @@ from scaffold.api.manifest import declared
 from scaffold.api.parameters import Entry, Section, parameter_files
 
 from ._started import is_server_started
+from ._tree_nodes import repeated_tree_nodes
 
 _OF_NAV2 = re.compile(r"(nav2_\w+)(?:/|::)(\w+)")
 """Matches names of plugins in packages of Nav2."""
@@ -88,19 +89,21 @@ _PLANNER = (
     "planner_server:\n  ros__parameters:\n    planner_plugins: [GridBased]\n"
     "    GridBased:\n      plugin: {}\n"
 )
+_NAVIGATOR = "bt_navigator:\n  ros__parameters:\n    plugin_lib_names: [{}]\n"
 _NAVFN = "nav2_navfn_planner{}NavfnPlanner"
 
 
 class PluginUnfit(Rule):
-    """A parameter file of Nav2 lists an unconfigured plugin or sensor, or names an old plugin.
+    """A parameter file of Nav2 lists an unconfigured, built-in or old plugin, or a sensor.
 
     **Why.** The server does not start: ``Can not get 'plugin' param value for inflation``, or
     ``According to the loaded plugin descriptions the class nav2_navfn_planner/NavfnPlanner with
     base class type nav2_core::GlobalPlanner does not exist``. A costmap ignores a sensor that is
-    not in ``observation_sources``.
+    not in ``observation_sources``. Since Jazzy, ``bt_navigator`` loads all nodes of Nav2 itself, and
+    fails when ``plugin_lib_names`` repeats one: ``ID [ComputePathToPose] already registered``.
 
     **Fix.** Use the same name in the list and for the section. Since Jazzy, the names of plugins
-    have ``::`` instead of ``/``.
+    have ``::`` instead of ``/``, and ``plugin_lib_names`` lists only nodes that are not of Nav2.
 
     **Source.** Nav2 documentation, migration guide "Iron to Jazzy", and "Configuration guide";
     https://github.com/ros-navigation/navigation2/issues/2653.
@@ -193,6 +196,32 @@ class PluginUnfit(Rule):
             },
         ),
         Example(
+            "behavior tree nodes of its own",
+            {"config/nav2.yaml": _NAVIGATOR.format("my_bt_node, other_bt_node")},
+        ),
+        Example(
+            "behavior tree nodes of Nav2",
+            {
+                "config/nav2.yaml": _NAVIGATOR.format(
+                    "nav2_spin_action_bt_node, nav2_wait_cancel_bt_node, my_bt_node"
+                ),
+                "config/other.yaml": _NAVIGATOR.format("my_bt_node, nav2_single_trigger_bt_node"),
+            },
+            "config/nav2.yaml:3:24: 'nav2_spin_action_bt_node' and 1 more are always loaded: "
+            "registering it again makes bt_navigator fail; list only nodes that are not of Nav2",
+            "config/other.yaml:3:36: 'nav2_single_trigger_bt_node' is always loaded: registering "
+            "it again makes bt_navigator fail; list only nodes that are not of Nav2",
+        ),
+        Example(
+            "behavior tree nodes of Nav2, which Humble needs",
+            {"config/nav2.yaml": _NAVIGATOR.format("nav2_spin_action_bt_node")},
+            distro="humble",
+        ),
+        Example(
+            "a file for another distribution",
+            {"config/nav2_humble.yaml": _NAVIGATOR.format("nav2_spin_action_bt_node")},
+        ),
+        Example(
             "a section with the name of a costmap once",
             {"config/nav2.yaml": "local_costmap:\n  ros__parameters:\n    width: 3\n"},
             "1:1: this section is ignored: the node is /local_costmap/local_costmap; write "
@@ -225,6 +254,18 @@ class PluginUnfit(Rule):
                 is_started = not findings or is_server_started(package, section.name)
                 severity = None if is_started else Severity.WARNING
                 yield from (item._replace(severity=severity or item.severity) for item in findings)
+            elif section.name == "bt_navigator":
+                yield from self._check_tree_nodes(package, section)
+
+    def _check_tree_nodes(self, package: Package, section: Section) -> Iterator[Diagnostic]:
+        for item, count in repeated_tree_nodes(package, section):
+            what = f"{item.text!r} is" if count == 1 else f"{item.text!r} and {count - 1} more are"
+            message = (
+                f"{what} always loaded: registering it again makes bt_navigator fail; list only "
+                f"nodes that are not of Nav2"
+            )
+            severity = None if is_server_started(package, section.name) else Severity.WARNING
+            yield self.report(item, message, severity=severity)
 
     def _check_names(self, package: Package, section: Section) -> Iterator[Diagnostic]:
         if not target().fact("nav2.has_colons_in_plugins"):
