@@ -104,6 +104,14 @@ class ArgumentUnusable(RclpyRule):
             "10:41: a list parameter cannot mix float, int: TypeError",
         ),
         Example(
+            "a QoS profile",
+            {
+                "talker.py": "from rclpy.qos import QoSProfile\n"
+                + _NODE.format("QoSProfile(depth=1)", "self.tick", "[1.0]")
+            },
+            "9:31: this is a QoSProfile instead of the message type: AttributeError",
+        ),
+        Example(
             "a dictionary",
             {"talker.py": _NODE.format("String", "self.tick", "{'p': 1.0}")},
             "10:41: a parameter cannot hold a dict: TypeError; declare a parameter for each key",
@@ -230,10 +238,7 @@ def _problem(file: RclpyFile, entity: Entity, argument: Argument) -> str:
     if isinstance(entity, Parameter):
         return _default_problem(value) if name == "value" else ""
     if isinstance(entity, Endpoint) and name in _TYPES and isinstance(node, ast.Call):
-        is_made = file.interface(node.func) is not None
-        problem = (
-            "this is an instance, not the message type; remove the parentheses" if is_made else ""
-        )
+        problem = _object_problem(file, node)
     elif name == "action_type":
         problem = _action_problem(file, node)
     elif isinstance(entity, Service | Client) and name == "srv_type":
@@ -249,6 +254,16 @@ def _problem(file: RclpyFile, entity: Entity, argument: Argument) -> str:
         is_class = full.startswith("rclpy.callback_groups.")
         problem = "this is a class, not a callback group; instantiate it" if is_class else ""
     return problem
+
+
+def _object_problem(file: RclpyFile, call: ast.Call) -> str:
+    """Return the message for an object in place of the type of messages."""
+    if file.interface(call.func) is not None:
+        return "this is an instance, not the message type; remove the parentheses"
+    made = re.fullmatch(r"rclpy\.(?:\w+\.)*([A-Z]\w*)", file.module.qualified_name(call.func) or "")
+    if made is None:
+        return ""
+    return f"this is a {made[1]} instead of the message type: AttributeError"
 
 
 def _service_problem(file: RclpyFile, node: ast.expr) -> str:
