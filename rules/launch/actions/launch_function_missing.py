@@ -77,6 +77,27 @@ class LaunchFunctionMissing(LaunchRule):
             fixed={"launch/a.launch.py": _LAUNCH.format(FUNCTION)},
         ),
         Example(
+            "misspelled in a launch file with another ending",
+            {"launch/start.py": _LAUNCH.format("generate_robot_launch_description")},
+            Report(
+                "4:5",
+                "`ros2 launch` calls generate_launch_description, not "
+                "generate_robot_launch_description",
+                fix="Replace with generate_launch_description",
+            ),
+            fixed={"launch/start.py": _LAUNCH.format(FUNCTION)},
+        ),
+        Example(
+            "module in the directory of launch files",
+            {
+                "launch/parts.py": _LAUNCH.format("generate_robot_launch_description"),
+                "launch/a.launch.py": "from parts import generate_robot_launch_description\n\n\n"
+                "def generate_launch_description():\n"
+                "    return generate_robot_launch_description()\n",
+                "launch/nodes.py": _LAUNCH.format("nodes"),
+            },
+        ),
+        Example(
             "a helper that another launch file runs",
             {
                 "launch/a.launch.py": "import runpy\nfrom pathlib import Path\n\n"
@@ -144,12 +165,14 @@ class LaunchFunctionMissing(LaunchRule):
     def _check_defined(self, package: Package, launch: LaunchFile) -> Iterator[Diagnostic]:
         module = launch.module
         name = launch.path.rpartition("/")[2]
-        if not name.endswith("launch.py") or module.defines(FUNCTION) is not False:
+        if module.defines(FUNCTION) is not False:
             return
         is_test = "generate_test_description" in module.functions
         if "/launch/" not in f"/{launch.path}" or is_test or _is_loaded(package, launch.path):
             return
         closest = get_close_matches(FUNCTION, module.functions, 1, 0.85)
+        if not name.endswith("launch.py") and (not closest or _is_imported(package, launch.path)):
+            return
         if closest:
             at = module.functions[closest[0]].location
             start = module.source.offset(at.line, at.column)
@@ -212,6 +235,17 @@ def _is_loaded(package: Package, path: str) -> bool:
         for other in (package, *package.workspace)
         for importing, imports in imports_by_path(other)
         if ".launch." in importing or importing.endswith("_launch.py")
+        for item in imports
+    )
+
+
+def _is_imported(package: Package, path: str) -> bool:
+    """Return whether any code imports a module of this name."""
+    stem = path.rpartition("/")[2].removesuffix(".py")
+    return any(
+        stem in item.module.split(".") or any(name.name == stem for name in item.names)
+        for other in (package, *package.workspace)
+        for _, imports in imports_by_path(other)
         for item in imports
     )
 
