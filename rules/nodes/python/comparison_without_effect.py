@@ -1,4 +1,4 @@
-"""ND134: results of comparisons are used."""
+"""ND134: results of comparisons are used, and may be true or false."""
 
 from __future__ import annotations
 
@@ -21,13 +21,16 @@ _NODE = (
 
 
 class ComparisonWithoutEffect(PythonRule):
-    """The result of a comparison is not used: ``==`` instead of ``=``, or ``a == 1 or 2``.
+    """A comparison is not used, as in ``a == 1`` for ``a = 1``, or always has the same result.
 
-    **Why.** Nothing is assigned, or the condition is always true, without an error.
+    **Why.** Nothing is assigned, or the condition is always true, without an error. ``key in
+    limits.items()`` is always false: the items are pairs.
 
-    **Fix.** Write ``self.limit = msg.data``, or ``if word in ('stop', 'halt'):``.
+    **Fix.** Write ``self.limit = msg.data``, ``if word in ('stop', 'halt'):``, or ``if key in
+    limits:``.
 
-    **Source.** Python language reference, "Expression statements".
+    **Source.** Python language reference, "Expression statements"; Python library reference,
+    "Dictionary view objects".
     """
 
     code = "ND134"
@@ -49,6 +52,30 @@ class ComparisonWithoutEffect(PythonRule):
             "a word, or another variable as a condition",
             {"limiter.py": _NODE.format("return 1 if msg.data == 'a' or 'b' else 2")},
             "12:40: or 'b' makes this condition always true; write msg.data in (...)",
+        ),
+        Example(
+            "a pair among the items of a dictionary, and a key among its keys",
+            {
+                "limiter.py": _NODE.format(
+                    "pair = (msg.data, 1)\n"
+                    "        return pair in self.limits.items() or msg.data in self.limits"
+                )
+            },
+        ),
+        Example(
+            "a key among the items of a dictionary",
+            {
+                "limiter.py": _NODE.format(
+                    "for name in list(self.limits):\n"
+                    "            if name not in self.names.items():\n"
+                    "                del self.limits[name]\n"
+                    "        return 'left' in self.names.items()"
+                )
+            },
+            "13:16: always true: name is a key, and items() has pairs of key and value; write "
+            "self.names without .items()",
+            "15:16: always false: 'left' is a key, and items() has pairs of key and value; write "
+            "self.names without .items()",
         ),
         Example(
             "compared in a test, which TS043 reports",
@@ -74,6 +101,44 @@ class ComparisonWithoutEffect(PythonRule):
                     message = f"or {module.text(last)} makes this condition always true"
                     hint = f"write {module.text(asked)} in (...)"
                     yield self.report(module.location(last), f"{message}; {hint}")
+        yield from self._check_items(module)
+
+    def _check_items(self, module: PythonModule) -> Iterator[Diagnostic]:
+        for node in module.walk(ast.Compare):
+            match node:
+                case ast.Compare(
+                    left=key,
+                    ops=[ast.In() | ast.NotIn() as operator],
+                    comparators=[
+                        ast.Call(
+                            func=ast.Attribute(attr="items", value=table), args=[], keywords=[]
+                        )
+                    ],
+                ) if _is_key(module, key):
+                    result = "false" if isinstance(operator, ast.In) else "true"
+                    message = (
+                        f"always {result}: {module.text(key)} is a key, and items() has pairs of "
+                        f"key and value; write {module.text(table)} without .items()"
+                    )
+                    yield self.report(module.location(node), message)
+
+
+def _is_key(module: PythonModule, node: ast.expr) -> bool:
+    """Return whether a value is text, or a name that looks up other values in the function."""
+    if isinstance(node, ast.JoinedStr):
+        return True
+    if isinstance(node, ast.Constant):
+        return isinstance(node.value, str)
+    function = module.enclosing_function(node)
+    return (
+        isinstance(node, ast.Name)
+        and function is not None
+        and any(
+            isinstance(part.slice, ast.Name) and part.slice.id == node.id
+            for part in module.below(function, ast.Subscript)
+            if isinstance(part, ast.Subscript)
+        )
+    )
 
 
 def _is_condition(module: PythonModule, node: ast.expr) -> bool:
