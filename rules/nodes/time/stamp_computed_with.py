@@ -6,6 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, RclpyRule
+from scaffold.api.python import PythonModule
 from scaffold.api.rclpy import RclpyFile, class_of
 
 from ._times import NUMBER, clocks_of
@@ -29,7 +30,8 @@ class StampComputedWith(RclpyRule):
 
     **Why.** ``TypeError: unsupported operand type(s) for -: 'Time' and 'Time'``: a message contains
     a ``builtin_interfaces/Time``, which has fields, but no operators. The difference of two times
-    of rclpy is a ``Duration``, which cannot be multiplied by a speed.
+    of rclpy is a ``Duration``, which cannot be multiplied by a speed. The sum of two fields
+    ``nanosec`` reaches a second in half of all cases, and then is not a valid time.
 
     **Fix.** Use ``Time.from_msg(msg.header.stamp)``, with ``from rclpy.time import Time``; for
     seconds, ``(now - last).nanoseconds / 1e9``.
@@ -41,6 +43,24 @@ class StampComputedWith(RclpyRule):
     name = "stamp-computed-with"
     examples = (
         Example("converted", {"viewer.py": _NODE.format("Time.from_msg(msg.header.stamp)")}),
+        Example(
+            "nanoseconds of two stamps",
+            {
+                "viewer.py": _NODE.format("Time()") + "        stamp = msg.header.stamp\n"
+                "        stamp.nanosec = stamp.nanosec % 1000 + self.start.nanosec\n"
+            },
+            "15:25: this sum may reach 1e9 nanoseconds, which is not a valid time; carry the "
+            "second over, or add a Duration to Time.from_msg(...)",
+        ),
+        Example(
+            "nanoseconds with the second carried over",
+            {
+                "viewer.py": _NODE.format("Time()") + "        stamp = msg.header.stamp\n"
+                "        stamp.nanosec = stamp.nanosec + self.start.nanosec\n"
+                "        if stamp.nanosec >= 1000000000:\n"
+                "            stamp.sec += 1\n            stamp.nanosec -= 1000000000\n"
+            },
+        ),
         Example(
             "its seconds",
             {"viewer.py": _NODE.format("msg.header.stamp").replace("stamp\n", "stamp.sec\n")},
@@ -119,6 +139,12 @@ class StampComputedWith(RclpyRule):
     )
 
     def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        for total in _sums_of_nanoseconds(file.module):
+            message = (
+                "this sum may reach 1e9 nanoseconds, which is not a valid time; carry the second "
+                "over, or add a Duration to Time.from_msg(...)"
+            )
+            yield self.report(file.module.location(total), message, cause="sum of nanoseconds")
         for span in _scaled_spans(file):
             message = "rclpy Duration is not a number of seconds: TypeError; use .nanoseconds / 1e9"
             yield self.report(file.module.location(span), message, cause="duration as a number")
@@ -143,6 +169,30 @@ class StampComputedWith(RclpyRule):
                             "message stamps cannot be compared: TypeError; use Time.from_msg(...)"
                         )
                         yield self.report(file.module.location(stamp), message)
+
+
+def _sums_of_nanoseconds(module: PythonModule) -> Iterator[ast.expr]:
+    """Yield sums with a field ``nanosec`` that another one is set to and that is not used again."""
+    for statement in module.walk(ast.Assign):
+        match statement:
+            case ast.Assign(
+                targets=[ast.Attribute(attr="nanosec")],
+                value=ast.BinOp(left=left, op=ast.Add(), right=right) as total,
+            ) if _is_nanoseconds(left) or _is_nanoseconds(right):
+                function = module.enclosing_function(statement)
+                around = function if function is not None else module.tree
+                read = module.below(around, ast.Attribute)
+                inside = {id(part) for part in ast.walk(total)}
+                if not any(
+                    _is_nanoseconds(part) and id(part) not in inside
+                    for part in read
+                    if isinstance(part.ctx, ast.Load)
+                ):
+                    yield total
+
+
+def _is_nanoseconds(node: ast.AST) -> bool:
+    return isinstance(node, ast.Attribute) and node.attr == "nanosec"
 
 
 def _scaled_spans(file: RclpyFile) -> Iterator[ast.expr]:
