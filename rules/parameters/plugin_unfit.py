@@ -99,8 +99,8 @@ class PluginUnfit(Rule):
     **Why.** The server does not start: ``Can not get 'plugin' param value for inflation``, or
     ``According to the loaded plugin descriptions the class nav2_navfn_planner/NavfnPlanner with
     base class type nav2_core::GlobalPlanner does not exist``. A costmap ignores a sensor that is
-    not in ``observation_sources``. Since Jazzy, ``bt_navigator`` loads all nodes of Nav2 itself, and
-    fails when ``plugin_lib_names`` repeats one: ``ID [ComputePathToPose] already registered``.
+    not in ``observation_sources``. Since Jazzy, ``bt_navigator`` loads all nodes of Nav2 itself,
+    and fails when ``plugin_lib_names`` repeats one: ``ID [ComputePathToPose] already registered``.
 
     **Fix.** Use the same name in the list and for the section. Since Jazzy, the names of plugins
     have ``::`` instead of ``/``, and ``plugin_lib_names`` lists only nodes that are not of Nav2.
