@@ -123,6 +123,50 @@ class ScriptDirectoryDiffers(Rule):
             fixed={"setup.cfg": _CFG.format("talker")},
         ),
         Example(
+            "a command in a code block of the README",
+            {
+                "package.xml": _MANIFEST,
+                "setup.py": _SETUP.format(_ENTRY.replace("'talker =", "'view-talks =")),
+                "setup.cfg": "[pep8]\n",
+                "README.md": "Watch:\n\n```\n. ./install/setup.bash\nview-talks\n```\n",
+                **_NODE,
+            },
+            Report(
+                "setup.cfg:1:1",
+                "[develop] has no script_dir=$base/lib/talker: `ros2 run` finds no executable",
+                fix="Replace with $base/lib/talker",
+                severity=Severity.WARNING,
+            ),
+            Report(
+                "setup.cfg:1:1",
+                "[install] has no install_scripts=$base/lib/talker: `ros2 run` finds no executable",
+                fix="Replace with $base/lib/talker",
+                severity=Severity.WARNING,
+            ),
+            fixed={"setup.cfg": "[pep8]\n" + _CFG_VALUE.format(*["$base/lib/talker"] * 2)},
+        ),
+        Example(
+            "a program that the README only mentions",
+            {
+                "package.xml": _MANIFEST,
+                "setup.py": _SETUP.format(_ENTRY.replace("'talker =", "'view-talks =")),
+                "setup.cfg": "[pep8]\n",
+                "README.md": "```\nls\n```\nPrograms:\n\nview-talks\n",
+                **_NODE,
+            },
+            Report(
+                "setup.cfg:1:1",
+                "[develop] has no script_dir=$base/lib/talker: `ros2 run` finds no executable",
+                fix="Replace with $base/lib/talker",
+            ),
+            Report(
+                "setup.cfg:1:1",
+                "[install] has no install_scripts=$base/lib/talker: `ros2 run` finds no executable",
+                fix="Replace with $base/lib/talker",
+            ),
+            fixed={"setup.cfg": "[pep8]\n" + _CFG_VALUE.format(*["$base/lib/talker"] * 2)},
+        ),
+        Example(
             "bin/",
             {
                 "package.xml": _MANIFEST_VALUE,
@@ -220,9 +264,7 @@ class ScriptDirectoryDiffers(Rule):
             f"no setup.cfg: {scripts[0].name!r} in setup.py is installed to bin/, which `ros2 "
             f"run` does not search"
         )
-        is_command = all(_is_run_in_shell(package, script.name) for script in scripts)
-        severity = Severity.WARNING if is_command else Severity.ERROR
-        yield self.report(package.start_of("setup.cfg"), message, fix, severity=severity)
+        yield self.report(package.start_of("setup.cfg"), message, fix, severity=_severity(package))
 
     def _check_value(self, package: Package) -> Iterator[Diagnostic]:
         cfg = package.setup_cfg
@@ -239,9 +281,10 @@ class ScriptDirectoryDiffers(Rule):
                 continue  # develop uses the directory of install then
             if entry is None and node_scripts(package):
                 at = package.start_of("setup.cfg")
+                severity = _severity(package)
                 message = f"[{section}] has no {key}={wanted}: `ros2 run` finds no executable"
                 fix = Fix(f"Replace with {wanted}", (cfg.set(section, key, wanted),))
-                yield self.report(at, message, fix, cause="directory of scripts")
+                yield self.report(at, message, fix, severity=severity, cause="directory of scripts")
             elif entry is not None and entry.value.rstrip("/") not in {
                 wanted,
                 wanted.replace("$base", "${base}"),
@@ -258,6 +301,13 @@ class ScriptDirectoryDiffers(Rule):
                 )
 
 
+def _severity(package: Package) -> Severity:
+    """Return the severity of nodes that are installed to ``bin/``."""
+    names = [script.name for script in node_scripts(package)]
+    is_command = all(_is_run_in_shell(package, name) for name in names)
+    return Severity.WARNING if is_command else Severity.ERROR
+
+
 def _is_run_in_shell(package: Package, name: str) -> bool:
     """Return whether a text of the package starts a program as a shell command."""
     word = re.escape(name)
@@ -268,4 +318,17 @@ def _is_run_in_shell(package: Package, name: str) -> bool:
             with suppress(ViewError):
                 texts.append(package.source(path).text)
     is_started = any(re.search(rf"ros2 run \S+ {word}\b", text) for text in texts)
-    return not is_started and any(map(command.search, texts))
+    return not is_started and any(
+        command.search(text) or (name != package.name and name in _code_lines(text))
+        for text in texts
+    )
+
+
+def _code_lines(text: str) -> Iterator[str]:
+    """Yield the lines of the code blocks of a text in Markdown."""
+    is_code = False
+    for line in text.splitlines():
+        if line.startswith("```"):
+            is_code = not is_code
+        elif is_code:
+            yield line

@@ -64,7 +64,7 @@ class FoundUndeclared(Rule):
     release_refused = "the build farm does not install the package before it builds"
     other_severities = {
         Severity.WARNING: "it is declared as a run dependency only; or it is only looked for "
-        "under a condition that need not hold; or an unknown dependency with a related name may "
+        "under a condition that need not hold; or an unknown dependency, or one of several, may "
         "bring it"
     }
     examples = (
@@ -203,6 +203,30 @@ class FoundUndeclared(Rule):
             },
         ),
         Example(
+            "a library that one of several unknown packages may bring",
+            {
+                "package.xml": _MANIFEST.format(
+                    "  <depend>arm_driver</depend>\n  <depend>hand_control</depend>\n"
+                ),
+                "CMakeLists.txt": _LISTS.format("tf2_ros"),
+            },
+            Report(
+                "CMakeLists.txt:3:14",
+                "finds 'tf2_ros', which package.xml does not declare; add "
+                "<build_depend>tf2_ros</build_depend>",
+                fix="Declare tf2_ros",
+                severity=Severity.WARNING,
+            ),
+            fixed={
+                "package.xml": _MANIFEST.format(
+                    "  <depend>arm_driver</depend>\n  <depend>hand_control</depend>\n"
+                ).replace(
+                    "  <depend>rclcpp</depend>\n",
+                    "  <build_depend>tf2_ros</build_depend>\n  <depend>rclcpp</depend>\n",
+                )
+            },
+        ),
+        Example(
             "not declared",
             {"package.xml": _MANIFEST.format(""), "CMakeLists.txt": _LISTS.format("std_msgs")},
             Report(
@@ -306,7 +330,7 @@ class FoundUndeclared(Rule):
             needed = declaring(package, _tag(found), name)
             message = f"finds {name!r}, which package.xml does not declare; {needed.advice}"
             is_certain = _is_always_found(package, found)
-            is_certain = is_certain and not dependencies.may_bring(package, name)
+            is_certain = is_certain and not dependencies.may_use(package, name)
             severity = None if is_certain else Severity.WARNING
             cause = f"dependency {name}"
             yield self.report(found, message, needed.fix, severity=severity, cause=cause)

@@ -53,7 +53,8 @@ class LaunchFunctionMissing(LaunchRule):
     code = "LF002"
     name = "launch-function-missing"
     other_severities = {
-        Severity.WARNING: "it returns a LaunchDescription on other paths, or unless something fails"
+        Severity.WARNING: "it returns a LaunchDescription on other paths, or unless something "
+        "fails; or the file only has classes with bases, which something may load as a module"
     }
     examples = (
         Example("defined", {"launch/a.launch.py": _LAUNCH.format(FUNCTION)}),
@@ -114,6 +115,22 @@ class LaunchFunctionMissing(LaunchRule):
             "not defined",
             {"launch/a.launch.py": "from launch import LaunchDescription\n\nLaunchDescription()\n"},
             "1:1: `ros2 launch` calls generate_launch_description, which this file does not define",
+        ),
+        Example(
+            "only classes: one for a program that loads it, and one that nothing imported knows",
+            {
+                "launch/arm.launch.py": "import launch\nfrom robots.parts import Part\n\n\n"
+                "class Arm(Part):\n    def nodes(self):\n        return []\n",
+                "launch/leg.launch.py": "from launch import LaunchDescription\n\n\n"
+                f"class Leg:\n    def {FUNCTION}(self):\n        return LaunchDescription([])\n",
+            },
+            Report(
+                "launch/arm.launch.py:1:1",
+                "`ros2 launch` calls generate_launch_description, which this file does not define",
+                severity=Severity.WARNING,
+            ),
+            "launch/leg.launch.py:1:1: `ros2 launch` calls generate_launch_description, which "
+            "this file does not define",
         ),
         Example(
             "a description that is created, but not returned",
@@ -181,7 +198,8 @@ class LaunchFunctionMissing(LaunchRule):
             yield self.report(at, message, Fix(f"Replace with {FUNCTION}", (edit,)))
         else:
             message = f"`ros2 launch` calls {FUNCTION}, which this file does not define"
-            yield self.report(package.start_of(launch.path), message)
+            severity = Severity.WARNING if _is_of_classes(launch) else None
+            yield self.report(package.start_of(launch.path), message, severity=severity)
 
     def _check_result(self, launch: LaunchFile) -> Iterator[Diagnostic]:
         function = launch.function
@@ -220,6 +238,19 @@ class LaunchFunctionMissing(LaunchRule):
             message = f"generate_launch_description returns None{some}, not a LaunchDescription"
             severity = Severity.WARNING if statements else None
             yield self.report(at, message, severity=severity)
+
+
+def _is_of_classes(launch: LaunchFile) -> bool:
+    """Return whether a file only defines classes with bases of other modules.
+
+    A program that knows the bases may load such a file, so that nobody launches it.
+    """
+    module = launch.module
+    classes = [item.node for item in module.classes.values()]
+    if not classes or module.functions or not all(node.bases for node in classes):
+        return False
+    bases = [base for node in classes for base in node.bases]
+    return all("." in (module.qualified_name(base) or "") for base in bases)
 
 
 def _is_after_failure(launch: LaunchFile, statement: ast.AST) -> bool:
