@@ -96,6 +96,47 @@ class WaitsUnspun(Rule):
         ),
         Example("an asynchronous call", {**_FILES_CALLS, "demo/caller.py": _CODE.format(_FUTURE)}),
         Example(
+            "a call before other responses are waited for",
+            {
+                **_FILES_CALLS,
+                "demo/caller.py": "import rclpy\nfrom rclpy.node import Node\n"
+                "from std_srvs.srv import Trigger\n\n\n"
+                "class Caller(Node):\n"
+                "    def __init__(self):\n"
+                "        super().__init__('caller')\n"
+                "        self.client = self.create_client(Trigger, 'reset')\n\n"
+                "    def run(self):\n"
+                "        self.client.call(Trigger.Request())\n"
+                "        future = self.client.call_async(Trigger.Request())\n"
+                "        rclpy.spin_until_future_complete(self, future)\n\n\n"
+                "def main():\n"
+                "    rclpy.init()\n"
+                "    Caller().run()\n",
+            },
+            "demo/caller.py:12:9: call() never returns: the thread that would receive the "
+            "response is blocked in this call",
+        ),
+        Example(
+            "a call while another thread waits for responses",
+            {
+                **_FILES_CALLS,
+                "demo/caller.py": "import threading\n\nimport rclpy\nfrom rclpy.node import Node\n"
+                "from std_srvs.srv import Trigger\n\n\n"
+                "class Caller(Node):\n"
+                "    def __init__(self):\n"
+                "        super().__init__('caller')\n"
+                "        self.client = self.create_client(Trigger, 'reset')\n\n"
+                "    def turn(self):\n"
+                "        while rclpy.ok():\n"
+                "            rclpy.spin_once(self)\n\n\n"
+                "def main():\n"
+                "    rclpy.init()\n"
+                "    caller = Caller()\n"
+                "    threading.Thread(target=caller.turn, daemon=True).start()\n"
+                "    caller.client.call(Trigger.Request())\n",
+            },
+        ),
+        Example(
             "a call, never spun",
             {**_FILES_CALLS, "demo/caller.py": _CODE.format("client.call(Trigger.Request())")},
             "demo/caller.py:10:5: call() never returns: the thread that would receive the "

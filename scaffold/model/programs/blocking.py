@@ -244,11 +244,14 @@ def waits_in(
     module = run.file.module
     if module.in_tests:
         return ()
+    waits = [wait for wait in _waits(run, method) if is_wait(run.file, wait.call)]
+    files = files_of(package, module.path) if waits else ()
+    if any(map(_has_threads, files)) and any(map(_spins_step_by_step, files)):
+        return ()
     return tuple(
         (module.location(wait.call), wait.where)
-        for wait in _waits(run, method)
-        if is_wait(run.file, wait.call)
-        and not any(_may_end(file, wait) for file in files_of(package, module.path))
+        for wait in waits
+        if not any(_may_end(file, wait) for file in files)
     )
 
 
@@ -302,8 +305,15 @@ def _places(run: Execution) -> dict[object, str]:
     return places
 
 
+def _spins_step_by_step(file: RclpyFile) -> bool:
+    return any(call.name.rpartition(".")[2] != "spin" for call in file.spin_calls)
+
+
+def _has_threads(file: RclpyFile) -> bool:
+    """Return whether a file may run code in other threads, or in tasks."""
+    return file.module.mentions("hread", "oncurrent", "xecutor(", "rocess(", "asyncio", "trio")
+
+
 def _may_end(file: RclpyFile, wait: _Wait) -> bool:
     """Return whether a file may have code that ends a wait."""
-    if any(call.name.rpartition(".")[2] != "spin" for call in file.spin_calls):
-        return True  # step by step
     return spins_elsewhere(file) or (wait.in_callback and names_other_executor(file))

@@ -155,7 +155,9 @@ def _run_by_others(file: RclpyFile) -> Iterator[FunctionNode | ast.Lambda]:
     """Yield the functions that are passed on, decorated, or ``run`` of a thread class."""
     for function in file.module.function_nodes:
         class_ = file.module.parent(function)
-        is_run = function.name == "run" and isinstance(class_, ast.ClassDef) and class_.bases
+        is_run = (
+            function.name == "run" and isinstance(class_, ast.ClassDef) and _others(file, class_)
+        )
         references: list[ast.Name | ast.Attribute] = [
             *file.module.index.names(function.name),
             *file.module.index.attributes(function.name),
@@ -163,6 +165,11 @@ def _run_by_others(file: RclpyFile) -> Iterator[FunctionNode | ast.Lambda]:
         if is_run or function.decorator_list or any(_is_passed(file, x) for x in references):
             yield function
     yield from file.module.walk(ast.Lambda)
+
+
+def _others(file: RclpyFile, class_: ast.ClassDef) -> list[ast.expr]:
+    """Return the bases of a class that are not rclpy's Node: one may be a thread."""
+    return [base for base in class_.bases if not file.is_node_class(base)]
 
 
 def _is_passed(file: RclpyFile, node: ast.Name | ast.Attribute) -> bool:
