@@ -367,6 +367,25 @@ class FieldValueUnfit(MessageRule):
             fixed={"talker.py": _CODE_TIMES.format(".to_msg()", ".to_msg()")},
         ),
         Example(
+            "comprehensions with and without a conversion",
+            {
+                "sizes.py": "from sensor_msgs.msg import JointState\n"
+                "from std_msgs.msg import Int32MultiArray\n\n\n"
+                "def sizes(names, angles):\n"
+                "    whole = Int32MultiArray(data=[len(name) for name in names])\n"
+                "    half = Int32MultiArray(data=[len(name) // 2 for name in names])\n"
+                "    third = Int32MultiArray(data=[len(name) / 3 for name in names])\n"
+                "    state = JointState(name=[name.strip() for name in names])\n"
+                "    state.position = [str(angle) for angle in angles]\n"
+                "    state.velocity = [int(angle) for angle in angles]\n"
+                "    return whole, half, third, state\n",
+            },
+            "8:34: 'data' of std_msgs/msg/Int32MultiArray is int32[], but element len(name) / 3 "
+            "is a float",
+            "10:22: 'position' of sensor_msgs/msg/JointState is float64[], but element str(angle) "
+            "is a str",
+        ),
+        Example(
             "int that a function of the package assigns to a float field",
             {
                 "package.xml": "<package><name>rover</name></package>\n",

@@ -214,6 +214,41 @@ class CallInCallback(RclpyRule):
             "rover/caller.py:14:9: waits for a response in call() in callback 'ask': deadlock, "
             "because the response cannot be received; use call_async()",
         ),
+        Example(
+            "clients in containers",
+            {
+                "saver.py": "import rclpy\nfrom rclpy.node import Node\n"
+                "from std_msgs.msg import Bool\nfrom std_srvs.srv import SetBool\n\n\n"
+                "class Saver(Node):\n"
+                "    def __init__(self):\n"
+                "        super().__init__('saver')\n"
+                "        self.users = {x: self.create_client(SetBool, x) for x in ('a', 'b')}\n"
+                "        self.lamps = []\n"
+                "        for name in ('c', 'd'):\n"
+                "            self.lamps.append(self.create_client(SetBool, name))\n"
+                "        self.others = {'e': self.create_client(SetBool, 'e'), 'f': print}\n"
+                "        self.create_subscription(Bool, 'low', self.on_low, 10)\n\n"
+                "    def on_low(self, msg):\n"
+                "        for name, client in self.users.items():\n"
+                "            client.call(SetBool.Request(data=msg.data))\n"
+                "        for lamp in self.lamps:\n"
+                "            lamp.call(SetBool.Request(data=msg.data))\n"
+                "        self.users['a'].call(SetBool.Request(data=msg.data))\n"
+                "        for name in self.users:\n"
+                "            name.call(msg)\n"
+                "        for other in self.others.values():\n"
+                "            other.call(msg)\n\n\n"
+                "def main():\n"
+                "    rclpy.init()\n"
+                "    rclpy.spin(Saver())\n",
+            },
+            "19:13: waits for a service response in callback 'on_low': deadlock, because the "
+            "response cannot be received; use call_async()",
+            "21:13: waits for a service response in callback 'on_low': deadlock, because the "
+            "response cannot be received; use call_async()",
+            "22:9: waits for a service response in callback 'on_low': deadlock, because the "
+            "response cannot be received; use call_async()",
+        ),
     )
 
     def check_in(self, package: Package, file: RclpyFile) -> Iterator[Diagnostic]:

@@ -160,7 +160,7 @@ class TypeMismatches:
     def _elements(self, type_: FieldType, node: ast.expr) -> str | None:
         parts: Sequence[ast.expr]
         if isinstance(node, ast.ListComp):
-            parts = [node.elt] if isinstance(node.elt, ast.Tuple | ast.List | ast.Dict) else []
+            parts = [node.elt]
         elif isinstance(node, ast.List | ast.Tuple):
             parts = node.elts
         else:

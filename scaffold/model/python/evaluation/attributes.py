@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import islice
 from typing import TYPE_CHECKING
 
+from scaffold.model.python.evaluation.elements import looped_element, only_element
 from scaffold.model.python.evaluation.evaluator import MOST_ASSIGNMENTS, Evaluator
 from scaffold.model.python.evaluation.values import is_none_literal
 from scaffold.record import NamedTuple
@@ -152,7 +153,7 @@ class AttributeEvaluator(Evaluator):
         key: ast.expr | tuple[str, ast.AST] = node
         if isinstance(node, ast.Name):
             key = node.id, self.module.index.scope_of(node)
-        elif not isinstance(node, ast.Attribute):
+        elif not isinstance(node, ast.Attribute | ast.Subscript):
             return node
         if key not in self._single:
             value = self._follow(node)
@@ -193,18 +194,24 @@ class AttributeEvaluator(Evaluator):
         for _ in range(10):
             values: Iterable[ast.expr | None] | None = None
             if isinstance(node, ast.Name):
-                values = (
-                    binding.value
-                    for binding in self.module.index.bindings_of(node)
-                    if binding.kind != "annotation"
-                )
+                values = self._bindings(node)
             elif isinstance(node, ast.Attribute):
                 values = self.attribute_values(node)
+            elif isinstance(node, ast.Subscript) and not isinstance(node.slice, ast.Slice):
+                values = [only_element(self.module, node.value, self.single_value)]
             made = list(islice((value for value in values or () if not is_none_literal(value)), 2))
             if len(made) != 1 or made[0] is None:
                 return node
             node = made[0]
         return node
+
+    def _bindings(self, node: ast.Name) -> Iterator[ast.expr | None]:
+        """Yield the values of a name; the element of a container for the variable of a loop."""
+        bindings = [x for x in self.module.index.bindings_of(node) if x.kind != "annotation"]
+        for binding in bindings:
+            is_loop = binding.value is None and len(bindings) == 1
+            value = looped_element(self.module, binding, self.single_value) if is_loop else None
+            yield value or binding.value
 
 
 def _is_static(function: ast.FunctionDef | ast.AsyncFunctionDef) -> bool:
