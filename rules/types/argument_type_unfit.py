@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 
 from scaffold.api import Diagnostic, Example, Report, Severity, TypeRule
-from scaffold.api.types import MARKED, TypeFinding, with_article
+from scaffold.api.types import MARKED, TypeFinding, in_words, with_article
 
 from ._argument_problems import argument_problem
 from ._arguments import TIMEOUTS, timeout
@@ -296,6 +296,32 @@ class ArgumentTypeUnfit(TypeRule):
         Example(
             "method called with messages and values of unknown type",
             {"speaker.py": _SPEAKER.format("String(data='hello')", "self.greeting")},
+        ),
+        Example(
+            "tuple of a function unpacked as keywords, header and points swapped",
+            {
+                "package.xml": "<package><name>rover</name></package>\n",
+                "rover/__init__.py": "",
+                "rover/turn.py": "import math\n\n\n"
+                "def to_tuple(yaw):\n"
+                "    return 0.0, 0.0, math.sin(yaw / 2.0), math.cos(yaw / 2.0)\n\n\n"
+                "def to_words(yaw):\n"
+                "    return {'z': math.sin(yaw / 2.0), 'w': math.cos(yaw / 2.0)}\n",
+                "rover/node.py": "from geometry_msgs.msg import Quaternion\n"
+                "from sensor_msgs.msg import PointCloud2\n"
+                "from sensor_msgs_py import point_cloud2\n\n"
+                "from rover.turn import to_tuple, to_words\n\n"
+                "ahead = Quaternion(**to_words(0.0))\n"
+                "back = Quaternion(**to_tuple(3.1))\n"
+                "cloud = PointCloud2()\n"
+                "full = point_cloud2.create_cloud_xyz32(cloud.header, [(0.0, 1.0, 2.0)])\n"
+                "none = point_cloud2.create_cloud_xyz32([(0.0, 1.0, 2.0)], cloud.header)\n",
+            },
+            "rover/node.py:8:21: ** needs a dictionary, not a tuple: TypeError",
+            "rover/node.py:11:40: 'header' of create_cloud_xyz32() must be a std_msgs.msg.Header, "
+            "not a list: create_cloud_xyz32() fails",
+            "rover/node.py:11:59: 'points' of create_cloud_xyz32() must be a list, not a "
+            "std_msgs.msg.Header: create_cloud_xyz32() fails",
         ),
         Example(
             "isinstance() check before the call",
@@ -891,6 +917,10 @@ class ArgumentTypeUnfit(TypeRule):
     def judge(self, finding: TypeFinding) -> Diagnostic | None:
         if finding.kind == "no-matching-overload":
             return self._judge_overload(finding)
+        unpacked = finding.match(r"Argument expression after \*\* .*: Found `(?P<type>[^`]+)`")
+        if unpacked is not None:
+            given = in_words(unpacked["type"])
+            return self.report(finding, f"** needs a dictionary, not {given}: TypeError")
         problem = argument_problem(finding)
         severity = Severity.WARNING if problem.endswith(_RARE) else None
         return self.report(finding, problem, severity=severity) if problem else None

@@ -53,6 +53,7 @@ _NAMELESS = lazy_re.compile(
     r"|Operator `[^`]+` is not supported between objects of type `array\[\w+\]` and .*"
     r"|Operator `[^`]+` is not supported between (?:two )?objects of type "
     rf"{_PLAIN}(?: and {_PLAIN})?"
+    rf"|Argument expression after \*\* must be a mapping type: Found {_PLAIN}"
     rf"|Argument to bound method `bytes\.\w+` is incorrect: Expected `.+`, found {_STR}"
 )
 """Matches relevant reports that do not name anything of ROS."""

@@ -31,6 +31,7 @@ _INNERMOST = lazy_re.compile(r"\([^()\[\]]*\)|\[[^()\[\]]*\]")
 _SEQUENCE = lazy_re.compile(r"(?:Sequence|list|tuple)\[.*\]")
 _NO_SEQUENCE = lazy_re.compile(r"(?:dict|set)\[.*\]|(?:int|float|bool)\*?|Literal\[-?\d+\]")
 _SCALAR = lazy_re.compile(r"(?:int|float|bool)\*?|Literal\[-?\d+\]")
+_MESSAGE = lazy_re.compile(rf"[A-Z]\w*{MARK}\w+{MARK}msg{MARK}\w+")
 _OMITTED = lazy_re.compile(r"\| \.\.\. omitted \d+ union elements")
 _NUMBERS = lazy_re.compile(r"Supports(?:Float|Int|Index)(?: \| Supports(?:Float|Int|Index))*")
 _PLAIN = lazy_re.compile(
@@ -76,7 +77,8 @@ def is_certain_misfit(expected: str, given: str) -> bool:
 
 def _lacks_elements(expected: str, given: str) -> bool:
     """Return whether a list is expected, of whatever elements, and something else is given."""
-    if _ITERABLE.match(expected) and (_SCALAR.fullmatch(given) or is_function(given)):
+    is_single = _SCALAR.fullmatch(given) or _MESSAGE.fullmatch(given) or is_function(given)
+    if _ITERABLE.match(expected) and is_single:
         return True
     is_sequence = _SEQUENCE.fullmatch(expected) and "|" not in _without_arguments(expected)
     return bool(is_sequence and _NO_SEQUENCE.fullmatch(given))

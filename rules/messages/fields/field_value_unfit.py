@@ -401,9 +401,11 @@ class FieldValueUnfit(MessageRule):
                 "from rclpy.node import Node\n\n"
                 "from rover.poses import to_pose\n\n\n"
                 "class Drive(Node):\n"
-                "    def move(self, speed, turn=0.0, kind='drive'):\n"
+                "    def move(self, speed, turn=0.0, kind='drive', slip=1, lift=2):\n"
                 "        twist = Twist()\n"
                 "        twist.linear.x = speed\n"
+                "        twist.linear.y = slip\n"
+                "        twist.linear.z = float(lift)\n"
                 "        if kind == 'turn':\n"
                 "            twist.angular.z = turn\n"
                 "        return twist\n\n"
@@ -414,9 +416,11 @@ class FieldValueUnfit(MessageRule):
                 "        to_pose('map', 0.5, 1)\n"
                 "        return to_pose('map', 2, 1)\n",
             },
-            "rover/drive.py:18:19: self.move() assigns this to 'x' of geometry_msgs/msg/Vector3, "
+            "rover/drive.py:8:56: self.move() assigns this to 'y' of geometry_msgs/msg/Vector3, a "
+            "float64, but 1 is an int: subscribers get another number; write float(...)",
+            "rover/drive.py:20:19: self.move() assigns this to 'x' of geometry_msgs/msg/Vector3, "
             "a float64, but 1 is an int: subscribers get another number; write float(...)",
-            "rover/drive.py:20:31: to_pose() assigns this to 'x' of geometry_msgs/msg/Point, a "
+            "rover/drive.py:22:31: to_pose() assigns this to 'x' of geometry_msgs/msg/Point, a "
             "float64, but 2 is an int: subscribers get another number; write float(...)",
         ),
     )

@@ -319,7 +319,7 @@ class UnitDiffers(MessageRule):
                 known[own.types] = _parameters(own.types)
             for parameter in own.function.args.args:
                 value = own.given(parameter) if parameter in known[own.types] else None
-                if value is not None:
+                if value is not None and own.is_in(types, value):
                     yield from self._check(types, value, "radians", known[own.types][parameter])
 
     def _check(

@@ -295,7 +295,9 @@ def _waits(file: RclpyFile, function: ast.AST) -> Iterator[tuple[ast.AST, str, E
             case ast.Call(func=ast.Attribute(attr=method, value=asked)) if method in _BLOCKING:
                 class_, what = _BLOCKING[method]
                 if class_of(file, asked) == class_ and not _has_timeout(node):
-                    yield node, f"waits for {what}", client_at(file, asked)
+                    is_of_goal = method == "get_result" and len(file.action_clients) == 1
+                    client = file.action_clients[0] if is_of_goal else client_at(file, asked)
+                    yield node, f"waits for {what}", client
             case ast.While(test=test) if not _ends_at_once(file.module, node):
                 future = _awaited(file, test)
                 if future is not None and "spin" not in ast.unparse(node):

@@ -34,7 +34,11 @@ def _uses_interfaces(package: Package, path: str) -> bool:
         return False
     if not _CONVERTING.isdisjoint(module.imports_by_root):
         return True
-    return module.mentions("get_parameter_value(") or any(
+    if module.mentions("get_parameter_value(") or (
+        module.mentions(".transform(") and "tf2_ros" in module.imports_by_root
+    ):
+        return True
+    return any(
         not import_.level and _names_kind(import_.module, [n.name for n in import_.names])
         for import_ in module.imports
     )

@@ -332,7 +332,7 @@ class MessageTypes:
 
     @cached_property
     def own_calls(self) -> Sequence[OwnCall]:
-        """The calls of functions of the package, with arguments."""
+        """The calls of functions of the package."""
         with reads.recorded(self._reads):
             return [*own_calls(self)]
 

@@ -53,17 +53,20 @@ class OwnCall(NamedTuple):
     function: ast.FunctionDef
 
     def given(self, parameter: ast.arg) -> ast.expr | None:
-        """Return the argument for a parameter; ``None`` if it is not given, or unknown."""
+        """Return the argument for a parameter, or its default; ``None`` if unknown."""
         is_method = isinstance(self.types.module.parent(self.function), ast.ClassDef)
-        value = given_argument(self.function, self.call, parameter, is_method=is_method)
+        return given_argument(self.function, self.call, parameter, is_method=is_method)
+
+    def is_in(self, types: MessageTypes, value: ast.expr) -> bool:
+        """Return whether an argument is in a file, which a default of another file is not."""
         keywords = [word.value for word in self.call.keywords]
-        return value if value in (*self.call.args, *keywords) else None
+        return self.types is types or value in (*self.call.args, *keywords)
 
 
 def own_calls(types: MessageTypes) -> Iterator[OwnCall]:
-    """Yield the calls of functions of the package, with arguments."""
+    """Yield the calls of functions of the package."""
     for call in types.module.walk(ast.Call):
-        if not (call.args or call.keywords) or not _may_be_own(types, call.func):
+        if not _may_be_own(types, call.func):
             continue
         defined = types.file.definition_of(call.func)
         other = types.of_file(defined[0]) if defined is not None else None
@@ -73,11 +76,16 @@ def own_calls(types: MessageTypes) -> Iterator[OwnCall]:
 
 
 def passed(types: MessageTypes) -> Iterator[Assigned]:
-    """Yield the arguments in a file for parameters that functions assign to fields."""
+    """Yield the arguments in a file for parameters that functions assign to fields.
+
+    Also the defaults that calls in the file use, each once.
+    """
+    seen: set[ast.expr] = set()
     for own in types.own_calls:
         for parameter, item in own.types.fields_of_parameters.get(own.function, {}).items():
             value = own.given(parameter)
-            if value is not None:
+            if value is not None and value not in seen and own.is_in(types, value):
+                seen.add(value)
                 yield item._replace(value=value, holder=own.call)
 
 
