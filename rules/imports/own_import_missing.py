@@ -186,13 +186,35 @@ class OwnImportMissing(Rule):
             "scripts/node.py:1:1: scripts/text.py is not installed next to this script: "
             "ModuleNotFoundError",
         ),
+        Example(
+            "a name and interfaces that the Python package of an interface package lacks",
+            {
+                "package.xml": "<package><name>voice</name>"
+                "<export><build_type>ament_cmake</build_type></export></package>\n",
+                "CMakeLists.txt": "project(voice)\n"
+                'rosidl_generate_interfaces(${PROJECT_NAME} "srv/Say.srv")\n'
+                "ament_python_install_package(voice_nodes)\n",
+                "srv/Say.srv": "string text\n---\n",
+                "voice_nodes/__init__.py": "",
+                "voice_nodes/speaker.py": "from voice.srv import Say\n\n\n"
+                "def main():\n    return Say\n",
+                "voice_nodes/listener.py": "from voice_nodes.srv import Say\n\nprint(Say)\n",
+                "scripts/speaker.py": "from voice_nodes.speaker import main, run\n\n"
+                "print(main, run)\n",
+            },
+            "scripts/speaker.py:1:39: voice_nodes/speaker.py has no 'run': ImportError",
+            "voice_nodes/listener.py:1:1: the package has no module 'voice_nodes.srv': "
+            "ModuleNotFoundError",
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         makers = ("rosidl_generate_interfaces", "generate_parameter_module")
-        if package.has("CMakeLists.txt") and package.cmake.find(*makers):
-            return  # modules of the package are generated
         roots = own_roots(package)
+        if package.has("CMakeLists.txt") and package.cmake.find(*makers):
+            roots.discard(package.name)  # its modules are generated
+            if not roots:
+                return
         for where, imports in imports_by_path(package):
             for item in imports if where != "setup.py" else ():
                 if not (item.guarded or item.conditional or item.type_checking):
@@ -211,7 +233,8 @@ class OwnImportMissing(Rule):
         elif root in roots and path:
             yield from self._check_names(package, node, name, path)
         elif root in roots:
-            if not may_be_made(package, name):
+            is_interface = name in {f"{root}.{kind}" for kind in ("msg", "srv", "action")}
+            if is_interface or not may_be_made(package, name):
                 closest = _closest_module(package, root, name)
                 hint = f"; did you mean {closest!r}?" if closest else ""
                 message = f"the package has no module {name!r}: ModuleNotFoundError{hint}"
@@ -233,7 +256,8 @@ class OwnImportMissing(Rule):
             if imported.name == "*" or exports.defines(imported.name) is not False:
                 continue
             below = f"{name}.{imported.name}"
-            if file_of(package, below) or may_be_made(package, below):
+            is_package = path.endswith("__init__.py")
+            if is_package and (file_of(package, below) or may_be_made(package, below)):
                 continue
             closest = closest_name(
                 package, imported.name, [*exports.functions, *exports.classes], 0.6

@@ -287,6 +287,25 @@ class MessageUsedAsValue(MessageRule):
             "23:23: the shape is (rows, columns); write image.height, image.width",
             "27:24: mean() cannot use structured points: TypeError; use read_points_numpy()",
         ),
+        Example(
+            "attribute that is False before it is a message, or its field",
+            {
+                f"{name}.py": "from rclpy.node import Node\nfrom std_msgs.msg import Bool\n\n\n"
+                "class Watch(Node):\n"
+                "    def __init__(self):\n"
+                "        super().__init__('watch')\n"
+                "        self.running = False\n"
+                "        self.create_subscription(Bool, 'running', self.on_state, 10)\n\n"
+                "    def on_state(self, msg):\n"
+                f"        self.running = {value}\n\n"
+                "    def check(self, level):\n"
+                "        if self.running and level > 0.2:\n"
+                "            self.get_logger().info('running')\n"
+                for name, value in (("right", "msg.data"), ("wrong", "msg"))
+            },
+            "wrong.py:15:12: std_msgs/msg/Bool is always true, whatever it holds; use its field "
+            "'data'",
+        ),
     )
 
     def check_file(self, types: MessageTypes) -> Iterator[Diagnostic]:
@@ -306,16 +325,7 @@ def _problems(types: MessageTypes) -> Iterator[tuple[ast.expr, str]]:
     yield from _arrays.problems(types)
     for node in module.walk(ast.Compare):
         yield from _compared(types, node)
-    for node in _truth_tests(types):
-        owner = types.type_of(node)
-        fields = owner.section.fields if owner else ()
-        if (
-            owner
-            and [field.type.name for field in fields] == ["bool"]
-            and not _may_be_none(types, node)
-        ):
-            name = fields[0].name
-            yield node, f"{owner.name} is always true, whatever it holds; use its field {name!r}"
+    yield from _always_true(types)
     for call in module.walk(ast.Call):
         if isinstance(call.func, ast.Attribute) and (
             types.type_of(call.func) or kind_of_field(types.field_type_of(call.func))
@@ -412,9 +422,34 @@ def _is_format(node: ast.BinOp) -> bool:
     return isinstance(node.op, ast.Mod)
 
 
+def _always_true(types: MessageTypes) -> Iterator[tuple[ast.expr, str]]:
+    """Yield messages with a flag that are conditions themselves."""
+    for node in _truth_tests(types):
+        owner = types.type_of(node)
+        is_certain = owner is not None and not _may_be_none(types, node)
+        if owner is None and isinstance(node, ast.Attribute):
+            owner = _type_besides_flags(types, node)
+            is_certain = owner is not None
+        fields = owner.section.fields if owner else ()
+        if owner and is_certain and [field.type.name for field in fields] == ["bool"]:
+            name = fields[0].name
+            yield node, f"{owner.name} is always true, whatever it holds; use its field {name!r}"
+
+
+def _type_besides_flags(types: MessageTypes, node: ast.Attribute) -> MessageClass | None:
+    """Return the type of the messages that an attribute is set to, besides True and False."""
+    values = types.file.evaluator.attribute_values(node) or ()
+    flags = [x for x in values if isinstance(x, ast.Constant) and isinstance(x.value, bool)]
+    owners = [types.type_of(value) for value in values if value not in flags]
+    is_one = bool(flags and owners) and all(owner == owners[0] for owner in owners)
+    return owners[0] if is_one else None
+
+
 def _truth_tests(types: MessageTypes) -> Iterator[ast.expr]:
-    yield from (node.test for node in types.module.walk(ast.If))
-    yield from (node.test for node in types.module.walk(ast.IfExp))
+    tests = [node.test for node in types.module.walk(ast.If)]
+    tests += [node.test for node in types.module.walk(ast.IfExp)]
+    for test in tests:
+        yield from test.values if isinstance(test, ast.BoolOp) else [test]
     for negation in types.module.walk(ast.UnaryOp):
         if isinstance(negation.op, ast.Not):
             yield negation.operand

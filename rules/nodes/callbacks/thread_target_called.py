@@ -166,6 +166,22 @@ class ThreadTargetCalled(RclpyRule):
             ),
             "12:40: (period) is not a tuple: TypeError in the thread; write (period,)",
         ),
+        Example(
+            "executor spun in a thread, and before it",
+            {
+                f"{name}.py": "import threading\n\nimport rclpy\n"
+                "from rclpy.executors import SingleThreadedExecutor\n\n\n"
+                "def main():\n"
+                "    rclpy.init()\n"
+                "    executor = SingleThreadedExecutor()\n"
+                "    executor.add_node(rclpy.create_node('talker'))\n"
+                f"    thread = threading.Thread(target=executor.spin{call}, daemon=True)\n"
+                "    thread.start()\n"
+                for name, call in (("right", ""), ("wrong", "()"))
+            },
+            "wrong.py:11:38: executor.spin() is called here, not in the thread; write "
+            "executor.spin",
+        ),
     )
 
     def check_in(self, package: Package, file: RclpyFile) -> Iterator[Diagnostic]:
@@ -274,6 +290,12 @@ def _problems(file: RclpyFile, thread: ast.Call) -> Iterator[tuple[ast.AST, str]
                     f"{callback.name}() is called here, not in the thread; pass the function itself"
                 )
                 yield word.value, message
+            elif any(spin.call is word.value for spin in file.spin_calls) and (
+                isinstance(word.value.func, ast.Attribute)
+                and file.module.qualified_name(word.value.func) not in _SPINS
+            ):
+                text = file.module.text(word.value.func)
+                yield word.value, f"{text}() is called here, not in the thread; write {text}"
             elif file.module.qualified_name(word.value.func) in _SPINS:
                 message = (
                     "rclpy.spin() is called here, not in the thread; write "

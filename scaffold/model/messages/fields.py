@@ -52,7 +52,7 @@ class TypeMismatches:
         kind = self._kinds.of(node)
         if kind in {"int", "float", "bool", "none", "dict", "results"}:
             return f"{self._shown(node)} is {_NAMES[kind]}, not a list"
-        if kind == "str" and type_.name not in {"byte", "char", "uint8"}:
+        if kind == "str" and type_.name != "byte":
             return f"{self._shown(node)} is a str, not a list"
         if kind != "list":
             return self._length(type_, self._returned(node)) or self._table(node)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from typing import TYPE_CHECKING
 
 from scaffold.model.python.conditions.guards import conditions_on
@@ -38,7 +38,9 @@ def fields_of_parameters(types: MessageTypes) -> Mapping[FunctionNode, Fields]:
 def _depends(types: MessageTypes, value: ast.Name) -> bool:
     """Return whether a condition about a parameter decides whether a value is assigned."""
     return any(
-        isinstance(part, ast.Name) and parameter_of(types.module, part)[0] is not None
+        isinstance(part, ast.Name)
+        and part.id != "self"
+        and parameter_of(types.module, part)[0] is not None
         for condition in conditions_on(types.module, value)
         for part in ast.walk(condition)
     )
@@ -65,8 +67,9 @@ class OwnCall(NamedTuple):
 
 def own_calls(types: MessageTypes) -> Iterator[OwnCall]:
     """Yield the calls of functions of the package."""
+    names = {function.name for function in types.module.function_nodes}
     for call in types.module.walk(ast.Call):
-        if not _may_be_own(types, call.func):
+        if not _may_be_own(types, call.func, names):
             continue
         defined = types.file.definition_of(call.func)
         other = types.of_file(defined[0]) if defined is not None else None
@@ -89,12 +92,17 @@ def passed(types: MessageTypes) -> Iterator[Assigned]:
                 yield item._replace(value=value, holder=own.call)
 
 
-def _may_be_own(types: MessageTypes, func: ast.expr) -> bool:
+def _may_be_own(types: MessageTypes, func: ast.expr, defined: Collection[str]) -> bool:
     """Return whether a function may be one of the package, without looking for it."""
     match func:
+        case ast.Attribute(attr=name) if name in defined:
+            return True
         case ast.Attribute(value=ast.Name(id="self" | "cls")) | ast.Name():
             return True
-        case ast.Attribute(value=ast.Name()):
-            root = (types.module.qualified_name(func) or "").partition(".")[0]
-            return bool(root) and types.file.is_own_module(root)
+        case ast.Attribute(value=ast.Name() | ast.Attribute(value=ast.Name()) as owner):
+            names = (
+                types.module.qualified_name(item.func if isinstance(item, ast.Call) else func) or ""
+                for item in (types.file.evaluator.single_value(owner),)
+            )
+            return any(types.file.is_own_module(name.rpartition(".")[0]) for name in names)
     return False

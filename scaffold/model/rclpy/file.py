@@ -198,6 +198,10 @@ class RclpyFile:
             if isinstance(method, ast.FunctionDef):
                 return owner.file, method
             owner = owner.base
+        if isinstance(node, ast.Attribute) and owner is None:
+            method_found = self._method_of_object(node)
+            if method_found is not None:
+                return method_found
         module, _, name = (self.module.qualified_name(node) or "").rpartition(".")
         file = self._file_of(module)
         bindings = file.module.index.bindings(file.module.tree).get(name, ()) if file else ()
@@ -207,6 +211,20 @@ class RclpyFile:
         if isinstance(definition, ast.FunctionDef):
             return file, definition
         return (file, bindings[0].value) if bindings[0].value is not None else None
+
+    def _method_of_object(self, node: ast.Attribute) -> tuple[RclpyFile, ast.FunctionDef] | None:
+        """Return the method of an object that the package has the class of, with its file."""
+        made = self.evaluator.single_value(node.value)
+        if not isinstance(made, ast.Call):
+            return None
+        module, _, name = (self.module.qualified_name(made.func) or "").rpartition(".")
+        file: RclpyFile | None = self._file_of(module) if module else self
+        class_ = file.module.classes.get(name or self.module.text(made.func)) if file else None
+        if file is None or class_ is None:
+            return None
+        bindings = file.module.index.bindings(class_.node).get(node.attr, ())
+        method = bindings[0].node if len(bindings) == 1 else None
+        return (file, method) if isinstance(method, ast.FunctionDef) else None
 
     def is_own_module(self, module: str) -> bool:
         """Return whether a dotted name is another module of the package."""
