@@ -172,7 +172,7 @@ _OTHER_MODULES = {
     "smbus2": "python3-smbus2 python3-smbus2-pip",
     "sympy": "python3-sympy",
     "tabulate": "python3-tabulate",
-    "tf2_ros": "tf2_ros_py tf2_ros",
+    "tf2_ros": "tf2_ros_py",
     "torch": "python3-torch python3-pytorch-pip",
     "torchvision": "python3-torchvision python3-pytorch-pip",
     "tornado": "python3-tornado",

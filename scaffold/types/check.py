@@ -13,6 +13,7 @@ from functools import cached_property
 
 from scaffold import distributions, lazy_re
 from scaffold.model.package import Package
+from scaffold.model.python.module import is_collected
 from scaffold.model.reads import Reads, recorded
 from scaffold.types import environment, python_modules, ty
 from scaffold.types.findings_cache import Cache, Reported
@@ -163,7 +164,8 @@ class TypeCheck:
         calling = [item for item in candidates if item is not None]
         own = sources.reached(source)
         roots = frozenset[str]().union(*(item.roots for item in own.values()))
-        is_relevant = _is_relevant(source, roots, stubbed)
+        is_test = len(own) > 1 and is_collected(path.rpartition("/")[2])
+        is_relevant = is_test or _is_relevant(source, roots, stubbed)
         of_callers = {caller.place: sources.reached(caller) for caller in calling}
         reached = {**own}
         for others in of_callers.values():

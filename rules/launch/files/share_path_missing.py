@@ -130,6 +130,8 @@ class SharePathMissing(Rule):
                 "examples/a.launch.py": _NEXT_TO,
                 "examples/b.launch.py": "",
             },
+            "examples/a.launch.py:8:35: share/talker/examples does not exist: setup.py of talker "
+            "does not install examples/",
         ),
         Example(
             "next to a launch file, of a directory that is installed under a shorter path",
@@ -139,6 +141,8 @@ class SharePathMissing(Rule):
                 "bringup/launch/a.launch.py": _NEXT_TO,
                 "bringup/launch/b.launch.py": "",
             },
+            "bringup/launch/a.launch.py:8:35: share/talker/bringup/launch does not exist: "
+            "CMakeLists.txt of talker does not install bringup/launch/",
         ),
         Example(
             "a generated file that git ignores",
@@ -311,6 +315,44 @@ class SharePathMissing(Rule):
             {**_FILES, "talker/talk.py": _NODE.format("talk.yaml")},
             "talker/talk.py:6:11: share/talker/config/talk.yaml does not exist: talker has no "
             "such file; did you mean config/talker.yaml?",
+        ),
+        Example(
+            "a file and a directory of the sources, which a node does not read itself",
+            {
+                **_FILES,
+                "sounds/horn.wav": "",
+                "talker/talk.py": "import os\n\n"
+                "from ament_index_python.packages import get_package_share_directory\n\n"
+                "SHARE = get_package_share_directory('talker')\n"
+                "SOUNDS = os.path.join(SHARE, 'sounds')\nCONFIG = os.path.join(SHARE, 'config')\n"
+                "MADE = os.path.join(SHARE, 'made')\n\n\n"
+                "def words():\n    return os.path.join(SHARE, 'config', 'other.json')\n",
+            },
+            "talker/talk.py:6:10: share/talker/sounds does not exist: setup.py of talker does not "
+            "install sounds/",
+            "talker/talk.py:12:12: share/talker/config/other.json does not exist: setup.py of "
+            "talker does not install config/other.json",
+        ),
+        Example(
+            "the image of a map, and the one of another map",
+            {
+                **_FILES,
+                "config/hall.yaml": "image: hall.pgm\nresolution: 0.05\n",
+                "config/hall.pgm": "",
+                "config/room.yaml": "image: talker.yaml\nresolution: 0.05\n",
+            },
+            "config/hall.yaml:1:8: share/talker/config/hall.pgm does not exist: setup.py of "
+            "talker does not install config/hall.pgm",
+        ),
+        Example(
+            "files of the sources whose existence a node tests",
+            {
+                **_FILES,
+                "talker/talk.py": "from pathlib import Path\n\n"
+                "from ament_index_python.packages import get_package_share_directory\n\n"
+                "WORDS = Path(get_package_share_directory('talker')) / 'config' / 'other.json'\n"
+                "TEXT = WORDS.read_text() if WORDS.exists() else ''\n",
+            },
         ),
         Example(
             "the default of a parameter, and the argument of a helper",

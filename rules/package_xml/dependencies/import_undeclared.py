@@ -213,6 +213,22 @@ class ImportUndeclared(Rule):
             },
         ),
         Example(
+            "a package with modules in another one",
+            {
+                "package.xml": _manifest("rclpy", "tf2_ros"),
+                "talker/__init__.py": "",
+                "talker/node.py": "import rclpy\nimport tf2_ros\n",
+            },
+            Report(
+                "talker/node.py:2:1",
+                "imports 'tf2_ros', which line 4 of package.xml declares only as a C++ "
+                "library; add <exec_depend>tf2_ros_py</exec_depend>",
+                fix="Declare tf2_ros_py",
+                severity=Severity.WARNING,
+            ),
+            fixed={"package.xml": _manifest("rclpy", "tf2_ros", "tf2_ros_py")},
+        ),
+        Example(
             "libraries with keys named after them, and one without",
             {
                 "package.xml": _manifest("rclpy"),
@@ -678,6 +694,8 @@ class ImportUndeclared(Rule):
                 continue
             comes_otherwise = _comes_with_launch(need) or need.module in _INDEX or need.in_data
             comes_otherwise = comes_otherwise or is_from_pip
+            names = (item.name for item in manifest.dependencies)
+            comes_otherwise = comes_otherwise or any(_is_library_of(name, need) for name in names)
             is_built = package.workspace.get(need.module) is not None
             comes_otherwise = comes_otherwise or (is_built and not need.for_tests)
             comes_otherwise = comes_otherwise or dependencies.may_use(package, need.keys[0])
@@ -711,6 +729,14 @@ class ImportUndeclared(Rule):
             yield self.report(need, message, needed.fix, severity=severity, cause=cause)
 
 
+def _is_library_of(name: str, need: requirements.Requirement) -> bool:
+    """Return whether a package is the C++ library whose Python module has a package of its own.
+
+    ``ros_base`` brings the modules of ``tf2_ros``, and most manifests only declare the library.
+    """
+    return name == need.module and name in ROS_PACKAGES and name not in need.keys
+
+
 def _why_missing(package: Package, need: requirements.Requirement) -> str:
     """Return why a package may be missing where the import runs."""
     for dependency in package.manifest.dependencies:
@@ -721,6 +747,9 @@ def _why_missing(package: Package, need: requirements.Requirement) -> str:
                 f"line {line} of package.xml declares for {purpose} only: <{dependency.kind}> "
                 "does not install it where the package runs"
             )
+        if _is_library_of(dependency.name, need):
+            line = dependency.location.line
+            return f"line {line} of package.xml declares only as a C++ library"
     return "package.xml does not declare"
 
 

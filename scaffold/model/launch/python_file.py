@@ -258,7 +258,7 @@ class LaunchFile:
             above = self.module.parent(parent) if parent is not None else None
             if parent in paths or (isinstance(parent, ast.List) and above in paths):
                 continue
-            if not self._is_extended(node):
+            if not self.is_extended(node):
                 yield node
 
     def _is_path(self, node: ast.expr) -> bool:
@@ -272,7 +272,7 @@ class LaunchFile:
                 return False
         return share_path(self.evaluator.joined_text(node)) is not None
 
-    def _is_extended(self, node: ast.expr) -> bool:
+    def is_extended(self, node: ast.expr) -> bool:
         """Return whether an expression is only the start of an unknown path."""
         parent = self.module.parent(node)
         match parent:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from scaffold import lazy_re
 from scaffold.model.facts import fact
 from scaffold.model.launch.evaluation.evaluator import LaunchEvaluator, share_path
-from scaffold.model.launch.python_file import LaunchFile
+from scaffold.model.launch.python_file import LaunchFile, SharePath
 from scaffold.model.package import mentions
 from scaffold.model.python.evaluation.given_arguments import given_argument
 from scaffold.model.python.evaluation.values import UNKNOWN
@@ -30,6 +30,8 @@ _READING = lazy_re.compile(
     r"(?i:(?:im|safe_|full_)?(?:read|load)\w*|parse|fromfile|from_file|loadtxt|genfromtxt)"
 )
 """Matches functions that read a file."""
+_TESTING = ("exists", "isfile", "isdir", "is_file", "is_dir")
+"""Functions and methods that test whether there is a path."""
 _GIVEN = "\0"
 """Stands for the argument of a call in the path of a helper."""
 
@@ -58,6 +60,11 @@ class ModuleFile(LaunchFile):
     def __init__(self, file: RclpyFile, package_name: str) -> None:
         super().__init__(file.module, package_name)
         self.evaluator = _ModuleEvaluator(file, package_name)
+
+    def is_extended(self, node: ast.expr) -> bool:
+        """Return whether an expression is only the start of an unknown path, in no variable."""
+        is_kept = isinstance(self.module.parent(node), ast.Assign | ast.AnnAssign)
+        return not is_kept and super().is_extended(node)
 
     @classmethod
     def of(cls, package: Package, path: str) -> ModuleFile:
@@ -131,9 +138,17 @@ def paths_of_module(package: Package, path: str) -> tuple[NamedPath, ...]:
         result = [
             NamedPath(item.package, item.path, item.location)
             for item in file.share_paths
-            if not file.is_optional(item.node) and is_only_read(file.module, item.node)
+            if not file.is_optional(item.node)
+            and (is_only_read(file.module, item.node) or _is_in_sources(package, file, item))
         ]
     return (*result, *_paths_given(package, path))
+
+
+def _is_in_sources(package: Package, file: ModuleFile, item: SharePath) -> bool:
+    """Return whether a path is that of a file or directory in the sources, which is not tested."""
+    if item.package != package.name or any(map(file.module.mentions, _TESTING)):
+        return False
+    return package.has(item.path) or package.has_directory(item.path.rstrip("/"))
 
 
 def _paths_given(package: Package, path: str) -> Iterator[NamedPath]:

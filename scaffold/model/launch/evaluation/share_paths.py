@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 from scaffold import lazy_re
 from scaffold.model.discovery.gitignore import is_untracked
 from scaffold.model.facts import fact
-from scaffold.model.install.share import share_of
+from scaffold.model.install.share import Share, share_of
 from scaffold.model.launch.evaluation.module_paths import NamedPath, paths_of_module
 from scaffold.model.launch.files import DATA_DIRECTORIES
 from scaffold.model.launch.markup_file import markup_files
@@ -42,6 +42,9 @@ _OPTIONS = lazy_re.compile(r"\s-")
 """Matches the start of options after a file."""
 
 
+_IMAGE = lazy_re.compile(r"""^image:[ \t]*["']?([^\s"'#]+)""", re.MULTILINE)
+"""Matches the image that the file of a map names."""
+
 _SIMILAR = 0.8
 """How similar the names of two files are if one is surely meant."""
 _HINTED = 0.5
@@ -60,6 +63,20 @@ def paths_of(package: Package) -> Iterator[NamedPath]:
         for named in file.paths:
             if named.path:
                 yield NamedPath(named.package, named.path, named.location)
+    yield from _images_of_maps(package)
+
+
+def _images_of_maps(package: Package) -> Iterator[NamedPath]:
+    """Yield the images that the installed files of maps name, next to them."""
+    for installed, path in share_of(package).files.items():
+        if not path.endswith((".yaml", ".yml")) or b"resolution:" not in package.data(path):
+            continue
+        with suppress(ViewError):
+            source = package.source(path)
+            match = _IMAGE.search(source.text)
+            if match is not None and not match[1].startswith("/"):
+                place = posixpath.normpath(posixpath.join(posixpath.dirname(installed), match[1]))
+                yield NamedPath(package.name, place, source.location(*match.span(1)))
 
 
 @fact
@@ -185,9 +202,11 @@ def missing_in(package: Package, named: NamedPath) -> str:
 def why_missing(package: Package, named: NamedPath) -> str | None:
     """Return why a path certainly does not exist; ``None`` if it may exist."""
     owner = package if named.package == package.name else package.workspace.get(named.package)
-    if owner is None or not _is_file_name(named.path):
+    if owner is None:
         return None
     share = share_of(owner)
+    if not _is_file_name(named.path):
+        return _why_directory_missing(owner, named.path.rstrip("/"), share)
     if share.has(named.path) or not share.complete:
         return None
     if any(named.path.startswith(f"{nested}/") for nested in owner.tree.nested):
@@ -197,6 +216,24 @@ def why_missing(package: Package, named: NamedPath) -> str | None:
     if "{" in named.path and any(map(_before_field(named.path), share.files)):
         return None  # a format string
     return _reason(owner, named.path, share.files)
+
+
+def _why_directory_missing(owner: Package, path: str, share: Share) -> str | None:
+    """Return why a directory of the sources is not installed; ``None`` if it may be."""
+    start = f"{path}/"
+    sources = [file for file in owner.files if file.startswith(start)]
+    is_installed = any(file.startswith(start) for file in share.files)
+    if not path or not sources or is_installed or not share.complete:
+        return None
+    if start.startswith(tuple(share.unread)) or _nothing_of(sources[0], share.files):
+        return None
+    if all(_PLACEHOLDER.fullmatch(_name(file)) for file in sources):
+        return None
+    return f"{_build_file(owner)} of {owner.name} does not install {start}"
+
+
+def _build_file(owner: Package) -> str:
+    return "setup.py" if owner.build_type == "ament_python" else "CMakeLists.txt"
 
 
 def has_similar_file(package: Package, named: NamedPath) -> bool:
@@ -282,8 +319,7 @@ def _reason(owner: Package, path: str, files: dict[str, str]) -> str | None:
         first = path if path in where else where[0]
         if _nothing_of(first, files):
             return None  # another rule reports that the whole directory is not installed
-        build = "setup.py" if owner.build_type == "ament_python" else "CMakeLists.txt"
-        return f"{build} of {owner.name} does not install {first}"
+        return f"{_build_file(owner)} of {owner.name} does not install {first}"
     made_of = [file for file in owner.files if _name(file).startswith(f"{_name(path)}.")]
     if any(not file.endswith(".xacro") or _is_converted(owner, file) for file in made_of):
         return None  # generated from a template
