@@ -15,12 +15,8 @@ _VERSION = re.compile(
     r"(-\d+|[-_.]?(post|rev|r)[-_.]?\d*)?([-_.]?dev[-_.]?\d*)?(\+[a-z0-9]+([-_.][a-z0-9]+)*)?",
     re.IGNORECASE,
 )
-_CLAUSE = r"\s*(?:~=|===|==|!=|<=|>=|<|>)\s*v?\d[\w.!+*-]*\s*"
-_SPECIFIER = re.compile(rf"{_CLAUSE}(?:,{_CLAUSE})*,?\s*|\s*")
-_NAME = r"\s*[A-Za-z0-9](?:[\w.-]*[A-Za-z0-9])?\s*(?:\[[\w\s.,-]*\])?\s*"
-_REQUIREMENT = re.compile(
-    rf"{_NAME}(?:\(?(?:{_CLAUSE}(?:,{_CLAUSE})*)?\)?\s*(?:;.*)?|@\s*\S+\s*(?:\s;.*)?)"
-)
+_CLAUSE = re.compile(r"(?:~=|===|==|!=|<=|>=|<|>)[ \t]*v?\d[\w.!+*-]*")
+_NAME = re.compile(r"([A-Za-z0-9][\w.-]*)[ \t]*(\[[^\]]*\])?")
 _ATTRIBUTE = re.compile(r"attr:\s*([\w.]+)\.(\w+)\s*")
 _TABLE = re.compile(r"^\[project\][ \t]*(?:#.*)?$\n((?:(?!^\[).*\n?)*)", re.MULTILINE)
 _KEYS = ("name", "version")
@@ -138,7 +134,7 @@ class SetupValueRefused(Rule):
                     message = f"{value!r} is not a version of PEP 440: the build stops"
                     yield self.report(word, message)
             elif word.name == "python_requires" and isinstance(value, str):
-                if not _SPECIFIER.fullmatch(value):
+                if not _is_specifier(value):
                     message = (
                         f"python_requires {value!r} is not a version specifier, such as '>=3.10': "
                         f"the build stops"
@@ -146,7 +142,7 @@ class SetupValueRefused(Rule):
                     yield self.report(word, message)
             elif word.name in {"install_requires", "setup_requires", "extras_require"}:
                 for item in _requirements(value):
-                    if not _REQUIREMENT.fullmatch(item):
+                    if not _is_requirement(item):
                         message = (
                             f"{item!r} in {word.name} is not a requirement, such as "
                             f"'numpy>=1.26': the build stops"
@@ -175,12 +171,31 @@ class SetupValueRefused(Rule):
         table = _TABLE.search(source.text)
         if table is None:
             return
-        dynamic = re.search(r"^dynamic\s*=\s*\[([^\]]*)\]", table[1], re.MULTILINE)
+        keys = {line.partition("=")[0].strip(" \t\"'") for line in table[1].splitlines()}
+        dynamic = table[1].partition("dynamic")[2].partition("]")[0]
         for key in _KEYS:
-            is_dynamic = dynamic is not None and f"{key}" in dynamic[1]
-            if not re.search(rf"^[\"']?{key}[\"']?\s*=", table[1], re.MULTILINE) and not is_dynamic:
+            if key not in keys and key not in dynamic:
                 at = source.location(table.start(), table.start() + len("[project]"))
                 yield self.report(at, f"[project] has no {key}: setuptools stops the build")
+
+
+def _is_specifier(text: str) -> bool:
+    """Return whether a text is a list of versions of PEP 440, which may be empty."""
+    return all(_CLAUSE.fullmatch(part.strip()) for part in text.split(",") if part.strip())
+
+
+def _is_requirement(text: str) -> bool:
+    """Return whether a text has the form of PEP 508: a name, versions or an address, a marker."""
+    before, at, _ = text.partition("@")
+    plain = before.strip() if at else text.partition(";")[0].strip()
+    name = _NAME.match(plain)
+    if name is None or name[1].endswith((".", "-")):
+        return False
+    versions = plain[name.end() :].strip()
+    if versions.startswith("(") and versions.endswith(")"):
+        versions = versions[1:-1]
+    is_complete = not versions.strip().endswith(",")
+    return not versions if at else is_complete and _is_specifier(versions)
 
 
 def _requirements(value: object) -> Iterator[str]:

@@ -66,8 +66,8 @@ class ImportUndeclared(Rule):
         Severity.WARNING: "only scripts in the share directory import it, or it may be installed "
         "anyway: with `ros2 launch` for launch files, with pip (torch, or listed in "
         "requirements.txt or pyproject.toml), with colcon or rosdep, to build the workspace, as a "
-        "package of it, with ros_base, or by an unknown dependency; or `colcon test` does not run the test, "
-        "because setup.py does not declare pytest",
+        "package of it, with ros_base, or by an unknown dependency; or `colcon test` does not run "
+        "the test, because setup.py does not declare pytest",
     }
     examples = (
         Example(

@@ -213,9 +213,8 @@ def why_missing(package: Package, named: NamedPath) -> str | None:
         return None  # the files of a nested package are its own
     if named.path.startswith(tuple(share.unread)):
         return None
-    if "{" in named.path and any(map(_before_field(named.path), share.files)):
-        return None  # a format string
-    return _reason(owner, named.path, share.files)
+    is_format = "{" in named.path and any(map(_before_field(named.path), share.files))
+    return None if is_format else _reason(owner, named.path, share.files)
 
 
 def _why_directory_missing(owner: Package, path: str, share: Share) -> str | None:
