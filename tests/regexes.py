@@ -72,7 +72,8 @@ def _of_module(path: str, text: str) -> Iterator[Pattern]:
     tree = ast.parse(text)
     lines = text.splitlines()
     values = _constants(tree)
-    for node in ast.walk(tree):
+    nodes = list(ast.walk(tree))
+    for node in nodes:
         match node:
             case ast.Call(func=ast.Attribute(ast.Name("re" | "lazy_re"), method), args=[first, *_]):
                 pattern = _text(first, values, 0) if method in METHODS else None
@@ -80,7 +81,7 @@ def _of_module(path: str, text: str) -> Iterator[Pattern]:
                 continue
         places = [node, *([values[first.id]] if _names(first, values) else [])]
         if pattern is not None and not _is_excused(lines, places):
-            methods = _uses(tree, node) if method == "compile" else {method}
+            methods = _uses(nodes, node) if method == "compile" else {method}
             yield Pattern(path, node.lineno, pattern, _flags(node), frozenset(methods))
 
 
@@ -126,17 +127,17 @@ def _flags(call: ast.Call) -> int:
     return sum(getattr(re, name) for name in names if f"re.{name}" in words)
 
 
-def _uses(tree: ast.Module, compiled: ast.Call) -> set[str]:
+def _uses(nodes: Sequence[ast.AST], compiled: ast.Call) -> set[str]:
     """Return how a compiled pattern is used; assume a search if that is unknown."""
     names: set[str] = set()
     found: set[str] = set()
-    for node in ast.walk(tree):
+    for node in nodes:
         match node:
             case ast.Assign([ast.Name(name)], value) if value is compiled:
                 names.add(name)
             case ast.Attribute(value, method) if value is compiled:
                 found.add(method)
-    for node in ast.walk(tree):
+    for node in nodes:
         match node:
             case ast.Attribute(ast.Name(name), method) if name in names and method in METHODS:
                 found.add(method)
