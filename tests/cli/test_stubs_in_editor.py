@@ -81,14 +81,26 @@ class LanguageServer:
         return json.loads(self._process.stdout.read(length))
 
 
-@pytest.fixture
-def server(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[LanguageServer]:
-    """Return a server for a workspace with stubs and an interface package of its own."""
-    monkeypatch.chdir(tmp_path)
-    monkeypatch.delenv("AMENT_PREFIX_PATH", raising=False)
-    definitions_of(tmp_path, {"msg/Level.msg": "uint8 FULL=255\nuint8 level\nbool is_low\n"})
-    assert main(["stubs"]) == 0
-    started = LanguageServer(tmp_path)
+@pytest.fixture(scope="module")
+def program(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Return a program in a workspace with stubs and an interface package of its own."""
+    root = tmp_path_factory.mktemp("workspace")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.chdir(root)
+        patch.delenv("AMENT_PREFIX_PATH", raising=False)
+        definitions_of(root, {"msg/Level.msg": "uint8 FULL=255\nuint8 level\nbool is_low\n"})
+        assert main(["stubs"]) == 0
+    path = root / "program.py"
+    path.write_text(PROGRAM)
+    return path
+
+
+@pytest.fixture(scope="module")
+def server(program: Path) -> Iterator[LanguageServer]:
+    """Return a server for this workspace, with the program open."""
+    started = LanguageServer(program.parent)
+    document = {"uri": program.as_uri(), "languageId": "python", "version": 1, "text": PROGRAM}
+    started.notify("textDocument/didOpen", textDocument=document)
     yield started
     started.close()
 
@@ -103,12 +115,8 @@ def server(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Language
     ],
 )
 def test_fields_constants_and_methods_are_completed(
-    typed: str, offered: set[str], server: LanguageServer, tmp_path: Path
+    typed: str, offered: set[str], server: LanguageServer, program: Path
 ) -> None:
-    program = tmp_path / "program.py"
-    program.write_text(PROGRAM)
-    document = {"uri": program.as_uri(), "languageId": "python", "version": 1, "text": PROGRAM}
-    server.notify("textDocument/didOpen", textDocument=document)
     lines = PROGRAM.splitlines()
     number = next(at for at, line in enumerate(lines) if line.endswith(typed))
     position = {"line": number, "character": len(lines[number])}
