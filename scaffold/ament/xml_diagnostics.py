@@ -43,6 +43,8 @@ from scaffold.source import Location
 _Problem = tuple[Location, str] | tuple[Location, str, Fix | None]
 _IN_EXPORT = frozenset({"architecture_independent", "build_type", "deprecated", "metapackage"})
 
+_OF_FAST_DDS = ("<dds> after ", "<profiles> after ")
+_END_OF_ROOT = "the end of the root element"
 # linear: a declaration and comments end at their first end mark
 _PROLOGUE = lazy_re.compile(rb"\s*(?:<\?xml[^>]*\?>)?\s*(?:<!--.*?-->\s*)*", re.DOTALL)
 """Matches the text before the first element."""
@@ -90,10 +92,13 @@ def _is_read_anyway(package: Package, path: str, message: str) -> bool:
     """Return whether the readers of a file accept its error.
 
     The reader of plugin descriptions (tinyxml2) accepts several elements at the top, and ``<`` in a
-    value; the same reader accepts ``--`` in a comment of a behavior tree. Parts of larger documents
+    value; the same reader accepts ``--`` in a comment of a behavior tree, and Fast DDS uses it to
+    find its element among several. Parts of larger documents
     have several elements; the readers of launch files accept one. Only xmllint minds the version.
     """
     if message.startswith("XML has no version"):
+        return True
+    if message.startswith(_OF_FAST_DDS) and message.endswith(_END_OF_ROOT):
         return True
     try:
         start = package.bytes_of(path).lstrip()
@@ -105,7 +110,7 @@ def _is_read_anyway(package: Package, path: str, message: str) -> bool:
         return True
     is_plugins = _PROLOGUE.sub(b"", start, count=1).startswith(b"<library")
     is_whole = start.startswith((b"<launch", b"<?xml")) and not is_plugins
-    return message.endswith("the end of the root element") and not is_whole
+    return message.endswith(_END_OF_ROOT) and not is_whole
 
 
 def _unreadable(package: Package) -> Iterator[_Problem]:

@@ -14,6 +14,7 @@ from scaffold.configuration.exclusion import Exclusion
 from scaffold.diagnostic import Diagnostic, Severity
 from scaffold.model.contents.dead_code import is_dead
 from scaffold.model.contents.python_facts import imports_of, paths_importing
+from scaffold.model.discovery.colcon import IGNORE_MARKERS
 from scaffold.model.discovery.foreign import ENVIRONMENTS, Foreign
 from scaffold.model.install.reach import is_never_run, is_unreached
 from scaffold.model.install.unused import is_apart, is_copy_of_old_code
@@ -33,6 +34,8 @@ _OF_SYNTAX = "E9"
 """The first part of codes that also concern whoever compiles an installed file."""
 _OF_PROGRAMS = ("IM", "LF", "MS", "ND", "TY")
 """Areas of rules about run-time behavior."""
+_OF_BUILDS = ("CM", "LY", "PX", "SP")
+"""Areas of rules about building, installing and testing with colcon."""
 _OF_ACTIONS = (
     *(
         "LF006",
@@ -107,7 +110,7 @@ class Adjustments(NamedTuple):
                 continue
             severity = self._severity(diagnostic.code)
             is_error = diagnostic.severity is Severity.ERROR
-            if severity is None and is_error and _is_of_unused_code(package, diagnostic):
+            if severity is None and is_error and _is_harmless_there(package, diagnostic):
                 severity = Severity.WARNING
             yield diagnostic if severity is None else diagnostic._replace(severity=severity)
 
@@ -150,6 +153,14 @@ class Adjustments(NamedTuple):
         if fitting:
             return self.severities[max(fitting, key=len)]
         return Severity.ERROR if code in self.refused_at_release else None
+
+
+def _is_harmless_there(package: Package, diagnostic: Diagnostic) -> bool:
+    """Return whether an error is in a package that colcon never builds, or in unused code."""
+    is_built = not any(map(package.has, IGNORE_MARKERS))
+    if not is_built and diagnostic.code.startswith(_OF_BUILDS):
+        return True
+    return _is_of_unused_code(package, diagnostic)
 
 
 def _is_of_unused_code(package: Package, diagnostic: Diagnostic) -> bool:

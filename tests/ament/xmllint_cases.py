@@ -99,6 +99,15 @@ CASES: Mapping[str, tuple[Example, ...]] = {
             },
         ),
         Example(
+            "a license before the profiles of Fast DDS, and a second element that nothing reads",
+            {
+                "package.xml": "<package/>\n",
+                "config/dds.xml": '<?xml version="1.0"?>\n<license>Free</license>\n<profiles/>\n',
+                "config/map.xml": '<?xml version="1.0"?>\n<license>Free</license>\n<map/>\n',
+            },
+            "config/map.xml:3:1: <map> after </license>, the end of the root element",
+        ),
+        Example(
             "two dashes in a comment of a behavior tree, where no linter runs",
             {
                 "package.xml": "<package/>\n",

@@ -135,6 +135,26 @@ def test_dependency_of_a_copy_and_of_used_code(
     assert severities(capsys, "PX020") == {"talker/node (copy).py": severity}
 
 
+@pytest.mark.parametrize(("marker", "severity"), [("", "error"), ("COLCON_IGNORE", "warning")])
+def test_package_that_colcon_ignores(
+    package: Path, capsys: pytest.CaptureFixture[str], marker: str, severity: str
+) -> None:
+    write(package / "talker" / "node.py", "import cv2\n")
+    if marker:
+        write(package / marker, "")
+    assert severities(capsys, "PX020") == {"talker/node.py": severity}
+
+
+@pytest.mark.parametrize("marker", ["", "COLCON_IGNORE"])
+def test_program_of_a_package_that_colcon_ignores(
+    package: Path, capsys: pytest.CaptureFixture[str], marker: str
+) -> None:
+    write(package / "talker" / "node.py", UNDEFINED)
+    if marker:
+        write(package / marker, "")
+    assert severities(capsys, "F821") == {"talker/node.py": "error"}
+
+
 def test_copy_of_a_parameter_file(package: Path, capsys: pytest.CaptureFixture[str]) -> None:
     for path in ("params/talk copy.yaml", "params/talk.yaml"):
         write(package / path, "talk:\n  ros__parameters:\n    rate:\n")

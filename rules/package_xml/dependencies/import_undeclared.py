@@ -27,6 +27,7 @@ from scaffold.api.setup_py import lacks_pytest
 from scaffold.api.tests import test_modules
 
 from ._debian import key_of_debian
+from ._embedded_pythons import is_for_embedded_python
 
 _LAUNCH = frozenset({"launch", "launch_ros"})
 """Packages installed wherever launch files can be started."""
@@ -66,8 +67,9 @@ class ImportUndeclared(Rule):
         Severity.WARNING: "only scripts in the share directory import it, or it may be installed "
         "anyway: with `ros2 launch` for launch files, with pip (torch, or listed in "
         "requirements.txt or pyproject.toml), with colcon or rosdep, to build the workspace, as a "
-        "package of it, with ros_base, or by an unknown dependency; or `colcon test` does not run "
-        "the test, because setup.py does not declare pytest",
+        "package of it, with ros_base, or by an unknown dependency; or it is for the Python of "
+        "another program, such as Isaac Sim; or `colcon test` does not run the test, because "
+        "setup.py does not declare pytest",
     }
     examples = (
         Example(
@@ -630,6 +632,30 @@ class ImportUndeclared(Rule):
             },
         ),
         Example(
+            "a library of a server that a script of Isaac Sim starts, and one that a node uses too",
+            {
+                "package.xml": _manifest("rclpy"),
+                "talker/__init__.py": "",
+                "talker/node.py": "import rclpy\nimport requests\n",
+                "talker/server.py": "import fastapi\nimport requests\n",
+                "talker/start.py": "from isaacsim import SimulationApp\n\nimport server\n",
+            },
+            Report(
+                "talker/node.py:2:1",
+                "imports 'requests', which package.xml does not declare; add "
+                "<exec_depend>python3-requests</exec_depend>",
+                fix="Declare python3-requests",
+            ),
+            Report(
+                "talker/server.py:1:1",
+                "imports 'fastapi', which package.xml does not declare; add "
+                "<exec_depend>python3-fastapi</exec_depend>",
+                fix="Declare python3-fastapi",
+                severity=Severity.WARNING,
+            ),
+            fixed={"package.xml": _manifest("python3-fastapi", "python3-requests", "rclpy")},
+        ),
+        Example(
             "a message package and a Python library are missing",
             {
                 "package.xml": _manifest("rclpy"),
@@ -700,6 +726,7 @@ class ImportUndeclared(Rule):
             comes_otherwise = comes_otherwise or (is_built and not need.for_tests)
             comes_otherwise = comes_otherwise or dependencies.may_use(package, need.keys[0])
             comes_otherwise = comes_otherwise or is_installed_to_build(package, need.keys)
+            comes_otherwise = comes_otherwise or is_for_embedded_python(package, need.module)
             is_unrun = need.for_tests and _runs_no_test(package)
             severity = Severity.WARNING if comes_otherwise or is_unrun else Severity.ERROR
             purposes = ("run", "test") if need.for_tests else ("run",)
