@@ -135,6 +135,39 @@ def test_dependency_of_a_copy_and_of_used_code(
     assert severities(capsys, "PX020") == {"talker/node (copy).py": severity}
 
 
+@pytest.mark.parametrize(
+    ("imported", "severity"),
+    [
+        ("from talker.plot.axes import draw", "warning"),
+        ("import talker.plot.axes as axes", "warning"),
+        ("from talker.plot import plot", "error"),
+        ("import talker.plot.plot as axes", "error"),
+    ],
+)
+def test_module_named_like_its_directory(
+    package: Path, capsys: pytest.CaptureFixture[str], imported: str, severity: str
+) -> None:
+    packages = "packages=['talker', 'talker' + '/plot']"
+    write(
+        package / "setup.py",
+        CONSOLE_SCRIPT.replace("packages=find_packages(exclude=['test'])", packages),
+    )
+    write(package / "talker" / "node.py", f"{imported}\n\n\ndef main():\n    pass\n")
+    for name in ("__init__", "axes"):
+        write(package / "talker" / "plot" / f"{name}.py", "def draw():\n    pass\n")
+    write(package / "talker" / "plot" / "plot.py", UNDEFINED + "\n\ndef main():\n    pass\n")
+    assert severities(capsys, "F821") == {"talker/plot/plot.py": severity}
+
+
+def test_program_named_like_its_directory(
+    package: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    setup = CONSOLE_SCRIPT.replace("'talk = talker.node:main'", "f'talk = {NAME}.{NAME}:main'")
+    write(package / "setup.py", setup.replace("\n\n", "\n\nNAME = 'talker'\n", 1))
+    write(package / "talker" / "talker.py", UNDEFINED + "\n\ndef main():\n    pass\n")
+    assert severities(capsys, "F821") == {"talker/talker.py": "error"}
+
+
 @pytest.mark.parametrize(("marker", "severity"), [("", "error"), ("COLCON_IGNORE", "warning")])
 def test_package_that_colcon_ignores(
     package: Path, capsys: pytest.CaptureFixture[str], marker: str, severity: str

@@ -142,10 +142,13 @@ def _code_naming(user: Package, package: Package, module: str, stem: str) -> Ite
     is_own = user is package
     word = stem.encode("utf-8", "surrogateescape")
     names = [name.encode() for name in (package.name, module.partition("/")[0])]
+    directory = module.rpartition("/")[0].rpartition("/")[2]
     for path in user.files:
         data = _data(user, path) if path.endswith(_CPP if is_own else _NAMING) else b""
         is_about = word in data and (is_own or any(name in data for name in names))
-        if is_about and names_file(code_with(data, word), stem, is_python=path.endswith(".py")):
+        is_python = path.endswith(".py")
+        code = code_with(data, word) if is_about else b""
+        if is_about and names_file(code, stem, is_python=is_python, directory=directory):
             yield path
 
 

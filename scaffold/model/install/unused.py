@@ -246,12 +246,34 @@ def _is_in_code(package: Package, path: str, name: str, directory: str) -> bool:
         return not path.endswith((".xml", ".yaml", ".yml", ".urdf"))
     code = code_with(data, name.encode("utf-8", "surrogateescape"))
     is_python = path.endswith(".py")
-    return names_file(code, name, is_python=is_python) and _mentions(code, name, directory)
+    if path == "setup.py" and name == directory and not _is_started(package, name):
+        return b"%b.py" % name.encode("utf-8", "surrogateescape") in code
+    is_named = names_file(code, name, is_python=is_python, directory=directory)
+    return is_named and _mentions(code, name, directory)
 
 
-def names_file(code: bytes, stem: str, *, is_python: bool) -> bool:
-    """Return whether code may import or start a file; Python may use its name for a variable."""
+def _is_started(package: Package, module: str) -> bool:
+    """Return whether setup.py may start a module, and not only install the package around it."""
+    try:
+        setup = package.setup_py
+    except ViewError:
+        return True
+    started = {script.module.rpartition(".")[2] for script in setup.console_scripts}
+    return module in started or not setup.entry_points_complete
+
+
+def names_file(code: bytes, stem: str, *, is_python: bool, directory: str = "") -> bool:
+    """Return whether code may import or start a file; Python may use its name for a variable.
+
+    Args:
+        code: The code.
+        stem: The name of the file.
+        is_python: Whether it is Python.
+        directory: The name of the directory of the file: ``plot.axes`` is not ``plot/plot.py``.
+    """
     word = stem.encode("utf-8", "surrogateescape")
+    if is_python and stem == directory:
+        code = re.sub(rb"\b%b\.(?!py\b|%b\b)(?=\w)" % (re.escape(word), re.escape(word)), b"", code)
     places = [*_places(code, word)]
     if not is_python or not places:
         return bool(places)
