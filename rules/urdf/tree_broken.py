@@ -17,6 +17,10 @@ from scaffold.api import (
 )
 from scaffold.api.robot import UNKNOWN_MARK, Expansion, Part, is_known, robots
 
+_DRIVEN = frozenset(
+    {"joint_name", "left_joint", "left_steering_joint", "right_joint", "right_steering_joint"}
+)
+"""Elements of plugins of Gazebo with the name of a joint."""
 _ROBOT = (
     '<robot name="robot">\n  <link name="base_link"/>\n  <link name="wheel"/>\n'
     '  <link name="camera"/>\n'
@@ -217,6 +221,21 @@ class TreeBroken(Rule):
             {"robot.urdf": _MIMIC.format("axle")},
             "7:19: 'axis' mimics 'axle', which is not a joint of this robot",
         ),
+        Example(
+            "joints of a Gazebo plugin",
+            {
+                "drive.urdf": _ROBOT.format("base_link", "camera").replace(
+                    "</robot>",
+                    '  <gazebo>\n    <plugin filename="gz-sim-diff-drive-system" '
+                    'name="gz::sim::systems::DiffDrive">\n'
+                    "      <left_joint>axis</left_joint>\n"
+                    "      <right_joint>axle</right_joint>\n"
+                    "      <topic>cmd_vel</topic>\n"
+                    "    </plugin>\n  </gazebo>\n</robot>",
+                )
+            },
+            "16:8: right_joint 'axle' is not a joint of this robot: the plugin fails",
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
@@ -307,6 +326,7 @@ class TreeBroken(Rule):
                     yield self.report(end.at("link"), message)
             yield from self._check_mimic(package, joint, joints)
         yield from self._check_controlled(package, robot, joints)
+        yield from self._check_driven(package, robot, joints)
         extensions = [*robot.root.all("gazebo")]
         added = [
             part.get("name") or ""
@@ -338,6 +358,21 @@ class TreeBroken(Rule):
                     hint = _hint(package, name, joints)
                     message = f"ros2_control joint {name!r} is not a joint of this robot{hint}"
                     yield self.report(part.at("name"), message)
+
+    def _check_driven(
+        self, package: Package, robot: Expansion, joints: Sequence[str]
+    ) -> Iterator[Diagnostic]:
+        """Check the joints that plugins of Gazebo move or read."""
+        plugins = [plugin for part in robot.root.all("gazebo") for plugin in part.all("plugin")]
+        for part in [part for plugin in plugins for part in plugin.children]:
+            name = (part.element.text or "").strip()
+            is_plain = part.tag in _DRIVEN and re.fullmatch(r"\w+", name)
+            if is_plain and joints and not _is_among(name, joints) and _is_here(package, part):
+                hint = _hint(package, name, joints)
+                message = (
+                    f"{part.tag} {name!r} is not a joint of this robot: the plugin fails{hint}"
+                )
+                yield self.report(part, message)
 
     def _check_mimic(
         self, package: Package, joint: Part, joints: Sequence[str]
