@@ -77,10 +77,18 @@ def _written_problem(types: MessageTypes, holder: ast.expr, z: ast.expr) -> str:
 def _is_angle(node: ast.expr) -> bool:
     """Return whether an expression is a yaw by its name."""
     match node:
-        case ast.Name(id=name) | ast.Attribute(attr=name):
-            return not _WORDS.isdisjoint(re.split(r"[_\d]+", name.lower()))
         case ast.Call(args=[value], func=ast.Name(id="float") | ast.Attribute(attr="radians")):
             return _is_angle(value)
+        case ast.Attribute(
+            attr="value",
+            value=ast.Call(
+                func=ast.Attribute(attr="get_parameter" | "declare_parameter"),
+                args=[ast.Constant(value=str(name)), *_],
+            ),
+        ):
+            return _is_angle(ast.Name(id=name))
+        case ast.Name(id=name) | ast.Attribute(attr=name):
+            return not _WORDS.isdisjoint(re.split(r"[_\d]+", name.lower()))
     return False
 
 

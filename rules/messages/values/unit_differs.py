@@ -298,6 +298,35 @@ class UnitDiffers(MessageRule):
                 severity=Severity.WARNING,
             ),
         ),
+        Example(
+            "names of parameters, and a parameter that is converted elsewhere",
+            {
+                "where.py": "import math\n\nfrom geometry_msgs.msg import Point, Quaternion\n"
+                "from rclpy.node import Node\n\n\n"
+                "class Where(Node):\n"
+                "    def ahead(self):\n"
+                "        yaw = math.sin(self.get_parameter('yaw_deg').value / 2)\n"
+                "        roll = math.sin(self.get_parameter('roll').value / 2)\n"
+                "        return Quaternion(z=yaw), Quaternion(x=roll)\n\n\n"
+                "def to_meters(lat, lon, lat0, lon0):\n"
+                "    north = math.radians(lat - lat0) * 6371e3\n"
+                "    east = math.radians(lon - lon0) * 6371e3\n"
+                "    point = Point(x=east * math.cos(lat0), y=north)\n"
+                "    return point, Point(x=east * math.cos(math.radians(lat0)), y=north)\n",
+            },
+            Report(
+                "9:24",
+                "the argument of math.sin() is in radians, but this is in degrees; use "
+                "math.radians()",
+                severity=Severity.WARNING,
+            ),
+            Report(
+                "17:37",
+                "the argument of math.cos() is in radians, but this is in degrees; use "
+                "math.radians()",
+                severity=Severity.WARNING,
+            ),
+        ),
     )
 
     def check_file(self, types: MessageTypes) -> Iterator[Diagnostic]:
@@ -329,11 +358,36 @@ class UnitDiffers(MessageRule):
             unit, is_by_name = _unit(types, node)
             if not unit:
                 unit, is_by_name = _unit_of_number(types, node, wanted), True
+            if not unit and wanted == "radians" and _is_converted_elsewhere(types, node):
+                unit = "degrees"
             hint = _HINTS[wanted].get(unit, "")
             if hint:
                 message = f"{shown} is in {wanted}, but this is in {unit}; {hint}"
                 severity = Severity.WARNING if is_by_name else None
                 yield self.report(types.module.location(node), message, severity=severity)
+
+
+def _is_converted_elsewhere(types: MessageTypes, node: ast.expr) -> bool:
+    """Return whether a parameter is part of what the same function converts to radians."""
+    function = types.module.enclosing_function(node)
+    if not isinstance(node, ast.Name) or function is None:
+        return False
+    bindings = types.module.index.bindings_of(node)
+    if len(bindings) != 1 or bindings[0].kind != "parameter":
+        return False
+    converted = [
+        call.args[0]
+        for name in ("math.radians", "numpy.radians", "numpy.deg2rad")
+        for call in types.module.calls_of(name)
+        if call.args and types.module.enclosing_function(call) is function
+    ]
+    parts = [
+        part
+        for value in converted
+        for part in ((value.left, value.right) if isinstance(value, ast.BinOp) else (value,))
+        if not isinstance(value, ast.BinOp) or isinstance(value.op, ast.Add | ast.Sub)
+    ]
+    return any(isinstance(part, ast.Name) and part.id == node.id for part in parts)
 
 
 def _unit_of_number(types: MessageTypes, node: ast.expr, wanted: str) -> str:
@@ -430,6 +484,14 @@ def _unit(types: MessageTypes, node: ast.expr, depth: int = 0) -> tuple[str, boo
         case ast.Call(func=ast.Name(id=name) | ast.Attribute(attr=name), args=[_]):
             return _CONVERSIONS.get(name, ""), False
         case ast.Call(func=ast.Name(id=name) | ast.Attribute(attr=name), args=[]):
+            return _unit_named(name), True
+        case ast.Attribute(
+            attr="value",
+            value=ast.Call(
+                func=ast.Attribute(attr="get_parameter" | "declare_parameter"),
+                args=[ast.Constant(value=str(name)), *_],
+            ),
+        ):
             return _unit_named(name), True
         case ast.Subscript(slice=ast.Constant(value=str() as name)):
             return _unit_named(name), True

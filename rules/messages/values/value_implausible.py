@@ -398,6 +398,32 @@ class ValueImplausible(MessageRule):
                 severity=Severity.WARNING,
             ),
         ),
+        Example(
+            "numbers of a condition, and comparisons",
+            {
+                "show.py": "from rclpy.node import Node\n"
+                "from sensor_msgs.msg import BatteryState\n"
+                "from std_msgs.msg import ColorRGBA\n\n\n"
+                "class Show(Node):\n"
+                "    def __init__(self):\n"
+                "        super().__init__('show')\n"
+                "        self.declare_parameter('low', 0.2)\n"
+                "        self.create_subscription(BatteryState, 'battery', self.on_state, 10)\n\n"
+                "    def on_state(self, msg):\n"
+                "        is_low = msg.percentage < self.get_parameter('low').value\n"
+                "        is_empty = msg.percentage <= 10.0\n"
+                "        is_weak = msg.voltage < 20.0\n"
+                "        red = ColorRGBA(r=255.0 if is_low else 0.0, a=1.0)\n"
+                "        green = ColorRGBA(g=0.0 if is_low else 1.0, a=1.0)\n"
+                "        return red, green, is_empty, is_weak\n",
+            },
+            Report(
+                "14:38",
+                "percentage is a fraction from 0 to 1, always less than 10.0",
+                severity=Severity.WARNING,
+            ),
+            Report("16:27", "r is a fraction from 0 to 1, not 255", severity=Severity.WARNING),
+        ),
     )
 
     def check_file(self, types: MessageTypes) -> Iterator[Diagnostic]:
@@ -410,6 +436,8 @@ class ValueImplausible(MessageRule):
         for at, is_used in _components.zero_quaternions(types):
             severity = Severity.ERROR if is_used else Severity.WARNING
             yield self.report(module.location(at), _OF_ZEROS, severity=severity)
+        for at, message in _compared(types):
+            yield self.report(module.location(at), message, severity=Severity.WARNING)
         for item in (*types.assigned, *types.passed):
             problem = _problem(types, item.owner.name, item.field.name, item.value)
             if problem:
@@ -419,16 +447,40 @@ class ValueImplausible(MessageRule):
 def _problem(types: MessageTypes, owner: str, name: str, node: ast.expr) -> str:
     """Return why the definition of a field contradicts its value; empty if it does not."""
     key = (owner, name)
-    value = types.file.evaluator.evaluate(node)
-    if key in _RANGES and isinstance(value, int | float) and not isinstance(value, bool):
+    for number in _numbers(types, node) if key in _RANGES else ():
         low, high, meaning = _RANGES[key]
-        return "" if low <= value <= high else f"{name} is {meaning}, not {value:g}"
+        if not low <= number <= high:
+            return f"{name} is {meaning}, not {number:g}"
     for source, result in _results(types, node) if key in _SHARES else ():
         if _factors(source, result).count(_PERCENT) == 1 and isinstance(result, ast.BinOp):
             return f"{name} is a fraction from 0 to 1, not a percentage; remove the factor 100"
         if any(map(_is_percentage, _terms(source, result))):
             return f"{name} is a fraction from 0 to 1, not a percentage; divide by 100"
     return ""
+
+
+def _numbers(types: MessageTypes, node: ast.expr) -> Iterator[float]:
+    """Yield the numbers that an expression may be, in either case of a condition."""
+    parts = [node.body, node.orelse] if isinstance(node, ast.IfExp) else [node]
+    for part in parts:
+        value = types.file.evaluator.number(part)
+        if isinstance(value, int | float):
+            yield value
+
+
+def _compared(types: MessageTypes) -> Iterator[tuple[ast.expr, str]]:
+    """Yield comparisons of a fraction with a number that it never reaches."""
+    for node in types.module.walk(ast.Compare):
+        for side, other in ((node.left, node.comparators[0]), (node.comparators[0], node.left)):
+            is_order = isinstance(node.ops[0], ast.Lt | ast.LtE | ast.Gt | ast.GtE)
+            owner = types.type_of(side.value) if isinstance(side, ast.Attribute) else None
+            if owner is None or not isinstance(side, ast.Attribute) or not is_order:
+                continue
+            number = types.file.evaluator.number(other)
+            is_far = isinstance(number, int | float) and number > 1
+            if is_far and (owner.name, side.attr) in _SHARES and len(node.ops) == 1:
+                text = types.module.text(other)
+                yield other, f"{side.attr} is a fraction from 0 to 1, always less than {text}"
 
 
 def _results(types: MessageTypes, node: ast.expr) -> Iterator[tuple[MessageTypes, ast.expr]]:

@@ -34,7 +34,7 @@ def _uses_interfaces(package: Package, path: str) -> bool:
         return False
     if not _CONVERTING.isdisjoint(module.imports_by_root):
         return True
-    if module.mentions("get_parameter_value(") or (
+    if module.mentions("get_parameter_value(", "radians(") or (
         module.mentions(".transform(") and "tf2_ros" in module.imports_by_root
     ):
         return True
