@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from difflib import SequenceMatcher
 from itertools import product
 
@@ -225,6 +225,32 @@ class TopicNameDiffers(Rule):
             "17:51: no service '~/report'; did you mean 'report' (nodes.py:8)? ~ expands to the "
             "node name",
         ),
+        Example(
+            "the only service of its type has another name",
+            {
+                "package.xml": "<package><name>mixer</name></package>\n",
+                **{
+                    f"{name}.py": "from example_interfaces.srv import AddTwoInts\n"
+                    "from rclpy.node import Node\nfrom std_srvs.srv import Trigger\n\n\n"
+                    f"class {name.title()}(Node):\n"
+                    "    def __init__(self):\n"
+                    f"        super().__init__('{name}')\n"
+                    + "".join(f"        self.{line}\n" for line in lines)
+                    for name, lines in {
+                        "pump": (
+                            "create_service(AddTwoInts, 'pump/dose', print)",
+                            "create_service(Trigger, 'pump/stop', print)",
+                        ),
+                        "order": (
+                            "create_client(AddTwoInts, 'pump/dosing')",
+                            "create_client(Trigger, 'lamp/off')",
+                        ),
+                    }.items()
+                },
+            },
+            "order.py:9:40: no service 'pump/dosing': the only one of type "
+            "example_interfaces/srv/AddTwoInts is 'pump/dose' (pump.py:9)",
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
@@ -307,6 +333,15 @@ class TopicNameDiffers(Rule):
                 name = f"{client.name.removesuffix(given)}{usual}"
                 message = f"no node has the service {client.name!r}; did you mean {name!r}?"
                 yield self.report(client.name_location, message)
+            meant = _only_server(package, client, offered, clients)
+            if client.name not in served and meant is not None:
+                place = f"{meant.location.path}:{meant.location.line}"
+                message = (
+                    f"no service {client.name!r}: the only one of type {client.interface} is "
+                    f"{meant.name!r} ({place})"
+                )
+                yield self.report(client.name_location, message)
+                continue
             for service in offered if client.name not in served else ():
                 launched = _launched_outside(package, client, service)
                 if launched:
@@ -397,6 +432,31 @@ def _is_same_but_private(subscription: NamedEndpoint, publisher: NamedEndpoint) 
     if subscription.interface is None or subscription.interface != publisher.interface:
         return False
     return subscription.name.strip("/") == publisher.name.removeprefix("~/")
+
+
+def _only_server(
+    package: Package, client: NamedEndpoint, offered: Sequence[NamedEndpoint], clients: set[str]
+) -> NamedEndpoint | None:
+    """Return the only service that a client can mean: of its type, and without a client.
+
+    The type is one of the workspace, or both names have the same namespace. Names that differ only
+    by namespaces, or that are nearly the same, are left to other checks.
+    """
+    services = [x for x in offered if x.interface == client.interface and x.interface is not None]
+    if len(services) != 1 or services[0].name in clients or client.kind != "Client":
+        return None
+    service, (root, name), (above, last) = (
+        services[0],
+        client.name.rpartition("/")[::2],
+        services[0].name.rpartition("/")[::2],
+    )
+    is_own = package.workspace.get((client.interface or "").partition("/")[0]) is not None
+    if name == last or not (is_own or (root == above and root.strip("/"))):
+        return None
+    is_other = service.location.path == client.location.path or "~" in client.name + service.name
+    if is_other or any(is_remapped(package, x) for x in (client, service)):
+        return None
+    return None if _is_slip_services(client, service) else service
 
 
 def _is_slip_services(client: NamedEndpoint, service: NamedEndpoint) -> bool:
