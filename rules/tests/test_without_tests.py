@@ -10,6 +10,8 @@ from scaffold.api.python import PythonModule
 
 _LAUNCH = ("generate_test_description", "launch_description", "pytest_generate_tests")
 
+_FIXTURES = frozenset({"setUp", "setUpClass", "tearDown", "tearDownClass"})
+
 
 class TestWithoutTests(TestRule):
     """A test file contains no test that pytest collects, or a test that cannot fail.
@@ -47,6 +49,20 @@ class TestWithoutTests(TestRule):
             {"test/test_text.py": "def test_text():\n    return 1 == 2\n"},
             "2:5: the return value of a test is ignored: use assert",
         ),
+        Example(
+            "test case without and with tests",
+            {
+                f"test/test_{name}.py": "import unittest\n\n\n"
+                "class TestLoad(unittest.TestCase):\n"
+                "    def setUp(self):\n"
+                "        self.assertTrue(True)\n\n"
+                f"    def {prefix}memory(self):\n"
+                "        self.assertGreater(2, 1)\n"
+                for name, prefix in (("right", "test_"), ("wrong", ""))
+            },
+            "test/test_wrong.py:8:9: unittest does not run memory(): names of tests start with "
+            "test",
+        ),
     )
 
     def check_file(self, module: PythonModule) -> Iterator[Diagnostic]:
@@ -54,6 +70,9 @@ class TestWithoutTests(TestRule):
         if directory not in {"test", "tests"} or not name.startswith("test_"):
             return
         yield from self._check_returns(module)
+        for method in _uncollected_methods(module):
+            message = f"unittest does not run {method.name}(): names of tests start with test"
+            yield self.report(module.name_location(method), message)
         for class_ in _skipped_classes(module):
             message = (
                 f"pytest does not collect {class_.name}, because it has a constructor; use "
@@ -79,6 +98,29 @@ class TestWithoutTests(TestRule):
 
 def _methods(class_: ast.ClassDef) -> set[str]:
     return {node.name for node in class_.body if isinstance(node, ast.FunctionDef)}
+
+
+def _uncollected_methods(module: PythonModule) -> Iterator[ast.FunctionDef]:
+    """Yield methods with assertions in test cases that have no test."""
+    for class_ in module.classes.values():
+        bases = {module.qualified_name(base) for base in class_.node.bases}
+        methods = [node for node in class_.node.body if isinstance(node, ast.FunctionDef)]
+        names = {node.name for node in methods}
+        uses = [use for use in module.index.names(class_.name) if isinstance(use.ctx, ast.Load)]
+        if bases != {"unittest.TestCase"} or uses or class_.node.decorator_list:
+            continue
+        if any(name.startswith("test") or name == "runTest" for name in names):
+            continue
+        for method in methods:
+            is_own = method.name[:1] != "_" and not module.index.attributes(method.name)
+            if is_own and method.name not in _FIXTURES and _asserts_in(module, method):
+                yield method
+
+
+def _asserts_in(module: PythonModule, method: ast.FunctionDef) -> bool:
+    called = (call.func for call in module.below(method, ast.Call))
+    names = [func.attr for func in called if isinstance(func, ast.Attribute)]
+    return any(module.below(method, ast.Assert)) or any(name.startswith("assert") for name in names)
 
 
 def _skipped_classes(module: PythonModule) -> list[ast.ClassDef]:

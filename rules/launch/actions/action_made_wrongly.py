@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterator
+from difflib import get_close_matches
 
 from scaffold.api import Diagnostic, Example, LaunchRule
 from scaffold.api.launch import NODES, LaunchCall, LaunchFile, describe, entities
@@ -40,6 +41,13 @@ _LAUNCH_ITEMS = (
 )
 _ALONE = frozenset({"this is a list", "this is a tuple", "this is a function", "this is None"})
 """Types that a handler accepts instead of a list."""
+
+
+_STATES = (
+    *("unconfigured", "inactive", "active", "finalized", "configuring", "activating"),
+    *("deactivating", "cleaningup", "shuttingdown", "errorprocessing"),
+)
+"""The labels of lifecycle states, also of those during transitions."""
 
 
 class ActionMadeWrongly(LaunchRule):
@@ -162,11 +170,29 @@ class ActionMadeWrongly(LaunchRule):
             "wrap it in IncludeLaunchDescription(...)",
             "18:33: expected a ComposableNode in a container, not a Node",
         ),
+        Example(
+            "state of a lifecycle node",
+            {
+                "launch/probe.launch.py": "from launch import LaunchDescription\n"
+                "from launch.actions import LogInfo, RegisterEventHandler\n"
+                "from launch_ros.event_handlers import OnStateTransition\n\n\n"
+                "def generate_launch_description():\n"
+                "    return LaunchDescription([\n"
+                "        RegisterEventHandler(OnStateTransition(\n"
+                "            goal_state='inactive', entities=[LogInfo(msg='a')])),\n"
+                "        RegisterEventHandler(OnStateTransition(\n"
+                "            goal_state='configured', entities=[LogInfo(msg='b')])),\n"
+                "    ])\n"
+            },
+            "11:24: no lifecycle state is called 'configured': this never happens; did you mean "
+            "'unconfigured'?",
+        ),
     )
 
     def check_file(self, launch: LaunchFile) -> Iterator[Diagnostic]:
         yield from self._check_arguments(launch)
         yield from self._check_items(launch)
+        yield from self._check_states(launch)
 
     def _check_arguments(self, launch: LaunchFile) -> Iterator[Diagnostic]:
         for call in launch.calls:
@@ -184,6 +210,16 @@ class ActionMadeWrongly(LaunchRule):
                         f"the actions it is for"
                     )
                     yield self.report(last, message)
+
+    def _check_states(self, launch: LaunchFile) -> Iterator[Diagnostic]:
+        for call in launch.find("OnStateTransition"):
+            for word in ("start_state", "goal_state"):
+                state = launch.text(call, word)
+                if isinstance(state, str) and state not in _STATES:
+                    closest = get_close_matches(state, _STATES, 1, 0.6)
+                    hint = f"; did you mean {closest[0]!r}?" if closest else ""
+                    message = f"no lifecycle state is called {state!r}: this never happens{hint}"
+                    yield self.report(launch.location(call.given[word]), message)
 
     def _check_action(self, launch: LaunchFile, call: LaunchCall) -> Iterator[Diagnostic]:
         parent = launch.module.parent(call.call)

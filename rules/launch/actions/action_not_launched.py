@@ -21,7 +21,9 @@ from scaffold.api.launch import (
 from ._late_settings import late_settings
 
 _EXECUTED = frozenset({*NODES, "IncludeLaunchDescription", "ExecuteProcess"})
-_ASSIGNED = _EXECUTED | {"GroupAction", "OpaqueFunction", "RegisterEventHandler", "TimerAction"}
+_ASSIGNED = _EXECUTED | frozenset(
+    {"EmitEvent", "GroupAction", "OpaqueFunction", "RegisterEventHandler", "TimerAction"}
+)
 _LAUNCH = (
     "from launch import LaunchDescription\n"
     "from launch_ros.actions import Node\n\n\n"

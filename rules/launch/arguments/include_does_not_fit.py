@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from difflib import get_close_matches
 
 from scaffold.api import Diagnostic, Example, LaunchRule, Package
@@ -36,6 +36,10 @@ def _files(path: str, given: str) -> dict[str, str]:
         "launch/a.launch.py": _LAUNCH.format(path, given),
         "launch/b.launch.py": _INCLUDED,
     }
+
+
+_SHORTEST = 3
+"""The minimum length of the beginning of a name."""
 
 
 class IncludeDoesNotFit(LaunchRule):
@@ -96,6 +100,21 @@ class IncludeDoesNotFit(LaunchRule):
             _files("a.launch.py", "{}"),
             "launch/a.launch.py:11:9: this file includes itself: the launch never starts",
         ),
+        Example(
+            "the beginning of the name, and another name",
+            {
+                **_files("b.launch.py", "{'robot_name': 'a', 'simulation': 'true', 'x': '1'}"),
+                "launch/b.launch.py": "from launch import LaunchDescription\n"
+                "from launch.actions import DeclareLaunchArgument\n\n\n"
+                "def generate_launch_description():\n"
+                "    return LaunchDescription([\n"
+                "        DeclareLaunchArgument('robot_name'),\n"
+                "        DeclareLaunchArgument('sim', default_value='false'),\n"
+                "    ])\n",
+            },
+            "launch/a.launch.py:13:50: launch/b.launch.py has no argument 'simulation': it is "
+            "ignored; did you mean 'sim'?",
+        ),
     )
 
     def check_in(self, package: Package, launch: LaunchFile) -> Iterator[Diagnostic]:
@@ -116,7 +135,7 @@ class IncludeDoesNotFit(LaunchRule):
         names = {name for name, _, _ in given}
         misspelled = False
         for name, node, _ in given:
-            closest = get_close_matches(name, sorted(other.names - names), 1, 0.75)
+            closest = _closest(name, sorted(other.names - names))
             if name not in other.names and closest and not other.is_open:
                 misspelled = True
                 if closest[0] in launch.declared:
@@ -132,6 +151,17 @@ class IncludeDoesNotFit(LaunchRule):
                 f"missing argument {missing[0]!r}, which {other.path} requires: the launch stops"
             )
             yield self.report(call, message)
+
+
+def _closest(name: str, names: Sequence[str]) -> Sequence[str]:
+    """Return the name that is meant: a similar one, or the beginning of the other one."""
+    starts = [
+        other
+        for other in names
+        if min(len(name), len(other)) >= _SHORTEST
+        and (name.startswith(other) or other.startswith(name))
+    ]
+    return get_close_matches(name, names, 1, 0.75) or starts[: len(starts) == 1]
 
 
 def _is_understood(call: LaunchCall) -> bool:

@@ -229,6 +229,29 @@ class HeaderIncomplete(MessageRule):
             "8:17: geometry_msgs/msg/TransformStamped is sent in line 21 without a child frame; "
             "set child_frame_id",
         ),
+        Example(
+            "image of cv_bridge without a header, where one is known",
+            {
+                "edges.py": "from cv_bridge import CvBridge\n"
+                "from rclpy.node import Node\nfrom sensor_msgs.msg import Image\n\n\n"
+                "class Edges(Node):\n"
+                "    def __init__(self):\n"
+                "        super().__init__('edges')\n"
+                "        self.bridge = CvBridge()\n"
+                "        self.edges = self.create_publisher(Image, 'edges', 10)\n"
+                "        self.create_subscription(Image, 'image', self.on_image, 10)\n\n"
+                "    def on_image(self, msg):\n"
+                "        pixels = self.bridge.imgmsg_to_cv2(msg)\n"
+                "        out = self.bridge.cv2_to_imgmsg(pixels)\n"
+                "        out.header = msg.header\n"
+                "        self.edges.publish(out)\n"
+                "        self.edges.publish(self.bridge.cv2_to_imgmsg(pixels, 'bgr8'))\n\n"
+                "    def tick(self, pixels):\n"
+                "        self.edges.publish(self.bridge.cv2_to_imgmsg(pixels))\n",
+            },
+            "18:28: sensor_msgs/msg/Image is published in line 18 without a stamp and a frame; "
+            "set header.stamp and header.frame_id",
+        ),
     )
 
     def check_in(self, package: Package, types: MessageTypes) -> Iterator[Diagnostic]:

@@ -182,6 +182,30 @@ class ThreadTargetCalled(RclpyRule):
             "wrong.py:11:38: executor.spin() is called here, not in the thread; write "
             "executor.spin",
         ),
+        Example(
+            "coroutine that replaces a method of the base class",
+            {
+                "package.xml": "<package><name>parts</name></package>\n",
+                "parts/__init__.py": "",
+                "parts/base.py": "from rclpy.node import Node\n\n\n"
+                "class Part(Node):\n"
+                "    def __init__(self):\n"
+                "        super().__init__('part')\n"
+                "        self.create_timer(1.0, self.guarded)\n\n"
+                "    def guarded(self):\n"
+                "        self.step()\n\n"
+                "    def step(self):\n"
+                "        pass\n",
+                "parts/scale.py": "from parts.base import Part\n\n\n"
+                "class Scale(Part):\n"
+                "    async def step(self):\n"
+                "        self.get_logger().info('weighs')\n\n\n"
+                "class Pump(Part):\n"
+                "    def step(self):\n"
+                "        self.get_logger().info('pumps')\n",
+            },
+            "parts/scale.py:5:15: Part calls step() without await: the coroutine never runs",
+        ),
     )
 
     def check_in(self, package: Package, file: RclpyFile) -> Iterator[Diagnostic]:
@@ -198,6 +222,8 @@ class ThreadTargetCalled(RclpyRule):
                 yield self.report(file.module.location(call), message, severity=Severity.WARNING)
         for node, problem in _unawaited(package, file):
             yield self.report(file.module.location(node), problem)
+        for method, problem in _overrides_unawaited(file):
+            yield self.report(file.module.name_location(method), problem)
         for timer in file.timers:
             argument = timer.argument("timer_period_sec")
             value, notes = file.evaluator.trace(argument.node if argument else None)
@@ -338,6 +364,26 @@ def _unawaited(package: Package, file: RclpyFile) -> Iterator[tuple[ast.AST, str
             effect = "it never runs" if _is_left(package, file, call, frozenset()) else ""
         if effect:
             yield call, f"coroutine {function.name}() is not awaited: {effect}"
+
+
+def _overrides_unawaited(file: RclpyFile) -> Iterator[tuple[ast.AsyncFunctionDef, str]]:
+    """Yield coroutines that replace a method which a base class calls without awaiting it."""
+    for node in file.classes:
+        for name, method in node.methods.items():
+            base = node.base
+            while base is not None and name not in base.methods:
+                base = base.base
+            if base is None or not isinstance(method, ast.AsyncFunctionDef):
+                continue
+            if method.decorator_list or not isinstance(base.methods[name], ast.FunctionDef):
+                continue
+            module = base.file.module
+            calls = [module.parent(use) for use in module.index.attributes(name)]
+            called = [call for call in calls if isinstance(call, ast.Call)]
+            plain = [call for call in called if isinstance(module.parent(call), ast.Expr)]
+            if called and called == plain and len(called) == len(calls):
+                message = f"{base.name} calls {name}() without await: the coroutine never runs"
+                yield method, message
 
 
 def _effect_unawaited(file: RclpyFile, call: ast.Call) -> str:

@@ -79,9 +79,29 @@ def unstamped(types: MessageTypes) -> Iterator[Unstamped]:
         except _Doubt:
             continue
         missing = _missing(message, given, _topic(types, method))
+        if not given and _is_bridged(made) and _is_header_known(types, made):
+            missing = "stamp frame_id"
         if missing:
             seen.add(made)
             yield Unstamped(made, message, sent, missing)
+
+
+def _is_bridged(made: ast.Call) -> bool:
+    return isinstance(made.func, ast.Attribute) and made.func.attr in _BRIDGED
+
+
+def _is_header_known(types: MessageTypes, made: ast.Call) -> bool:
+    """Return whether a function gets a header, or a message with one, for an image it makes."""
+    function = types.module.enclosing_function(made)
+    if not isinstance(function, ast.FunctionDef):
+        return False
+    parameters = [item.arg for item in function.args.args]
+    if "header" in parameters:
+        return True
+    names = [use for name in parameters for use in types.module.index.names(name)]
+    inside = [use for use in names if types.module.enclosing_function(use) is function]
+    owners = [types.type_of(use) for use in inside]
+    return any(owner is not None and owner.section.field("header") for owner in owners)
 
 
 def childless(types: MessageTypes) -> Iterator[Unstamped]:
