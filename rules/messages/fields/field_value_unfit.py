@@ -110,8 +110,6 @@ class FieldValueUnfit(MessageRule):
                 "    def small(self, value):\n"
                 "        return [value, 0.0, 0.0, 0.0, value, 0.0, 0.0, 0.0, value]\n"
             },
-            "8:27: 'covariance' of geometry_msgs/msg/PoseWithCovariance is float64[36], but "
-            "[value, 0.0, 0.0, 0.0, valu... has 9 elements, not 36",
         ),
         Example(
             "8-bit counter of button presses",
@@ -384,6 +382,28 @@ class FieldValueUnfit(MessageRule):
             "is a float",
             "10:22: 'position' of sensor_msgs/msg/JointState is float64[], but element str(angle) "
             "is a str",
+        ),
+        Example(
+            "result of a method of another file",
+            {
+                "package.xml": "<package><name>rover</name></package>\n",
+                "rover/__init__.py": "",
+                "rover/raster.py": "import numpy as np\n\n\n"
+                "class Raster:\n"
+                "    def __init__(self):\n"
+                "        self.cells = np.zeros((3, 4))\n\n"
+                "    def percent(self):\n"
+                "        return 100 * np.count_nonzero(self.cells) // self.cells.size\n\n"
+                "    def share(self):\n"
+                "        return np.count_nonzero(self.cells) / self.cells.size\n",
+                "rover/paint.py": "from std_msgs.msg import Float32\n\n"
+                "from rover.raster import Raster\n\n"
+                "raster = Raster()\n"
+                "share = Float32(data=raster.share())\n"
+                "percent = Float32(data=raster.percent())\n",
+            },
+            "rover/paint.py:7:24: 'data' of std_msgs/msg/Float32 is float32, but raster.percent() "
+            "is an int: subscribers get another number; write float(...)",
         ),
         Example(
             "int that a function of the package assigns to a float field",

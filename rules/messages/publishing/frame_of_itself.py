@@ -100,6 +100,34 @@ class FrameOfItself(RclpyRule):
             },
             "7:43: both frames are the same: the transform is always the identity",
         ),
+        Example(
+            "two parents of a frame, two children of one, and a choice",
+            {
+                "frames.py": "from geometry_msgs.msg import TransformStamped\n"
+                "from rclpy.node import Node\nfrom tf2_ros import TransformBroadcaster\n\n\n"
+                "class Frames(Node):\n"
+                "    def send(self, is_mapping):\n"
+                "        base = TransformStamped()\n"
+                "        base.header.frame_id = 'map'\n"
+                "        base.child_frame_id = 'base_link'\n"
+                "        gps = TransformStamped()\n"
+                "        gps.header.frame_id = 'gps'\n"
+                "        gps.child_frame_id = 'base_link'\n"
+                "        camera = TransformStamped()\n"
+                "        camera.header.frame_id = 'gps'\n"
+                "        camera.child_frame_id = 'camera'\n"
+                "        if is_mapping:\n"
+                "            camera.header.frame_id = 'map'\n"
+                "            camera.child_frame_id = 'camera'\n"
+                "        TransformBroadcaster(self).sendTransform([base, gps, camera])\n",
+            },
+            Report(
+                "13:30",
+                "'base_link' has two parents, 'map' (line 10) and 'gps': tf2 uses the "
+                "last one that was sent, so the tree jumps",
+                severity=Severity.WARNING,
+            ),
+        ),
     )
 
     def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
@@ -111,11 +139,31 @@ class FrameOfItself(RclpyRule):
                 yield self.report(file.module.location(child), message)
             else:
                 yield from self._check_order(file, child, parent)
+        yield from self._check_parents(file)
         for lookup in lookups_in(file):
             target, source = map(lookup.arguments.get, ("target_frame", "source_frame"))
             if target is not None and source is not None and _are_same(file, source, target):
                 message = "both frames are the same: the transform is always the identity"
                 yield self.report(file.module.location(source), message)
+
+    def _check_parents(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        """Report a frame that a node gives two parents, whatever happens."""
+        parents: dict[tuple[object, str], tuple[str, ast.expr]] = {}
+        for child, parent in (*_stored_frames(file), *_given_frames(file)):
+            stored = _last_stored(file, child, ast.unparse(parent))
+            above = _constant(file, stored or parent, is_default=True)
+            frames = [_constant(file, child), above]
+            if not all(frames) or file.module.enclosing(child, ast.If) is not None:
+                continue
+            key = (file.module.enclosing_class(child), frames[0])
+            other, first = parents.setdefault(key, (frames[1], child))
+            if other != frames[1]:
+                line = file.module.location(first).line
+                message = (
+                    f"{frames[0]!r} has two parents, {other!r} (line {line}) and {frames[1]!r}: "
+                    "tf2 uses the last one that was sent, so the tree jumps"
+                )
+                yield self.report(file.module.location(child), message, severity=Severity.WARNING)
 
     def _check_order(
         self, file: RclpyFile, child: ast.expr, parent: ast.expr
@@ -132,6 +180,12 @@ class FrameOfItself(RclpyRule):
 
 _ORDER = ("earth", "map", "odom", "base_link")
 """The frames of REP 105, parents first."""
+
+
+def _constant(file: RclpyFile, frame: ast.expr, *, is_default: bool = False) -> str:
+    """Return the name of a frame, that of no parameter or its default; empty if unknown."""
+    text, notes = file.evaluator.trace(frame) if hasattr(frame, "lineno") else ("", None)
+    return text.lstrip("/") if isinstance(text, str) and (is_default or not notes) else ""
 
 
 def _rank(file: RclpyFile, frame: ast.expr) -> int | None:

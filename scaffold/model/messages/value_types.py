@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 
 from scaffold.model.interfaces.types import FLOATS, INTEGER_RANGES, TEXTS, FieldType
 from scaffold.model.messages.inference import MessageTypes
+from scaffold.model.python.evaluation.returns import is_generator, may_end, returned
 from scaffold.model.python.evaluation.values import UNKNOWN
 from scaffold.model.rclpy.api import class_of
 
@@ -36,6 +37,7 @@ _RETURNS: Mapping[str, str] = {
     "math.ceil": "int",
     "time.time": "float",
     "math.hypot": "float",
+    "numpy.count_nonzero": "int",
     "math.tan": "float",
     "random.gauss": "float",
     "random.randint": "int",
@@ -88,11 +90,11 @@ def _is_clock(types: MessageTypes, node: ast.expr) -> bool:
 class ValueTypes:
     """Infers the Python type of an expression, if certain."""
 
-    def __init__(self, types: MessageTypes) -> None:
+    def __init__(self, types: MessageTypes, depth: int = 0) -> None:
         self._types = types
         self._module = types.module
         self._evaluator = types.file.evaluator
-        self._depth = 0
+        self._depth = depth
 
     def of(self, node: ast.expr) -> str | None:
         """Return ``bool``, ``int``, ``float``, ``str`` ...; ``None`` if uncertain."""
@@ -119,7 +121,7 @@ class ValueTypes:
                     inner = self.of(operand)
                     kind = inner if inner in _NUMBERS else None
                 case ast.IfExp():
-                    kind = self._common_type([node.body, node.orelse])
+                    kind = self.common_type([node.body, node.orelse])
                 case ast.BinOp():
                     kind = self._of_operation(node)
                 case ast.Attribute():
@@ -131,14 +133,27 @@ class ValueTypes:
     def _of_call(self, node: ast.Call) -> str | None:
         name = self._module.qualified_name(node.func) or ""
         if name in {"abs", "min", "max"} and len(node.args) > (name != "abs") and not node.keywords:
-            kind = self._common_type(node.args)
+            kind = self.common_type(node.args)
             return kind if kind in _NUMBERS else None
         if name == "round" and len(node.args) == 1:
             return "int" if self.of(node.args[0]) in {None, *_NUMBERS} else None
         match node.func:
             case ast.Attribute(attr=method, value=text) if method in _OF_TEXT:
                 return _OF_TEXT[method] if self.of(text) == "str" else None
-        return _RETURNS.get(name)
+        return _RETURNS.get(name) or self._of_own(node)
+
+    def _of_own(self, node: ast.Call) -> str | None:
+        """Return the type of all results of a function of the package."""
+        defined = self._types.file.definition_of(node.func)
+        function = defined[1] if defined is not None else None
+        other = self._types.of_file(defined[0]) if defined is not None else None
+        if other is None or not isinstance(function, ast.FunctionDef) or function.decorator_list:
+            return None
+        values = [statement.value for statement in returned(function)]
+        if None in values or not values or is_generator(function) or may_end(function):
+            return None
+        kinds = ValueTypes(other, self._depth + 1)
+        return kinds.common_type([value for value in values if value is not None])
 
     def _of_operation(self, node: ast.BinOp) -> str | None:
         left, right = self.of(node.left), self.of(node.right)
@@ -158,13 +173,17 @@ class ValueTypes:
         ]
         if not bindings or any(b.kind != "assignment" or b.value is None for b in bindings):
             return None
-        return self._common_type([b.value for b in bindings if b.value is not None])
+        return self.common_type([b.value for b in bindings if b.value is not None])
 
     def _of_attribute(self, node: ast.Attribute) -> str | None:
         """Return the type of a field, or of an attribute of ``self`` used as a counter."""
         type_ = self._types.field_type_of(node)
         if type_ is not None:
             return kind_of_field(type_) or None
+        if node.attr in {"size", "ndim"}:
+            made = self._evaluator.single_value(node.value)
+            name = self._module.qualified_name(made.func) if isinstance(made, ast.Call) else None
+            return "int" if (name or "").startswith("numpy.") else None
         if node.attr == "nanoseconds":
             is_time = class_of(self._types.file, node.value) in RCLPY_TIMES
             return "int" if is_time else None
@@ -183,9 +202,10 @@ class ValueTypes:
                 return None
             else:
                 values.append(store.value)
-        return self._common_type(values)
+        return self.common_type(values)
 
-    def _common_type(self, values: Sequence[ast.expr]) -> str | None:
+    def common_type(self, values: Sequence[ast.expr]) -> str | None:
+        """Return the type of several values; ``None`` if they differ."""
         kinds = {self.of(value) for value in values}
         return kinds.pop() if len(kinds) == 1 else None
 

@@ -214,12 +214,16 @@ class RclpyFile:
 
     def _method_of_object(self, node: ast.Attribute) -> tuple[RclpyFile, ast.FunctionDef] | None:
         """Return the method of an object that the package has the class of, with its file."""
-        made = self.evaluator.single_value(node.value)
-        if not isinstance(made, ast.Call):
-            return None
-        module, _, name = (self.module.qualified_name(made.func) or "").rpartition(".")
+        origins = self.evaluator.origins(node.value)
+        classes = {
+            self.module.qualified_name(made.func) or self.module.text(made.func)
+            if isinstance(made, ast.Call)
+            else ""
+            for made in origins
+        }
+        module, _, name = (classes.pop() if len(classes) == 1 else "").rpartition(".")
         file: RclpyFile | None = self._file_of(module) if module else self
-        class_ = file.module.classes.get(name or self.module.text(made.func)) if file else None
+        class_ = file.module.classes.get(name) if file else None
         if file is None or class_ is None:
             return None
         bindings = file.module.index.bindings(class_.node).get(node.attr, ())
