@@ -43,7 +43,7 @@ class Effect(IntEnum):
     INFERRED = 7
     """A program stops or does the wrong thing, according to inferred types and values."""
     DECLARED_WRONG = 8
-    """The manifest, a name or a test is wrong; nothing stops here."""
+    """The manifest, a name or a test is wrong; nothing stops here, at least in a plain build."""
     UNPUBLISHABLE = 9
     """Nothing stops, but a license or a notice is missing that others need."""
     STYLE = 10

@@ -171,18 +171,13 @@ def names_dependencies(entry: Entry) -> bool:
 def in_order(entries: Sequence[Entry]) -> list[Entry]:
     """Return entries by severity and effect; see `Effect`. Those with more files come first.
 
-    What stops every build comes before what only does so on machines without a dependency.
+    What always has an effect comes before what only has it on machines without a dependency.
     """
     rules = registry.loaded()
     return sorted(
         entries,
-        key=lambda entry: (_rank(entry, rules), _is_conditional(entry, rules), -_files(entry)),
+        key=lambda entry: (_rank(entry, rules), is_dependency(entry.first), -_files(entry)),
     )
-
-
-def _is_conditional(entry: Entry, rules: Mapping[str, type[Rule]]) -> bool:
-    first = entry.first
-    return is_dependency(first) and effect_of(first, rules) is Effect.STOPS_BUILD
 
 
 def _rank(entry: Entry, rules: Mapping[str, type[Rule]]) -> tuple[int, bool, bool, Effect]:

@@ -85,6 +85,14 @@ def test_builds_that_always_stop_come_before_missing_dependencies() -> None:
     assert [entry.first.code for entry in ordered] == ["PX031", "CM020"]
 
 
+def test_starts_that_always_fail_come_before_missing_dependencies() -> None:
+    results = [_result(".", code, code) for code in ("LF005", "PX020", "LF015")]
+    for result in results[:2]:
+        result.diagnostics[0] = result.diagnostics[0]._replace(cause="dependency rclpy")
+    ordered = in_order([entry for result in results for entry in by_cause(result)])
+    assert [entry.first.code for entry in ordered] == ["LF015", "LF005", "PX020"]
+
+
 def test_style_of_cmake_files_comes_last() -> None:
     results = [_result(".", code, "a", Severity.WARNING) for code in ("CM075", "CM084", "PX020")]
     results[2].diagnostics[0] = results[2].diagnostics[0]._replace(cause="dependency rclpy")

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from scaffold.api import (
     Diagnostic,
+    Effect,
     Example,
     Package,
     Report,
@@ -245,9 +246,10 @@ class ExecutableNotInstalled(Rule):
             is_trial = path.rpartition("/")[2].startswith(_TRIALS)
             is_whole = has_neighbor and not is_trial and not _is_of_ros1(package, path)
             is_whole = is_whole and _is_named(package, path)
-            is_whole = is_whole or path.rpartition("/")[2] in launched
-            severity = Severity.ERROR if is_whole else Severity.WARNING
-            yield self.report(place, message, severity=severity)
+            is_launched = path.rpartition("/")[2] in launched
+            severity = Severity.ERROR if is_whole or is_launched else Severity.WARNING
+            effect = Effect.STOPS_START if is_launched else None
+            yield self.report(place, message, severity=severity, effect=effect)
 
     def _check_configured(self, package: Package) -> Iterator[Diagnostic]:
         """Check that console scripts of setup.cfg are installed, unless other programs run them."""

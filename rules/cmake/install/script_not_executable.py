@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from scaffold.api import (
     Diagnostic,
     Edit,
+    Effect,
     Example,
     Fix,
     MakeExecutable,
@@ -257,7 +258,7 @@ class ScriptNotExecutable(Rule):
             )
             fix = Fix(f"Make {path} executable", (MakeExecutable(path),))
             at = package.start_of(path)
-            yield self.report(at, message, fix, cause=_CAUSE)
+            yield self.report(at, message, fix, cause=_CAUSE, effect=Effect.DECLARED_WRONG)
 
     def _check_kind(self, package: Package) -> Iterator[Diagnostic]:
         programs = {
