@@ -23,6 +23,8 @@ if TYPE_CHECKING:
 
 _NAMED = lazy_re.compile(r"(?:\$\(find ([\w-]+)\)|package://([\w-]+))((?:/[\w.+-]+)+)(.?)")
 _LAUNCH = ("launch.py", "launch.xml", "launch.yaml", "launch.yml")
+_ASSIGNED = lazy_re.compile(r"[ ]*(\w+)[ ]{0,9}=(?!=)")
+"""Matches the start of a line that sets a variable."""
 _CONDITIONS = ("xacro:if", "xacro:unless")
 _OF_CONTROL = frozenset({"command_interface", "state_interface"})
 """Elements of joints in ros2_control, which may be written by their own macro."""
@@ -111,8 +113,9 @@ def _is_given(package: Package, name: str) -> bool:
         with suppress(ViewError):
             if path.endswith("launch.py") and mentions(package, path, name, ":="):
                 text = package.source(path).text
-                named = re.findall(rf"(\w+)\s*=[^=\n][^\n]*{re.escape(name)}", text)
-                if any(re.search(rf":=[\"'],\s*{variable}\b", text) for variable in named):
+                lines = [line for line in text.splitlines() if name in line]
+                named = [match[1] for match in map(_ASSIGNED.match, lines) if match]
+                if any(re.search(rf":=[\"'],\s{{0,99}}{variable}\b", text) for variable in named):
                     return True
     return False
 
