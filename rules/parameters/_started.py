@@ -14,6 +14,8 @@ _STARTING = (".py", ".xml", ".launch", ".yaml", ".yml", ".sh", ".cpp", ".hpp", "
 """Ends of the names of files that may start a controller."""
 _LAUNCHING = (".py", ".xml", ".launch", ".yaml", ".yml", ".sh", ".md", ".rst")
 """Ends of the names of files that start Nav2, or tell people how to."""
+_NODES = (".py", ".cc", ".cpp", ".hpp")
+_LAUNCH = b"generate_launch_description"
 _NAV2 = (b"nav2_bringup", b"RewrittenYaml")
 _WITHOUT_SERVERS = b"localization_launch"
 _WITH_SERVERS = re.compile(rb"nav\w{0,40}[._]launch|bringup_launch|simulation_launch")
@@ -23,6 +25,12 @@ _WITH_SERVERS = re.compile(rb"nav\w{0,40}[._]launch|bringup_launch|simulation_la
 def is_named_in_code(package: Package, controller: str) -> bool:
     """Return whether code of the workspace names a controller, perhaps to start it."""
     return any(_texts_with(package, controller.encode(), _STARTING))
+
+
+def is_used_by_nodes(package: Package, topic: str) -> bool:
+    """Return whether code of the workspace other than launch files names a topic."""
+    texts = _texts_with(package, topic.encode(), _NODES)
+    return any(_LAUNCH not in data for data in texts)
 
 
 def is_server_started(package: Package, server: str) -> bool:

@@ -39,6 +39,7 @@ from scaffold.api.robot import is_known, robot_file, robot_paths, robots
 
 from ._controllers import replacement
 from ._started import is_named_in_code
+from ._velocity_topics import ignored_settings, lost_topics
 
 _MANAGER = "controller_manager"
 _SPAWNER = "spawner"
@@ -90,6 +91,12 @@ _LAUNCH = (
     "        ExecuteProcess(cmd=['ros2', 'control', 'load_controller', '--set-state', 'active',\n"
     "                            '{}']),\n    ])\n"
 )
+_MUX = (
+    "from launch import LaunchDescription\nfrom launch_ros.actions import Node\n\n\n"
+    "def generate_launch_description():\n    return LaunchDescription([\n"
+    "        Node(package='twist_mux', executable='twist_mux',\n"
+    "             remappings=[('cmd_vel_out', '/base_controller/{}')]),\n    ])\n"
+)
 _ROBOT = (
     '<robot name="base">\n  <link name="base_link"/>\n'
     '  <link name="left"/>\n  <link name="right"/>\n'
@@ -117,14 +124,16 @@ def _files(
 
 
 class ControllerUnfit(Rule):
-    """A controller of ros2_control has no type, a ROS 1 type, or unknown joints.
+    """A controller of ros2_control has no type, a ROS 1 type, unknown joints or a former topic.
 
     **Why.** The robot does not move: ``The 'type' param was not defined for 'base_controller'``,
     ``Failed loading controller``, ``Not existing command interface``. The controller manager exits
-    with ``parameter 'update_rate' has invalid type: expected [integer] got [double]``.
+    with ``parameter 'update_rate' has invalid type: expected [integer] got [double]``. Since Jazzy,
+    ``diff_drive_controller`` has no topic ``~/cmd_vel_unstamped``.
 
     **Fix.** Use the names in the parameter file, with the ``type`` under ``controller_manager``,
-    and the joints of the URDF; write ``update_rate: 50``.
+    and the joints of the URDF; write ``update_rate: 50``. Publish a ``TwistStamped`` on
+    ``~/cmd_vel``; ``twist_stamper`` converts.
 
     **Source.** https://github.com/ros-controls/ros2_control/issues/850;
     https://github.com/ros-controls/roscon2022_workshop/issues/16; ros2_controllers documentation.
@@ -132,7 +141,10 @@ class ControllerUnfit(Rule):
 
     code = "PF010"
     name = "controller-unfit"
-    other_severities = {Severity.WARNING: "no other file names the controller with the joint"}
+    other_severities = {
+        Severity.WARNING: "no other file names the controller with the joint, or the setting is "
+        "ignored"
+    }
     examples = (
         Example("matching controllers and joints", _files()),
         Example(
@@ -249,6 +261,38 @@ class ControllerUnfit(Rule):
             },
         ),
         Example(
+            "commands with stamps, and a node that converts those without",
+            {
+                **_files(),
+                "launch/mux.launch.py": _MUX.format("cmd_vel"),
+                "launch/other.launch.py": _MUX.format("cmd_vel_unstamped"),
+                "scripts/stamp.py": "TOPIC = '/base_controller/cmd_vel_unstamped'\n",
+            },
+        ),
+        Example(
+            "commands without stamps",
+            {
+                **_files(),
+                "config/controllers.yaml": _FILE.format("50", _DRIVE, "right_joint")
+                + "    use_stamped_vel: false\n",
+                "launch/mux.launch.py": _MUX.format("cmd_vel_unstamped"),
+            },
+            Report(
+                "config/controllers.yaml:11:22",
+                "this is ignored: since Jazzy, the controller only takes TwistStamped, "
+                "on '~/cmd_vel'",
+                severity=Severity.WARNING,
+            ),
+            "launch/mux.launch.py:8:27: no controller subscribes to "
+            "'/base_controller/cmd_vel_unstamped': since Jazzy, diff_drive_controller only takes "
+            "TwistStamped, on '~/cmd_vel'",
+        ),
+        Example(
+            "commands without stamps, which Humble accepts",
+            {**_files(), "launch/mux.launch.py": _MUX.format("cmd_vel_unstamped")},
+            distro="humble",
+        ),
+        Example(
             "joints of another robot",
             {
                 **_files(joint="rear"),
@@ -262,6 +306,12 @@ class ControllerUnfit(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
+        for location, topic in lost_topics(package):
+            message = (
+                f"no controller subscribes to {topic!r}: since Jazzy, diff_drive_controller only "
+                f"takes TwistStamped, on '~/cmd_vel'"
+            )
+            yield self.report(location, message)
         parsed = [*parameter_files(package)]
         managers = [
             section for file in parsed for section in file.sections if section.name == _MANAGER
@@ -278,6 +328,7 @@ class ControllerUnfit(Rule):
             yield from self._check_manager(package, section)
             yield from self._check_nested(parsed, section, types)
         yield from self._check_sections(parsed, types)
+        yield from self._check_settings(parsed, types)
         yield from self._check_joints(package, parsed, types)
         yield from self._check_spawned(package, types)
 
@@ -296,6 +347,19 @@ class ControllerUnfit(Rule):
                     controller = entry.name.removesuffix(_TYPE)
                     severity = None if _is_started(package, controller) else _UNUSED
                     yield self.report(entry.value.location, message, severity=severity)
+
+    def _check_settings(
+        self, files: Sequence[ParameterFile], types: Mapping[str, Entry]
+    ) -> Iterator[Diagnostic]:
+        for file in files:
+            for section in file.sections:
+                if section.name in types and _text_of(types[section.name]) == _DRIVE:
+                    for location in ignored_settings(section):
+                        message = (
+                            "this is ignored: since Jazzy, the controller only takes TwistStamped, "
+                            "on '~/cmd_vel'"
+                        )
+                        yield self.report(location, message, severity=Severity.WARNING)
 
     def _check_nested(
         self, files: Sequence[ParameterFile], manager: Section, types: Mapping[str, Entry]
