@@ -337,7 +337,7 @@ def module_of_key(key: str) -> str | None:
 
     ``numpy`` is such a name: the manifest needs ``python3-numpy``.
     """
-    if key in _SYSTEM_KEYS:
+    if key in _SYSTEM_KEYS or key in ROS_PACKAGES:
         return None
     for module, keys in _OTHER_MODULES.items():
         is_named = key == module or key.lower() in _INDEX_NAMES.get(module, "").lower().split()

@@ -39,6 +39,10 @@ class DependencyWithoutKey(Rule):
     examples = (
         Example("a package", {"package.xml": _MANIFEST.format("std_msgs")}),
         Example(
+            "a C++ package with the name of a Python module that another package has",
+            {"package.xml": _MANIFEST.format("tf2_ros")},
+        ),
+        Example(
             "for ROS 1",
             {
                 "package.xml": _MANIFEST.format("python-numpy").replace(
