@@ -24,9 +24,10 @@ def ignored_settings(section: Section) -> Iterator[Location]:
         return
     for entry in section.entries:
         value = entry.value
-        if entry.name == "use_stamped_vel" and isinstance(value, Scalar):
-            if value.text.lower() == "false":
-                yield value.location
+        if not isinstance(value, Scalar) or entry.name != "use_stamped_vel":
+            continue
+        if value.text.lower() == "false":
+            yield value.location
 
 
 def lost_topics(package: Package) -> Iterator[tuple[Location, str]]:
