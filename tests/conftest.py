@@ -20,6 +20,7 @@ settings.register_profile("random", settings.get_profile("repository"), derandom
 settings.load_profile("repository")
 
 
+@pytest.hookimpl(optionalhook=True)  # of pytest-xdist, which not all environments have
 def pytest_xdist_auto_num_workers() -> int:
     """Return one process more than there are processors: tests of nodes wait most of the time."""
     return len(os.sched_getaffinity(0)) + 1
