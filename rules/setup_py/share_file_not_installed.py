@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Effect, Example, Package, Report, Rule, Severity
 from scaffold.api.install import is_copy_of_old_code, names_above
-from scaffold.api.launch import DATA_DIRECTORIES, data_files, is_named, launch_files
+from scaffold.api.launch import DATA_DIRECTORIES, data_files, is_named, launch_files, started_nodes
 from scaffold.api.setup_py import installed_data
 
 _MANIFEST = (
@@ -18,6 +18,11 @@ _SETUP = (
     "        ('share/talker', ['package.xml']),\n{}    ],\n)\n"
 )
 _LAUNCH = "def generate_launch_description():\n    pass\n"
+_ROBOT = (
+    "from launch import LaunchDescription\nfrom launch_ros.actions import Node\n\n\n"
+    "def generate_launch_description():\n"
+    "    return LaunchDescription([Node(package='robot', executable='drive')])\n"
+)
 
 
 class ShareFileNotInstalled(Rule):
@@ -36,8 +41,9 @@ class ShareFileNotInstalled(Rule):
     name = "share-file-not-installed"
     effect = Effect.SPOILS_INSTALL
     other_severities = {
-        Severity.WARNING: "nothing in the package refers to the directory, or a text of the "
-        "repository tells people to start the launch file by its path"
+        Severity.WARNING: "nothing in the package refers to the directory, a text of the "
+        "repository tells people to start the launch file by its path, or the launch file only "
+        "starts nodes of a package that has a launch file of that name"
     }
     examples = (
         Example(
@@ -156,6 +162,26 @@ class ShareFileNotInstalled(Rule):
             },
         ),
         Example(
+            "a copy of a launch file of the package whose nodes it starts",
+            {
+                "package.xml": _MANIFEST,
+                "setup.py": _SETUP.format(""),
+                "launch/robot.launch.py": _ROBOT,
+            },
+            Report(
+                "setup.py:7:16",
+                "data_files does not install launch/robot.launch.py: `ros2 launch` "
+                "does not find it; add an entry",
+                severity=Severity.WARNING,
+            ),
+            neighbors={
+                "robot": {
+                    "package.xml": _MANIFEST.replace("talker", "robot"),
+                    "launch/robot.launch.py": _ROBOT,
+                },
+            },
+        ),
+        Example(
             "a file name that the pattern does not match",
             {
                 "package.xml": _MANIFEST,
@@ -184,7 +210,8 @@ class ShareFileNotInstalled(Rule):
                     f"data_files does not install {path}: `ros2 launch` does not find it; "
                     f"add an entry"
                 )
-                severity = Severity.WARNING if names_above(package, path) else None
+                is_unused = names_above(package, path) or _is_of_another_package(package, path)
+                severity = Severity.WARNING if is_unused else None
                 cause = f"files in {path.rpartition('/')[0]}/"
                 yield self.report(at, message, severity=severity, cause=cause)
         for directory in DATA_DIRECTORIES:
@@ -197,6 +224,18 @@ class ShareFileNotInstalled(Rule):
                 is_used = is_named(package, directory)
                 severity = Severity.ERROR if is_used else Severity.WARNING
                 yield self.report(at, message, severity=severity)
+
+
+def _is_of_another_package(package: Package, path: str) -> bool:
+    """Return whether a launch file belongs to a package whose nodes it starts, and is there too."""
+    started = {node.package for node in started_nodes(package) if node.launch == path}
+    others = [
+        owner
+        for name in started
+        if isinstance(name, str) and (owner := package.workspace.get(name)) is not None
+    ]
+    is_foreign = package.name not in started and all(isinstance(name, str) for name in started)
+    return is_foreign and any(owner.has(path) for owner in others)
 
 
 def _is_copy(path: str, stems: tuple[str, ...]) -> bool:
