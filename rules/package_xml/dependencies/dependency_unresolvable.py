@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import os
 import re
+from collections import Counter
 from collections.abc import Iterator
+from contextlib import suppress
 
-from scaffold.api import Diagnostic, Effect, Example, Package, Report, Rule, Severity
+from scaffold.api import Diagnostic, Effect, Example, Package, Report, Rule, Severity, ViewError
 from scaffold.api.catalog import (
     OTHER_NAMES,
     ROS1_PACKAGES,
@@ -20,7 +22,7 @@ from scaffold.api.catalog import (
     similar_package,
 )
 from scaffold.api.distributions import removed_package, target
-from scaffold.api.manifest import is_fetched
+from scaffold.api.manifest import declared, is_fetched
 
 from ._no_keys import why_no_key
 
@@ -31,6 +33,8 @@ KINDS = frozenset(
     | {"build_export_depend", "buildtool_export_depend"}
 )
 """Tags whose packages rosdep installs; it skips documentation dependencies."""
+_IN_FAMILY = 2
+"""The number of words that the names of a family share; more packages are a larger system."""
 _MANIFEST = "<package>\n  <name>talker</name>\n  <depend>{}</depend>\n</package>\n"
 _KEYS = ("python3-serial", "libserial-dev")
 
@@ -55,7 +59,8 @@ class DependencyUnresolvable(Rule):
     name = "dependency-unresolvable"
     effect = Effect.STOPS_ROSDEP
     other_severities = {
-        Severity.WARNING: "it may be a package of ROS that is built from other sources"
+        Severity.WARNING: "it may be a package of ROS that is built from other sources; or the "
+        "workspace needs a family of unknown packages, whose vendor may add rules to rosdep"
     }
     release_refused = "bloom finds no rosdep rule for the name"
     examples = (
@@ -104,6 +109,39 @@ class DependencyUnresolvable(Rule):
             "3:11: unknown dependency 'pyserial-3': rosdep has no rule for it, and it is not a "
             "package in the workspace or AMENT_PREFIX_PATH",
             rosdep_keys=_KEYS,
+        ),
+        Example(
+            "a key of the vendor of other unknown packages",
+            {
+                "package.xml": _MANIFEST.format(
+                    "arm_core_msgs</depend>\n  <depend>arm_core_driver</depend>\n"
+                    "  <depend>arm_core_tools</depend>\n  <depend>python3-arm-shim"
+                )
+            },
+            Report(
+                "3:11",
+                "unknown dependency 'arm_core_msgs': rosdep has no rule for it, and it "
+                "is not a package in the workspace or AMENT_PREFIX_PATH",
+                severity=Severity.WARNING,
+            ),
+            Report(
+                "4:11",
+                "unknown dependency 'arm_core_driver': rosdep has no rule for it, and "
+                "it is not a package in the workspace or AMENT_PREFIX_PATH",
+                severity=Severity.WARNING,
+            ),
+            Report(
+                "5:11",
+                "unknown dependency 'arm_core_tools': rosdep has no rule for it, and "
+                "it is not a package in the workspace or AMENT_PREFIX_PATH",
+                severity=Severity.WARNING,
+            ),
+            Report(
+                "6:11",
+                "unknown dependency 'python3-arm-shim': rosdep has no rule for it, and "
+                "it is not a package in the workspace or AMENT_PREFIX_PATH",
+                severity=Severity.WARNING,
+            ),
         ),
         Example(
             "neither a key nor a package, without the cache of rosdep",
@@ -180,8 +218,24 @@ def _problem(package: Package, name: str) -> tuple[str, Severity | None]:
         f"workspace or AMENT_PREFIX_PATH{hint}"
     )
     is_library = hint.startswith("; the key") and not package.has("CMakeLists.txt")
-    is_certain = is_library or not _PACKAGE.fullmatch(name)
+    is_certain = is_library or not (_PACKAGE.fullmatch(name) or _is_part_of_system(package))
     return message, None if is_certain else Severity.WARNING
+
+
+def _is_part_of_system(package: Package) -> bool:
+    """Return whether packages of the workspace need several unknown ones of one family.
+
+    Whoever installs those, such as ``arm_core_msgs`` and ``arm_core_driver``, may add rules for
+    other keys to rosdep.
+    """
+    unknown: set[str] = set()
+    for other in (package, *package.workspace):
+        with suppress(ViewError):
+            unknown |= declared(other, for_tests=True).unknown
+    families = Counter(
+        "_".join(words[:2]) for name in unknown if len(words := name.split("_")) > _IN_FAMILY
+    )
+    return any(number > _IN_FAMILY for number in families.values())
 
 
 def _is_of_target(name: str) -> bool:
