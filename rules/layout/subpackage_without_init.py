@@ -190,8 +190,9 @@ def _uses(package: Package) -> Iterator[_Use]:
     for path, imports in imports_by_path(package):
         for item in (imported for imported in imports if not imported.in_tests):
             for directory in _directories(package, path, item):
-                is_used = not is_never_run(package, path)
-                yield _Use(directory, item.location, "imports from", is_used)
+                if not package.has(f"{directory}/__init__.py"):
+                    is_used = not is_never_run(package, path)
+                    yield _Use(directory, item.location, "imports from", is_used)
     for script in package.setup_py.console_scripts:
         parts = script.module.split(".")
         for directory in _below(package, parts[:-1]):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from scaffold import lazy_re
@@ -20,6 +20,7 @@ from scaffold.model.install.unused import (
     is_apart,
     is_copy_of_old_code,
     is_in_python_package,
+    is_named_in_text,
     is_unused_setup_py,
     names_file,
 )
@@ -114,8 +115,7 @@ def _is_told(package: Package, path: str) -> bool:
     name = path.rpartition("/")[2]
     if name in RUN_AS_THEY_ARE:
         return False
-    naming = files_naming(package, path, name, TEXTS)
-    return names_above(package, name) or any(text.endswith(TEXTS) for text in naming)
+    return names_above(package, name) or is_named_in_text(package, path, name)
 
 
 def _is_root(path: str) -> bool:
@@ -139,17 +139,34 @@ def _users(package: Package, path: str, texts: tuple[str, ...]) -> Iterator[tupl
 
 def _code_naming(user: Package, package: Package, module: str, stem: str) -> Iterator[str]:
     """Yield the code of a package that names a module; other packages name its package as well."""
-    is_own = user is package
     word = stem.encode("utf-8", "surrogateescape")
-    names = [name.encode() for name in (package.name, module.partition("/")[0])]
     directory = module.rpartition("/")[0].rpartition("/")[2]
-    for path in user.files:
-        data = _data(user, path) if path.endswith(_CPP if is_own else _NAMING) else b""
-        is_about = word in data and (is_own or any(name in data for name in names))
+    if user is package:
+        files = [path for path in user.files if path.endswith(_CPP)]
+    else:
+        files = code_about(user, package.name, module.partition("/")[0])
+    for path in files:
+        data = _data(user, path)
         is_python = path.endswith(".py")
-        code = code_with(data, word) if is_about else b""
-        if is_about and names_file(code, stem, is_python=is_python, directory=directory):
+        code = code_with(data, word)
+        if code and names_file(code, stem, is_python=is_python, directory=directory):
             yield path
+
+
+def code_about(user: Package, *names: str) -> Sequence[str]:
+    """Return the code of a package that may import or start that of another one.
+
+    Args:
+        user: The package.
+        names: The names of the other one, and of the directory with its code.
+    """
+    words = [name.encode() for name in names]
+
+    def find() -> list[str]:
+        files = ((path, _data(user, path)) for path in user.files if path.endswith(_NAMING))
+        return [path for path, data in files if any(word in data for word in words)]
+
+    return user.remember(("code about", *names), find)
 
 
 def loaders(package: Package, path: str) -> Iterator[str]:
@@ -162,13 +179,13 @@ def loaders(package: Package, path: str) -> Iterator[str]:
         text.encode("utf-8", "surrogateescape")
         for text in (directory.rpartition("/")[2], name.removesuffix(".py"))
     )
-    loading = [(item, data) for item, data in _loading(package) if item != path]
+    loading = [item for item in _loading(package) if item != path]
     is_in_data = bool(loading) and any(
         stem in _data(package, item) for item in package.files if item.endswith(_OF_NAMES)
     )
-    for item, data in loading:
+    for item in loading:
         is_beside = item.rpartition("/")[0] == directory
-        if is_beside or is_in_data or (above and above in data):
+        if is_beside or is_in_data or (above and above in _data(package, item)):
             yield item
 
 
@@ -180,16 +197,15 @@ def _data(package: Package, path: str) -> bytes:
         return b""
 
 
-def _loading(package: Package) -> list[tuple[str, bytes]]:
-    """Return the Python files that import computed names, with their contents."""
+@fact
+def _loading(package: Package) -> tuple[str, ...]:
+    """Return the Python files that import computed names."""
+    return tuple(path for path in package.python_files if _loads(package, path))
 
-    def find() -> Iterator[tuple[str, bytes]]:
-        for path in package.python_files:
-            data = _data(package, path)
-            if _LOADS.search(data):
-                yield path, data
 
-    return package.remember("files with computed imports", lambda: [*find()])
+@fact
+def _loads(package: Package, path: str) -> bool:
+    return _LOADS.search(_data(package, path)) is not None
 
 
 def is_only_importable(package: Package, path: str) -> bool:

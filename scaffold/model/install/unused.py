@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING
 
 from scaffold import lazy_re
 from scaffold.formats.hash_comments import code_with, without_comments
+from scaffold.model.contents.words import files_with
+from scaffold.model.facts import fact
 from scaffold.model.python.module import is_collected, is_in_tests
 from scaffold.source import ViewError
 
@@ -212,9 +214,19 @@ def is_named(package: Package, path: str, stem: str, texts: tuple[str, ...] = ()
 def files_naming(package: Package, path: str, stem: str, texts: tuple[str, ...]) -> Iterator[str]:
     """Yield the files that mention a name; see `is_named`."""
     directory = path.rpartition("/")[0].rpartition("/")[2]
-    for item in _naming_files(package, texts):
+    name = stem.encode("utf-8", "surrogateescape")
+    for item in files_with(package, texts, lambda: _naming_files(package, texts), name):
         if item != path and _is_in_code(package, item, stem, directory):
             yield item
+
+
+def is_named_in_text(package: Package, path: str, name: str) -> bool:
+    """Return whether a text of the package mentions the name of a file."""
+    directory = path.rpartition("/")[0].rpartition("/")[2]
+    return any(
+        item != path and item.endswith(TEXTS) and _is_in_code(package, item, name, directory)
+        for item in _naming_files(package, TEXTS)
+    )
 
 
 def _naming_files(package: Package, texts: tuple[str, ...]) -> Sequence[str]:
@@ -235,6 +247,7 @@ def _naming_files(package: Package, texts: tuple[str, ...]) -> Sequence[str]:
     return package.remember(("files that mention names", texts), find)
 
 
+@fact
 def _is_in_code(package: Package, path: str, name: str, directory: str) -> bool:
     """Return whether a file may mention a name outside of comments; too large code may.
 

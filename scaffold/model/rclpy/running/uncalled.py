@@ -12,8 +12,10 @@ from scaffold.files.limits import most_bytes
 from scaffold.formats.hash_comments import code_with
 from scaffold.model.contents.parts import GUARD, TOP, nodes_of, part_at, parts_mentioning
 from scaffold.model.contents.python_facts import paths_importing
+from scaffold.model.contents.words import files_with
 from scaffold.model.facts import fact
 from scaffold.model.install.reach import (
+    code_about,
     has_programs,
     is_only_importable,
     is_unreached,
@@ -45,6 +47,7 @@ _BY_NAME = frozenset({"property", "staticmethod", "classmethod"})
 _CPP = (".cpp", ".hpp")
 _TELLING = (".cfg", ".toml", ".xml", *_CPP)
 """The endings of other files that may call a function of Python, or tell who does."""
+_IDENTIFIER = lazy_re.compile(rb"[A-Za-z_]\w*")
 _LAUNCH = frozenset({"launch", "launch_ros"})
 _MOST_BASES = 4
 """More base classes in other modules are not followed."""
@@ -120,12 +123,13 @@ def _users(package: Package, path: str, part: str) -> Iterator[tuple[Package, st
     name = part.rpartition(".")[2].encode()
     data = package.data(path)
     for user in [package] if is_startable else package.workspace:
-        for file in _files_with(user, name):
+        is_known = user is package or _may_know(user, package, path)
+        for file in _files_with(user, name, is_own=user is package) if is_known else ():
             if user is not package and not _knows(user, package, path):
                 break
-            is_own = user is package and file == path
-            is_related = is_own or _stem(path) in user.data(file) or _stem(file) in data
-            if is_startable and not is_related:
+            if is_startable and not (
+                file == path or _stem(path) in user.data(file) or _stem(file) in data
+            ):
                 continue
             if file.endswith(".py"):
                 yield from ((user, file, using) for using in parts_mentioning(user, file, part))
@@ -264,6 +268,12 @@ def _is_unused_guard(package: Package, path: str) -> bool:
     return not any(is_named(package, path, name, TEXTS) for name in names)
 
 
+def _may_know(user: Package, package: Package, path: str) -> bool:
+    """Return whether code of a package mentions another one, or is C++."""
+    about = code_about(user, package.name, path.partition("/")[0])
+    return bool(about) or any(item.endswith(_CPP) for item in user.files)
+
+
 def _knows(user: Package, package: Package, path: str) -> bool:
     """Return whether a package may use the Python code of another one."""
     roots = (package.name, path.partition("/")[0])
@@ -274,15 +284,23 @@ def _knows(user: Package, package: Package, path: str) -> bool:
     )
 
 
-def _files_with(package: Package, word: bytes) -> Iterator[str]:
-    """Yield the files of a package that mention a word outside of comments."""
+def _files_with(package: Package, word: bytes, *, is_own: bool) -> Iterator[str]:
+    """Yield the files of a package that mention a word outside of comments.
+
+    The words of other packages are not looked up, as they would be cached for each package.
+    """
     escaped = re.escape(word)
     in_cpp = re.compile(rb"\"(?:[\w.]{0,99}\.)?%b[\"(]" % escaped)
     in_python = re.compile(rb"(?<!\w)%b(?!\w)" % escaped)
     in_data = re.compile(rb"[.:]%b(?!\w)" % escaped)
-    for path in package.files:
+
+    def files() -> list[str]:
+        return [path for path in package.files if path.endswith((".py", *_TELLING))]
+
+    for path in files_with(package, "that may call", files, word) if is_own else files():
         is_python = path.endswith(".py")
-        if not is_python and not path.endswith(_TELLING):
+        if is_own and is_python and _IDENTIFIER.fullmatch(word):
+            yield path  # or the file cannot be read, which its parts will tell
             continue
         data = _data_of(package, path)
         pattern = in_python if is_python else in_cpp if path.endswith(_CPP) else in_data
