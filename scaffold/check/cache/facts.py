@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator, Mapping
 from contextlib import contextmanager
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from scaffold import time_limit
 from scaffold.model.facts import ask_again
@@ -14,6 +14,9 @@ from scaffold.source import ViewError
 if TYPE_CHECKING:
     from scaffold.check.result import Earlier
     from scaffold.model.package import Package
+
+
+_UNASKED: Any = object()
 
 
 class EarlierFacts:
@@ -36,6 +39,7 @@ class EarlierFacts:
         self._stored = stored
         self._edited = edited
         self._settled = settled
+        self._recalled: dict[FactId, Fact] = {}
         self._homes: dict[str, Package] = {
             item.directory: item for item in package.known_workspace or ()
         }
@@ -50,9 +54,10 @@ class EarlierFacts:
         """
         settled = self._settled
         for item in wanted:
-            if item not in settled:
-                settled[item] = self._unchanged(item) or self._made_again(item)
-            if settled[item] is None:
+            known = settled.get(item, _UNASKED)
+            if known is _UNASKED:
+                known = settled[item] = self._unchanged(item) or self._made_again(item)
+            if known is None:
                 return False
         return True
 
@@ -69,7 +74,10 @@ class EarlierFacts:
         stored = self._settled.get(wanted) or self._unchanged(wanted)
         if isinstance(stored, StoredFact):
             self._settled[wanted] = stored
-            fact = Fact(*wanted, stored)
+            recalled = self._recalled.get(wanted)
+            if recalled is not None:
+                return recalled
+            fact = self._recalled[wanted] = Fact(*wanted, stored)
             # Views of this package may be used by another, which does not know their dependencies.
             fact.reads.facts.update(item for item in map(self.recall, stored.facts) if item)
             return fact

@@ -308,12 +308,12 @@ def _encode_verdict(verdict: Verdict, encode: _Encode) -> tuple[Any, ...]:
     paths: dict[str, int] = {}
 
     def places(files: Iterable[str]) -> tuple[int, ...]:
-        return tuple(paths.setdefault(path, len(paths)) for path in files)
+        return tuple([paths.setdefault(path, len(paths)) for path in files])
 
     numbers = {wanted: at for at, wanted in enumerate(verdict.facts)}
 
     def numbered(facts: Iterable[FactId]) -> tuple[int, ...]:
-        return tuple(numbers[wanted] for wanted in facts)
+        return tuple([numbers[wanted] for wanted in facts])
 
     parts = [
         (key, places(part.files), numbered(part.facts), tuple(map(encode, part.diagnostics)))
@@ -339,11 +339,15 @@ def _decode_verdict(stored: tuple[Any, ...], decode: _Decode) -> Verdict:
     paths, parts, types, silent, style, unparsable, facts, configuring = stored
     names = [wanted for wanted, *_ in facts]
 
-    def files(places: Iterable[int]) -> frozenset[str]:
-        return frozenset(paths[at] for at in places)
+    sets: dict[tuple[int, ...], frozenset[str]] = {}
 
-    def ids(numbers: Iterable[int]) -> Iterator[FactId]:
-        return (names[number] for number in numbers)
+    def files(places: tuple[int, ...]) -> frozenset[str]:
+        if places not in sets:
+            sets[places] = frozenset([paths[at] for at in places])
+        return sets[places]
+
+    def ids(numbers: Iterable[int]) -> list[FactId]:
+        return [names[number] for number in numbers]
 
     def decoded(parts: Iterable[tuple[Any, ...]]) -> dict[str, Part]:
         return {
@@ -356,7 +360,7 @@ def _decode_verdict(stored: tuple[Any, ...], decode: _Decode) -> Verdict:
         {path: list(map(decode, item)) for path, item in style},
         list(map(decode, unparsable)),
         {
-            wanted: StoredFact(files(read), tuple(ids(used)), encoded)
+            wanted: _new_tuple(StoredFact, (files(read), tuple(ids(used)), encoded))
             for wanted, read, used, encoded in facts
         },
         decoded(types),

@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 import os
-import re
 from collections.abc import Iterator
 from contextlib import suppress
 from typing import TYPE_CHECKING
 
+from scaffold import lazy_re
 from scaffold.model.discovery.gitignore import directories_above
 
 if TYPE_CHECKING:
     from scaffold.model.package import Package
 
+_IN_NAME = lazy_re.compile(rb"[\w.-]")
 _ENDINGS = (".sh", ".bash", ".md", ".rst", ".yml", ".yaml", "dockerfile", "makefile", "justfile")
 _DIRECTORIES = ("", "scripts", "docker", "bin")
 """The directories with such files, relative to each directory above a package."""
@@ -20,9 +21,19 @@ _DIRECTORIES = ("", "scripts", "docker", "bin")
 
 def names_above(package: Package, name: str) -> bool:
     """Return whether a script or text above a package names a file, such as ``talk.py``."""
-    whole = re.compile(rb"(?<![\w.-])%b" % re.escape(name.encode("utf-8", "surrogateescape")))
+    word = name.encode("utf-8", "surrogateescape")
     texts = package.remember("texts above", lambda: [*_texts_above(package)])
-    return any(whole.search(text) for text in texts)
+    return any(_names_file(text, word) for text in texts)
+
+
+def _names_file(text: bytes, word: bytes) -> bool:
+    """Return whether a text has the name of a file that is not the end of a longer one."""
+    at = text.find(word)
+    while at >= 0:
+        if not _IN_NAME.match(text, max(at - 1, 0), at):
+            return True
+        at = text.find(word, at + 1)
+    return False
 
 
 def _texts_above(package: Package) -> Iterator[bytes]:

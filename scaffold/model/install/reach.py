@@ -103,11 +103,17 @@ def _texts_about(package: Package, path: str, *, from_sources: bool) -> tuple[st
         return TEXTS if from_sources else ()
     if _is_root(path) or not has_programs(package):
         return None
-    text = package.data(path) if package.has(path) else b""
-    has_guard = b"__main__" in text and not _IMPORTS_RELATIVELY.search(text)
-    if not has_guard and b"def main(" not in text:
+    if not package.has(path) or not _may_be_started(package, path):
         return ()
     return TEXTS if is_only_importable(package, path) else None
+
+
+@fact
+def _may_be_started(package: Package, path: str) -> bool:
+    """Return whether a module has ``main()``, or a main guard; raises ViewError."""
+    text = package.data(path)
+    has_guard = b"__main__" in text and not _IMPORTS_RELATIVELY.search(text)
+    return has_guard or b"def main(" in text
 
 
 def _is_told(package: Package, path: str) -> bool:

@@ -100,8 +100,7 @@ def is_apart(package: Package, path: str) -> bool:
     if not any(package.has(item) for item in _BUILDING[:2]):
         return False
     parts = directory.split("/") if directory else []
-    building = (without_comments(package.data(item)) for item in _building(package))
-    installing = [_OF_TARGETS.sub(b"", data) for data in building]
+    installing = package.remember("what is installed", lambda: [*_installing(package)])
     if is_in_python_package(package, path):
         whole = [_INSTALLS_PYTHON, *([_OF_PROJECT] if package.name in parts else [])]
         is_whole = any(pattern.search(data) for pattern in whole for data in installing)
@@ -120,6 +119,12 @@ def is_in_python_package(package: Package, path: str) -> bool:
         package.has("/".join([*directories[:at], "__init__.py"]))
         for at in range(1, len(directories) + 1)
     )
+
+
+def _installing(package: Package) -> Iterator[bytes]:
+    """Yield what is said about the installation of files other than targets; raises ViewError."""
+    for path in _building(package):
+        yield _OF_TARGETS.sub(b"", without_comments(package.data(path)))
 
 
 def _building(package: Package) -> list[str]:

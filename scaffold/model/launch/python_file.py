@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from scaffold.model.launch.calls import LaunchCall, launch_call
 from scaffold.model.launch.evaluation.evaluator import LaunchEvaluator, share_path
+from scaffold.model.package import mentions
 from scaffold.model.python.evaluation.given_arguments import given_once
 from scaffold.model.python.evaluation.values import UNKNOWN, Unknown
 from scaffold.model.python.module import is_in_tests
@@ -80,15 +81,12 @@ class LaunchFile:
         return package.remember(("launch_py", path), lambda: cls(module, package.name))
 
     @classmethod
-    def of_package(cls, package: Package) -> list[LaunchFile]:
-        """Return the launch files of a package, except those only used by tests."""
-
-        def find() -> Iterator[LaunchFile]:
-            for path in launch_paths(package):
-                with suppress(ViewError):
+    def mentioning(cls, package: Package, word: str) -> Iterator[LaunchFile]:
+        """Yield the launch files of a package with a word, except those only used by tests."""
+        for path in launch_paths(package):
+            with suppress(ViewError):
+                if mentions(package, path, word):
                     yield cls.of(package, path)
-
-        return package.remember("launch_py", lambda: list(find()))
 
     @property
     def function(self) -> Function | None:

@@ -23,6 +23,8 @@ PROGRAM = "static_transform_publisher"
 UNSAID = "$"
 """Placeholder for an unknown value; options are always literal."""
 _PROCESSES = ("ExecuteProcess", "ExecuteLocal")
+_OF_PROCESSES = "Execute"
+"""What the names of these actions have in common."""
 _RUN = ["ros2", "run"]
 _WORD = lazy_re.compile(r"(?:\$\([^()]*(?:\([^()]*\)[^()]*)*\)|[^\s$]|\$)+")
 """Matches a word of a command line; a substitution is a part of one."""
@@ -73,7 +75,7 @@ def command_lines(package: Package, program: str) -> Iterator[CommandLine]:
 
     The words between ``--ros-args`` and ``--`` are skipped.
     """
-    for launch in LaunchFile.of_package(package):
+    for launch in LaunchFile.mentioning(package, program):
         for call in launch.find(*NODES):
             if launch.text(call, "executable") == program:
                 for line in _in_python(launch, call, "arguments"):
@@ -92,7 +94,7 @@ def command_lines(package: Package, program: str) -> Iterator[CommandLine]:
 
 def processes(package: Package) -> Iterator[CommandLine]:
     """Yield the literal command lines, such as ``ros2 run ...``."""
-    for launch in LaunchFile.of_package(package):
+    for launch in LaunchFile.mentioning(package, _OF_PROCESSES):
         for call in launch.find(*_PROCESSES):
             yield from _in_python(launch, call, "cmd")
     for file in markup_files(package):

@@ -47,6 +47,9 @@ _BY_NAME = frozenset({"property", "staticmethod", "classmethod"})
 _CPP = (".cpp", ".hpp")
 _TELLING = (".cfg", ".toml", ".xml", *_CPP)
 """The endings of other files that may call a function of Python, or tell who does."""
+_IN_PYTHON = rb"(?<!\w)%b(?!\w)"
+_IN_CPP = rb"\"(?:[\w.]{0,99}\.)?%b[\"(]"
+_IN_DATA = rb"[.:]%b(?!\w)"
 _IDENTIFIER = lazy_re.compile(rb"[A-Za-z_]\w*")
 _LAUNCH = frozenset({"launch", "launch_ros"})
 _MOST_BASES = 4
@@ -289,10 +292,6 @@ def _files_with(package: Package, word: bytes, *, is_own: bool) -> Iterator[str]
 
     The words of other packages are not looked up, as they would be cached for each package.
     """
-    escaped = re.escape(word)
-    in_cpp = re.compile(rb"\"(?:[\w.]{0,99}\.)?%b[\"(]" % escaped)
-    in_python = re.compile(rb"(?<!\w)%b(?!\w)" % escaped)
-    in_data = re.compile(rb"[.:]%b(?!\w)" % escaped)
 
     def files() -> list[str]:
         return [path for path in package.files if path.endswith((".py", *_TELLING))]
@@ -303,9 +302,10 @@ def _files_with(package: Package, word: bytes, *, is_own: bool) -> Iterator[str]
             yield path  # or the file cannot be read, which its parts will tell
             continue
         data = _data_of(package, path)
-        pattern = in_python if is_python else in_cpp if path.endswith(_CPP) else in_data
-        if word in data and pattern.search(code_with(data, word)):
-            yield path
+        if word in data:
+            use = _IN_PYTHON if is_python else _IN_CPP if path.endswith(_CPP) else _IN_DATA
+            if re.search(use % re.escape(word), code_with(data, word)):
+                yield path
 
 
 def _data_of(package: Package, path: str) -> bytes:
