@@ -11,7 +11,7 @@ from scaffold.ament.settings import files_of_settings
 from scaffold.check import conflicts, runner, suppression
 from scaffold.check.adjustments import Adjustments
 from scaffold.check.cache.facts import recalled, to_store
-from scaffold.check.result import Earlier, Result, Ruled
+from scaffold.check.result import Earlier, Part, Result, Ruled
 from scaffold.check.rules.ament_rules import AMENT_RULES
 from scaffold.check.rules.engine_rules import (
     INTERNAL_RULES,
@@ -43,6 +43,8 @@ if TYPE_CHECKING:
 WORTH_PARTS = 2
 """The number of Python files from which findings are kept in parts."""
 
+_REPORT = ""
+"""The part of a verdict with what the severities and the selection of its findings depend on."""
 _ABOUT_PYTHON = frozenset({"IM", "LF", "MS", "ND"})
 """The areas whose rules overlap with types."""
 
@@ -172,8 +174,11 @@ class Session:
         with recalled(target.package, earlier), recorded(reads):
             diagnostics = self._report(target, diagnostics)
         if verdict is not None:
-            used = to_store(reads.all()[1], (), earlier.settled if earlier else {})
-            verdict = verdict._replace(facts={**verdict.facts, **used})
+            files, used = reads.all()
+            facts = to_store(used, (), earlier.settled if earlier else {})
+            part = Part(files, frozenset(fact.id for fact in used), ())
+            parts = {**verdict.parts, _REPORT: part}
+            verdict = verdict._replace(parts=parts, facts={**verdict.facts, **facts})
         if target.only is not None:
             return Result(target.package, len(target.only), diagnostics, verdict)
         return Result(target.package, rules.files, diagnostics, verdict, rules.foreign)

@@ -428,6 +428,23 @@ def test_change_in_another_package_is_noticed(runs: Runs, workspace: Path) -> No
     assert "caller/launch/call.launch.py" in reported
 
 
+def test_new_user_of_an_unused_module_in_another_package_is_noticed(
+    runs: Runs, workspace: Path
+) -> None:
+    write(
+        workspace / "called",
+        {
+            "called/left.py": '"""Help."""\n\n\ndef work():\n    """Work."""\n    return missing\n',
+            "called/other.py": '"""Help."""\n',
+        },
+    )
+    options = (".", "--select", "F821", "--no-types")
+    assert "warning F821" in runs.settle(*options)
+    talk = workspace / "caller" / "caller" / "talk.py"
+    talk.write_text(talk.read_text() + "\n\nfrom called.left import work\n\nwork()\n")
+    assert "error F821" in runs(*options)
+
+
 @pytest.mark.parametrize("count", [0, 10])
 def test_partial_run_reports_the_same_as_a_full_one(
     runs: Runs, workspace: Path, count: int
