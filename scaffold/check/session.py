@@ -175,10 +175,10 @@ class Session:
             diagnostics = self._report(target, diagnostics)
         if verdict is not None:
             files, used = reads.all()
-            facts = to_store(used, (), earlier.settled if earlier else {})
+            stored = to_store(used, (), earlier.settled if earlier else {})
             part = Part(files, frozenset(fact.id for fact in used), ())
             parts = {**verdict.parts, _REPORT: part}
-            verdict = verdict._replace(parts=parts, facts={**verdict.facts, **facts})
+            verdict = verdict._replace(parts=parts, facts={**verdict.facts, **stored})
         if target.only is not None:
             return Result(target.package, len(target.only), diagnostics, verdict)
         return Result(target.package, rules.files, diagnostics, verdict, rules.foreign)

@@ -147,6 +147,7 @@ def _code_naming(user: Package, package: Package, module: str, stem: str) -> Ite
     """Yield the code of a package that names a module; other packages name its package as well."""
     word = stem.encode("utf-8", "surrogateescape")
     directory = module.rpartition("/")[0].rpartition("/")[2]
+    files: Sequence[str]
     if user is package:
         files = [path for path in user.files if path.endswith(_CPP)]
     else:
