@@ -119,6 +119,7 @@ _OTHER_MODULES = {
     "PyKDL": "python_orocos_kdl_vendor python3-pykdl orocos_kdl_vendor",
     "PyQt5": "python3-pyqt5 python_qt_binding python3-qt5-bindings",
     "bs4": "python3-bs4",
+    "casadi": "casadi-pip",
     "catkin_pkg": "python3-catkin-pkg python3-catkin-pkg-modules",
     "click": "python3-click",
     "cv2": "python3-opencv libopencv-dev cv_bridge vision_opencv",
@@ -173,6 +174,7 @@ _OTHER_MODULES = {
     "sympy": "python3-sympy",
     "tabulate": "python3-tabulate",
     "tf2_ros": "tf2_ros_py",
+    "tkinter": "python3-tk",
     "torch": "python3-torch python3-pytorch-pip",
     "torchvision": "python3-torchvision python3-pytorch-pip",
     "tornado": "python3-tornado",
@@ -192,6 +194,7 @@ _OTHER_MODULES = {
 }
 
 _BROUGHT = {
+    "casadi-pip": "python3-numpy",
     "python3-cvxpy-pip": "python3-numpy python3-scipy",
     "python3-fastapi": "python3-pydantic",
     "python3-flask": "python3-jinja2 python3-click",
@@ -199,31 +202,53 @@ _BROUGHT = {
     "python3-flask-socketio": "python3-flask",
     "python3-flask-sqlalchemy": "python3-flask",
     "python3-geopandas": "python3-pandas python3-pyproj python3-shapely",
-    "python3-matplotlib": "python3-dateutil python3-numpy python3-packaging python3-pil",
+    "python3-gtts": "python3-click python3-requests",
+    "python3-gymnasium-pip": "python3-numpy python3-typing-extensions",
+    "python3-h5py": "python3-numpy",
+    "python3-imageio": "python3-numpy python3-pil",
+    "python3-matplotlib": "python3-dateutil python3-numpy python3-packaging python3-pil python3-tk",
+    "python3-mediapipe-pip": "python3-matplotlib python3-numpy python3-opencv "
+    "python3-sounddevice-pip",
     "python3-numba": "python3-numpy python3-scipy",
+    "python3-onnxruntime-pip": "python3-numpy python3-packaging python3-sympy",
+    "python3-openai-pip": "python3-pydantic python3-tqdm",
+    "python3-opencv": "python3-numpy",
     "python3-pandas": "python3-dateutil python3-numpy",
     "python3-pydantic": "python3-typing-extensions",
-    "python3-opencv": "python3-numpy",
+    "python3-pyqtgraph": "python3-numpy python3-pyqt5",
+    "python3-rasterio": "python3-click python3-numpy",
     "python3-scipy": "python3-numpy",
+    "python3-seaborn": "python3-matplotlib python3-numpy python3-pandas",
     "python3-shapely": "python3-numpy",
     "python3-skimage": "python3-networkx python3-numpy python3-packaging python3-pil python3-scipy",
     "python3-sklearn": "python3-numpy python3-scipy",
+    "python3-stable-baselines3-pip": "python3-gymnasium-pip python3-matplotlib python3-numpy "
+    "python3-pandas python3-torch",
+    "python3-transformers-pip": "python3-filelock python3-numpy python3-packaging "
+    "python3-requests python3-tqdm python3-yaml",
     "python3-transforms3d": "python3-numpy",
+    "python3-ultralytics-pip": "python3-matplotlib python3-numpy python3-opencv python3-pandas "
+    "python3-pil python3-psutil python3-requests python3-scipy python3-seaborn python3-torch "
+    "python3-torchvision python3-tqdm python3-yaml",
     "python3-uvicorn": "python3-click",
 }
-"""System libraries whose Ubuntu packages depend on others with rosdep keys."""
+"""Libraries whose packages depend on or recommend others with rosdep keys."""
 
 ROS1_PACKAGES = {
     "actionlib": "rclpy or rclcpp_action",
+    "amcl": "nav2_amcl",
     "catkin": "ament_cmake",
     "cmake_modules": "ament_cmake",
     "dynamic_reconfigure": "ROS 2 parameters (rcl_interfaces)",
     "genmsg": "rosidl_default_generators",
+    "gmapping": "slam_toolbox",
+    "map_server": "nav2_map_server",
     "message_generation": "rosidl_default_generators",
     "message_runtime": "rosidl_default_runtime",
     "move_base": "nav2_bringup",
     "move_base_msgs": "nav2_msgs",
     "nodelet": "rclcpp_components",
+    "robot_pose_ekf": "robot_localization",
     "rosbag": "rosbag2_py",
     "roscpp": "rclcpp",
     "roscpp_serialization": "rclcpp",
@@ -236,6 +261,8 @@ ROS1_PACKAGES = {
     "rosnode": "ros2node",
     "rosparam": "ros2param",
     "rospy": "rclpy",
+    "rosserial": "micro-ROS",
+    "rosserial_python": "micro-ROS",
     "rosservice": "ros2service",
     "rostest": "launch_testing",
     "rostime": "rclpy",
@@ -257,13 +284,13 @@ OTHER_NAMES = {
 LIBRARY_KEYS = {
     "Boost": "boost",
     "Eigen3": "eigen",
+    "OpenCV": "libopencv-dev",
     "PCL": "libpcl-all-dev",
     "eigen3": "eigen",
     "nlohmann_json": "nlohmann-json-dev",
-    "tkinter": "python3-tk",
     "yaml_cpp": "yaml-cpp",
 }
-"""Names that CMake, C++ and Python have for libraries, with their rosdep keys."""
+"""Names that CMake and C++ have for libraries, with their rosdep keys."""
 
 
 def keys_of_module(root: str) -> tuple[str, ...]:
@@ -355,6 +382,7 @@ _INDEX_NAMES = {
     "python3-cv2",
     "bs4": "beautifulsoup4",
     "git": "GitPython",
+    "paho": "paho-mqtt",
     "serial": "pyserial",
     "skimage": "scikit-image",
     "sklearn": "scikit-learn",

@@ -248,6 +248,15 @@ class PackageUndeclared(Rule):
             "use ros_gz, as Gazebo Classic has ended",
         ),
         Example(
+            "a package of ROS 1",
+            {
+                "package.xml": _MANIFEST.format("  <exec_depend>launch_ros</exec_depend>\n"),
+                "launch/b.launch.py": _LAUNCH.replace("rviz2", "rosserial_python"),
+            },
+            "launch/b.launch.py:8:22: starts a node of 'rosserial_python', which Jazzy does not "
+            "have; use micro-ROS",
+        ),
+        Example(
             "Gazebo Classic, which Humble has",
             {
                 "package.xml": _MANIFEST.format("  <exec_depend>launch_ros</exec_depend>\n"),

@@ -7,7 +7,7 @@ import sys
 from typing import TYPE_CHECKING
 
 from scaffold.api import ViewError
-from scaffold.api.catalog import LIBRARY_KEYS, is_released, module_keys
+from scaffold.api.catalog import LIBRARY_KEYS, is_released, module_keys, module_of_key
 from scaffold.api.python import paths_importing
 
 from ._debian import key_of_debian
@@ -63,7 +63,7 @@ def _why_unknown(package: Package, name: str) -> str:
     rosdep = package.workspace.rosdep
     if rosdep is not None and rosdep.resolves(name):
         return ""
-    if name in LIBRARY_KEYS:
+    if name in LIBRARY_KEYS and (not module_of_key(name) or is_found_by_cmake(package, name)):
         return f"{name!r} is not a rosdep key: rosdep stops; the key is {LIBRARY_KEYS[name]!r}"
     if _is_of_python(package, name):
         return f"{name!r} is a module of Python itself: rosdep stops; remove it"

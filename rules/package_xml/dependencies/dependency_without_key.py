@@ -184,6 +184,15 @@ class DependencyWithoutKey(Rule):
             fixed={"package.xml": "<package>\n  <depend>libopencv-dev</depend>\n</package>\n"},
         ),
         Example(
+            "OpenCV under the name of CMake",
+            {
+                "package.xml": "<package>\n  <depend>OpenCV</depend>\n</package>\n",
+                "CMakeLists.txt": "project(talker)\nfind_package(OpenCV REQUIRED)\n",
+            },
+            "package.xml:2:11: 'OpenCV' is not a rosdep key: rosdep stops; the key is "
+            "'libopencv-dev'",
+        ),
+        Example(
             "OpenCV, for C++",
             {
                 "package.xml": "<package>\n  <depend>opencv</depend>\n</package>\n",

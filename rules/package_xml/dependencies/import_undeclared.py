@@ -73,6 +73,29 @@ class ImportUndeclared(Rule):
     }
     examples = (
         Example(
+            "tkinter, which matplotlib recommends",
+            {
+                "package.xml": _manifest("python3-matplotlib"),
+                "talker/__init__.py": "",
+                "talker/window.py": "import tkinter\n",
+            },
+        ),
+        Example(
+            "tkinter, which Debian has separately from Python",
+            {
+                "package.xml": _manifest("rclpy"),
+                "talker/__init__.py": "",
+                "talker/window.py": "import tkinter\n",
+            },
+            Report(
+                "talker/window.py:1:1",
+                "imports 'tkinter', which package.xml does not declare; add "
+                "<exec_depend>python3-tk</exec_depend>",
+                fix="Declare python3-tk",
+            ),
+            fixed={"package.xml": _manifest("python3-tk", "rclpy")},
+        ),
+        Example(
             "declared; the standard library, own modules and guarded imports",
             {
                 "package.xml": _manifest("rclpy"),

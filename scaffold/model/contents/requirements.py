@@ -207,11 +207,11 @@ def _keys(package: Package, node: Import, local: frozenset[str]) -> tuple[str, .
     root = node.root
     if not root or node.guarded or root in local or root == package.name:
         return ()
+    keys = keys_of_module(root)
+    if keys:  # also of tkinter, which Debian has separately from Python
+        return keys + _keys_for_pip(keys)
     if root in sys.stdlib_module_names or root in _OLD_STANDARD_LIBRARY:
         return ()
-    keys = keys_of_module(root)
-    if keys:
-        return keys + _keys_for_pip(keys)
     names = node.module.split(".")
     if root in ROS1_PACKAGES:
         return ()
