@@ -170,6 +170,22 @@ class MethodNotCalled(RclpyRule):
             "9:21: 'service_is_ready' is a method that is not called; write service_is_ready()",
             "10:27: 'service_is_ready' is a method that is not called; write service_is_ready()",
         ),
+        Example(
+            "futures in a comprehension",
+            {
+                "chooser.py": "from rclpy.node import Node\nfrom std_srvs.srv import Trigger\n\n\n"
+                "class Chooser(Node):\n"
+                "    def __init__(self):\n"
+                "        super().__init__('chooser')\n"
+                "        self.client = self.create_client(Trigger, 'choose')\n"
+                "        self.sent = []\n\n"
+                "    def choose(self):\n"
+                "        self.sent.append(self.client.call_async(Trigger.Request()))\n\n"
+                "    def finished(self):\n"
+                "        return [future for future in self.sent if future.done]\n"
+            },
+            "15:51: 'done' is a method that is not called; write done()",
+        ),
     )
 
     def check_in(self, package: Package, file: RclpyFile) -> Iterator[Diagnostic]:
@@ -207,7 +223,7 @@ class MethodNotCalled(RclpyRule):
 
 _PLACES = frozenset(
     {ast.Attribute, ast.BoolOp, ast.Compare, ast.Expr, ast.If, ast.IfExp, ast.Lambda}
-    | {ast.UnaryOp, ast.While}
+    | {ast.UnaryOp, ast.While, ast.comprehension}
 )
 """Nodes in which an uncalled method may be an error."""
 
@@ -283,6 +299,8 @@ def _is_condition(file: RclpyFile, node: ast.expr) -> bool:
     match file.module.parent(node):
         case ast.If(test=test) | ast.While(test=test) | ast.IfExp(test=test):
             return test is node
+        case ast.comprehension(ifs=tests):
+            return node in tests
         case ast.UnaryOp(op=ast.Not()):
             return True
         case ast.BoolOp(op=op, values=values) as both:
