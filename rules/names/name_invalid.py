@@ -6,9 +6,11 @@ import ast
 import re
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Effect, Example, RclpyRule, Report, Severity
+from scaffold.api import Diagnostic, Effect, Example, Package, RclpyRule, Report, Severity
+from scaffold.api.launch import StartedNode, started_nodes
 from scaffold.api.python import is_guarded_by
 from scaffold.api.rclpy import (
+    Endpoint,
     RclpyFile,
     namespace_problem,
     node_problem,
@@ -86,6 +88,29 @@ class NameInvalid(RclpyRule):
             },
         ),
         Example(
+            "a part of the name from a parameter that a launch file does not set",
+            {
+                "package.xml": "<package><name>demo</name>"
+                "<export><build_type>ament_python</build_type></export></package>\n",
+                "setup.py": "from setuptools import setup\n\n"
+                "setup(name='demo', packages=['demo'],\n"
+                "      entry_points={'console_scripts': ['talk = demo.talker:main']})\n",
+                "demo/__init__.py": "",
+                "demo/talker.py": _NODE.replace("'{}'", "f'/{self.name}/scan'").replace(
+                    "        self.create",
+                    "        self.name = self.declare_parameter('name', '').value\n"
+                    "        self.create",
+                )
+                + "\n\ndef main():\n    Talker()\n",
+                "launch/a.launch.py": "from launch import LaunchDescription\n"
+                "from launch_ros.actions import Node\n\n\n"
+                "def generate_launch_description():\n    return LaunchDescription([\n"
+                "        Node(package='demo', executable='talk')])\n",
+            },
+            "demo/talker.py:9:39: ROS 2 rejects the name '//scan': '//' is not allowed; "
+            "launch/a.launch.py:7 starts the node without 'name', which is empty by default",
+        ),
+        Example(
             "constants of another module that the file sets, and an object that it changes",
             {"topics.py": _TOPICS, "talker.py": _OTHER.format(_SETTING)},
         ),
@@ -157,12 +182,12 @@ class NameInvalid(RclpyRule):
         ),
     )
 
-    def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
-        yield from self._check_topics(file)
+    def check_in(self, package: Package, file: RclpyFile) -> Iterator[Diagnostic]:
+        yield from self._check_topics(package, file)
         yield from self._check_nodes(file)
         yield from self._check_underscores(file)
 
-    def _check_topics(self, file: RclpyFile) -> Iterator[Diagnostic]:
+    def _check_topics(self, package: Package, file: RclpyFile) -> Iterator[Diagnostic]:
         for entity in file.endpoints:
             argument = entity.name_argument
             if argument is None:
@@ -175,6 +200,15 @@ class NameInvalid(RclpyRule):
                 continue
             # An empty default is a placeholder.
             if entity.from_parameter and _has_gap(entity.name):
+                start = _start_without_parameters(package, entity)
+                problem = topic_problem(entity.name) if start is not None else ""
+                if problem and start is not None:
+                    message = (
+                        f"ROS 2 rejects the name {entity.name!r}: {problem}; "
+                        f"{start.launch}:{start.location.line} starts the node without "
+                        f"{entity.from_parameter!r}, which is empty by default"
+                    )
+                    yield self.report(argument, message)
                 continue
             if not entity.name and is_guarded_by(file.module, entity.call, argument.node):
                 continue
@@ -222,6 +256,20 @@ def _written_parts(node: ast.expr) -> Iterator[str]:
             yield from re.split(r"%[^a-zA-Z%]*[a-zA-Z%]", text)
         case ast.Call(func=ast.Attribute(attr="format", value=ast.Constant(value=str(text)))):
             yield from re.split(r"\{[^{}]*\}", text)
+
+
+def _start_without_parameters(package: Package, entity: Endpoint) -> StartedNode | None:
+    """Return where a launch file starts the node of an entity with the defaults of parameters."""
+    if entity.owner is None or entity.is_conditional:
+        return None
+    for started in started_nodes(package):
+        owner = started.owner(package)
+        is_bare = not (started.has_parameters or started.has_more_parameters)
+        if owner is None or not is_bare or not started.is_certain:
+            continue
+        if owner.definition(package).location == entity.owner.location:
+            return started
+    return None
 
 
 def _has_gap(name: str) -> bool:
