@@ -68,6 +68,14 @@ class OwnImportMissing(Rule):
             },
         ),
         Example(
+            "a module that setup.py generates with protoc",
+            {
+                **_FILES,
+                "setup.py": f"import os\n\nos.system('protoc team.proto')\n{_SETUP}",
+                "talker/node.py": "from talker.team_pb2 import Message\n",
+            },
+        ),
+        Example(
             "a module in C++, whose name CMake builds",
             {
                 **_FILES,

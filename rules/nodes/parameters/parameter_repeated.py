@@ -6,7 +6,8 @@ from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Effect, Example, Package, RclpyRule, Report, Severity
 from scaffold.api.parameters import parameter_files
-from scaffold.api.rclpy import NodeDefinition, RclpyFile
+from scaffold.api.python import is_handled
+from scaffold.api.rclpy import NodeDefinition, Parameter, RclpyFile
 
 _NODE = (
     "from rclpy.node import Node\n\n\n"
@@ -50,6 +51,18 @@ class ParameterRepeated(RclpyRule):
             "a parameter of every node",
             {"talker.py": _NODE.format("use_sim_time")},
             "8:32: 'use_sim_time' is already declared by rclpy: ParameterAlreadyDeclaredException",
+        ),
+        Example(
+            "if the exception is caught",
+            {
+                "talker.py": _NODE.format("use_sim_time").replace(
+                    "        self.declare_parameter('use_sim_time', 1.0)\n",
+                    "        try:\n"
+                    "            self.declare_parameter('use_sim_time', True)\n"
+                    "        except ParameterAlreadyDeclaredException:\n"
+                    "            pass\n",
+                )
+            },
         ),
         Example(
             "declared automatically, and set",
@@ -96,7 +109,7 @@ class ParameterRepeated(RclpyRule):
         for parameter in file.parameters:
             if parameter.name != "use_sim_time" or parameter.owner is None:
                 continue
-            if not parameter.is_conditional:
+            if _always_fails(file, parameter):
                 message = "'use_sim_time' is already declared by rclpy: "
                 message += "ParameterAlreadyDeclaredException"
                 yield self.report(parameter.name_location, message)
@@ -108,14 +121,13 @@ class ParameterRepeated(RclpyRule):
                 if not isinstance(name, str) or parameter.is_conditional:
                     continue
                 at = parameter.name_location
-                if name in first:
+                if name in first and _always_fails(file, parameter):
                     message = (
                         f"parameter {name!r} is already declared in line {first[name]}: "
                         "ParameterAlreadyDeclaredException"
                     )
                     yield self.report(at, message)
-                else:
-                    first[name] = at.line
+                first.setdefault(name, at.line)
 
     def _automatic(self, package: Package, node: NodeDefinition) -> Iterator[Diagnostic]:
         """Report parameters that a node declares although rclpy already has, if they are set."""
@@ -123,7 +135,7 @@ class ParameterRepeated(RclpyRule):
             return
         for parameter in node.parameters:
             name = parameter.name
-            if not isinstance(name, str) or parameter.is_conditional:
+            if not isinstance(name, str) or not _always_fails(node.file, parameter):
                 continue
             path = _set_in(package, name)
             where = f"{path} sets it" if path else "it is set"
@@ -133,6 +145,12 @@ class ParameterRepeated(RclpyRule):
             )
             severity = None if path else Severity.WARNING
             yield self.report(parameter.name_location, message, severity=severity)
+
+
+def _always_fails(file: RclpyFile, parameter: Parameter) -> bool:
+    """Return whether a second declaration of a parameter ends the node."""
+    error = "ParameterAlreadyDeclaredException"
+    return not (parameter.is_conditional or is_handled(file.module, parameter.call, error))
 
 
 def _set_in(package: Package, name: str) -> str:
