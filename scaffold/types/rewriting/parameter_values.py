@@ -27,7 +27,7 @@ _DECLARED = lazy_re.compile(
 _DECLARED_TOGETHER = lazy_re.compile(rf"{_RECEIVER}\.declare_parameters\(")
 _ROW = lazy_re.compile(rf"{_NAMED},\s*(?:{_CONSTANT})?\s*(?P<next>[,)])?")
 _READ = lazy_re.compile(
-    rf"{_RECEIVER}\.(?:get_parameter{_NAMED}|declare_parameter{_ALSO_NAMED},\s*[^()\[\]{{}},]+)\)"
+    rf"{_RECEIVER}\.(?:get_parameter{_NAMED}|declare_parameter{_ALSO_NAMED},[^()\[\]{{}},]+)\)"
     r"\s*\.value\b(?!\s*=[^=])"
 )
 _TYPES = {"BOOL": "bool", "DOUBLE": "float", "INTEGER": "int", "STRING": "str"}

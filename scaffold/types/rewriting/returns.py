@@ -42,10 +42,8 @@ _KEEPING = frozenset(
 _UNSUITED = lazy_re.compile(r"\b(?:lambda|await|yield)\b|:=|#|'''|\"\"\"|\\\n|^from\b")
 _EITHER = lazy_re.compile(r"\b(?:else|or|and)\b")
 """Matches expressions with alternatives, such as conditions."""
-_NUMBER = lazy_re.compile(
-    r"(?=.*\d\.\d|.*float\()(?:\d+\.\d*|\d+|math\.\w+|_ros2_param_(?:float|int)\(\)|[-+*/() ])+"
-)
-"""Matches arithmetic with floats only."""
+_NUMERIC = lazy_re.compile(r"math\.\w+|_ros2_param_(?:float|int)\(\)|[-+*/() \d.]")
+"""Matches a part of arithmetic with numbers."""
 _ITSELF = lazy_re.compile(r"\bself\s*(?:$|[,)\]}])")
 _CALL = lazy_re.compile(r"([^\W\d]\w*)(?:\.\w+)*\(")
 _GENERIC = frozenset(
@@ -291,7 +289,8 @@ def _callee(value: str) -> str:
     """Return the callee that creates a value, without arguments; empty for a conditional one."""
     if _EITHER.search(value):
         return ""
-    if _NUMBER.fullmatch(value):
+    is_float = "." in value or "_float(" in value
+    if is_float and not _NUMERIC.sub("", value):
         return "a number"
     called = _CALL.match(value)
     return called[0] if called is not None else value
