@@ -94,6 +94,16 @@ class DataDestinationDiffers(Rule):
             "workspace; write share/talker/...",
         ),
         Example(
+            "without a comma",
+            {
+                **_FILES,
+                "setup.py": _SETUP.format("'share/talker'", "['package.xml']").replace(
+                    "'share/talker', ", "'share/talker' "
+                ),
+            },
+            "setup.py:6:10: a comma is missing before the files: the build stops",
+        ),
+        Example(
             "not a list",
             {**_FILES, "setup.py": _SETUP.format("'share/talker'", "'package.xml'")},
             "setup.py:6:9: the files are a string, not a list: the build stops",

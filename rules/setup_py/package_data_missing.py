@@ -130,6 +130,20 @@ class PackageDataMissing(Rule):
             "package_data={'talker': ['words.txt']}",
         ),
         Example(
+            "included by MANIFEST.in",
+            {
+                **_FILES,
+                "MANIFEST.in": "include talker/words.txt\n",
+                "setup.py": _SETUP.format("    include_package_data=True,\n"),
+            },
+        ),
+        Example(
+            "included by a MANIFEST.in that does not exist",
+            {**_FILES, "setup.py": _SETUP.format("    include_package_data=True,\n")},
+            "setup.py:5:14: talker/text.py:3 reads talker/words.txt, which is not installed; add "
+            "package_data={'talker': ['words.txt']}",
+        ),
+        Example(
             "for every package, and for one of another name",
             {
                 **_FILES,

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from fnmatch import fnmatchcase
 
 from scaffold.api import Diagnostic, Effect, Example, Package, Rule
-from scaffold.api.python import Glob
+from scaffold.api.python import Glob, PythonModule
 from scaffold.api.setup_py import matches
 
 _SETUP = (
@@ -108,6 +108,38 @@ class SetupFileMissing(Rule):
             "5:27: setup.py opens README.md, which does not exist: the build stops",
         ),
         Example(
+            "missing files next to setup.py",
+            {
+                "setup.py": "import os\nfrom pathlib import Path\n\n"
+                "from setuptools import setup\n\nHERE = os.path.dirname(__file__)\n"
+                "setup(\n    name='talker',\n"
+                "    description=(Path(__file__).parent / 'ABOUT').read_text(),\n"
+                "    long_description=open(os.path.join(HERE, 'README.md')).read(),\n"
+                "    license=Path('LICENSE').read_text(),\n"
+                "    keywords=open(os.path.join('/etc', 'words')).read(),\n)\n",
+                "LICENSE": "",
+            },
+            "setup.py:9:18: setup.py opens ABOUT, which does not exist: the build stops",
+            "setup.py:10:27: setup.py opens README.md, which does not exist: the build stops",
+        ),
+        Example(
+            "names of files without their directory, and a directory itself",
+            {
+                "setup.py": _SETUP.format(
+                    "        ('share/talker', ['package.xml']),\n"
+                    "        ('share/talker/launch', os.listdir('launch')),\n"
+                    "        ('share/talker/maps', glob('maps/**', recursive=True)),\n"
+                ).replace("from glob", "import os\nfrom glob"),
+                "package.xml": "<package/>\n",
+                "launch/talk.launch.py": "",
+                "maps/map.yaml": "",
+            },
+            "setup.py:10:33: os.listdir() returns names without launch/: the build stops; use "
+            "glob('launch/*')",
+            "setup.py:11:31: the pattern maps/** matches the directory maps/ itself, which cannot "
+            "be copied: the build stops; write maps/*",
+        ),
+        Example(
             "a missing script",
             {"setup.py": _SETUP_READ.format("scripts=['scripts/talk']")},
             "5:13: scripts names scripts/talk, which does not exist: the build stops",
@@ -117,6 +149,7 @@ class SetupFileMissing(Rule):
     def check(self, package: Package) -> Iterator[Diagnostic]:
         yield from self._check_data(package)
         yield from self._check_read(package)
+        yield from self._check_listed(package)
 
     def _check_data(self, package: Package) -> Iterator[Diagnostic]:
         marker = f"resource/{package.name}"
@@ -163,29 +196,100 @@ class SetupFileMissing(Rule):
         setup = package.setup_py
         module = setup.module
         for call in module.walk(ast.Call):
-            if module.qualified_name(call.func) not in {"open", "io.open", "codecs.open"}:
-                continue
+            path = _opened(module, call)
             modes = [arg.value for arg in call.args[1:] if isinstance(arg, ast.Constant)]
-            name = call.args[0].value if call.args and isinstance(call.args[0], ast.Constant) else 0
+            name = None if path is None else _beside_setup(module, path)
             is_optional = any(
                 isinstance(parent, ast.Try | ast.If | ast.IfExp) for parent in module.parents(call)
             )
-            if not isinstance(name, str) or is_optional or "w" in "".join(map(str, modes)):
+            if path is None or name is None or is_optional or "w" in "".join(map(str, modes)):
                 continue
             if not _exists(package, name):
                 message = f"setup.py opens {name}, which does not exist: the build stops"
-                yield self.report(module.location(call.args[0]), message)
+                yield self.report(module.location(path), message)
         scripts = setup.keyword("scripts")
         for name in scripts.value if scripts and isinstance(scripts.value, list) else ():
             if isinstance(name, str) and scripts and not _exists(package, name):
                 message = f"scripts names {name}, which does not exist: the build stops"
                 yield self.report(scripts, message)
 
+    def _check_listed(self, package: Package) -> Iterator[Diagnostic]:
+        """Report data files that are names without their directory."""
+        module = package.setup_py.module
+        for data in package.setup_py.data_files:
+            match data.node:
+                case ast.Tuple(elts=[_, ast.Call(args=[ast.Constant(value=str(name))]) as call]):
+                    is_list = module.qualified_name(call.func) == "os.listdir"
+                    if is_list and name.strip("./"):
+                        directory = name.rstrip("/")
+                        message = (
+                            f"os.listdir() returns names without {directory}/: the build stops; "
+                            f"use glob('{directory}/*')"
+                        )
+                        yield self.report(module.location(call), message)
+
+
+def _opened(module: PythonModule, call: ast.Call) -> ast.expr | None:
+    """Return the path that a call reads."""
+    if module.qualified_name(call.func) in {"open", "io.open", "codecs.open"}:
+        return call.args[0] if call.args else None
+    if isinstance(call.func, ast.Attribute) and call.func.attr in {"read_text", "read_bytes"}:
+        return call.func.value
+    return None
+
+
+def _beside_setup(module: PythonModule, path: ast.expr) -> str | None:
+    """Return the path of a file next to setup.py, as far as it is written there."""
+    match path:
+        case ast.Constant(value=str(name)):
+            return name
+        case ast.Call(args=[ast.Constant(value=str(name))]) if (
+            module.qualified_name(path.func) == "pathlib.Path"
+        ):
+            return name
+        case ast.Call(args=[here, ast.Constant(value=str(name))]) if (
+            module.qualified_name(path.func) == "os.path.join"
+        ):
+            return name if _is_here(module, here) else None
+        case ast.BinOp(left=here, op=ast.Div(), right=ast.Constant(value=str(name))):
+            return name if _is_here(module, here) else None
+        case _:
+            return None
+
+
+_HERE = frozenset(
+    {
+        "os.path.dirname(__file__)",
+        "os.path.dirname(os.path.abspath(__file__))",
+        "os.path.abspath(os.path.dirname(__file__))",
+        "os.path.dirname(os.path.realpath(__file__))",
+        "Path(__file__).parent",
+        "Path(__file__).resolve().parent",
+        "pathlib.Path(__file__).parent",
+        "pathlib.Path(__file__).parent.resolve()",
+        "pathlib.Path(__file__).resolve().parent",
+    }
+)
+"""The usual expressions for the directory of setup.py."""
+
+
+def _is_here(module: PythonModule, node: ast.expr) -> bool:
+    """Return whether an expression is the directory of setup.py."""
+    value = module.index.only_value(node) or node
+    return ast.unparse(value) in _HERE
+
 
 def _directory_in(package: Package, pattern: Glob) -> str | None:
     """Return the message for a directory that a pattern matches in addition to files."""
     directory, _, name = pattern.pattern.rpartition("/")
-    if "*" in directory or "**" in name or pattern.filtered or not directory:
+    if "*" in directory or pattern.filtered or not directory:
+        return None
+    if name == "**" and pattern.recursive:
+        return (
+            f"the pattern {pattern.pattern} matches the directory {directory}/ itself, which "
+            f"cannot be copied: the build stops; write {directory}/*"
+        )
+    if "**" in name:
         return None
     start = f"{directory.removeprefix('./')}/"
     inside = [path[len(start) :] for path in package.files if path.startswith(start)]

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from difflib import get_close_matches
 
 from scaffold.api import Diagnostic, Effect, Example, Package, Rule, closest_name
+from scaffold.api.catalog import is_near, is_released
 from scaffold.api.cmake import BUILT_IN, OF_AMENT, CMakeLists, has_unknown_commands, uses_ament
 
 from ._found import packages_found
@@ -197,6 +198,17 @@ class CommandOrTargetUndefined(Rule):
             },
         ),
         Example(
+            "a target of a package",
+            {
+                "CMakeLists.txt": _LISTS.format("find_package(rclcpp REQUIRED)\n").partition(
+                    "ament"
+                )[0]
+                + "add_executable(talk talk.cpp)\n"
+                "target_link_libraries(talk rclcpp::rclcpp rclcpp::rclcp)\n"
+            },
+            "4:43: rclcpp has no target 'rclcp'; did you mean 'rclcpp::rclcpp'?",
+        ),
+        Example(
             "not defined, but mentioned elsewhere",
             {"CMakeLists.txt": _LISTS_TARGETS.format("talks") + "message(STATUS talks)\n"},
             "3:27: undefined target 'talks'; did you mean 'talk'?",
@@ -255,6 +267,7 @@ class CommandOrTargetUndefined(Rule):
         cmake = package.cmake
         if has_unknown_commands(package) or cmake.find("function", "macro", "foreach"):
             return
+        yield from self._check_imported(package)
         defined = defined_targets(cmake)
         if defined is None:
             return
@@ -273,6 +286,17 @@ class CommandOrTargetUndefined(Rule):
             if closest:
                 message = f"undefined target {name!r}; did you mean {closest!r}?"
                 yield self.report(command.arguments[0], message)
+
+    def _check_imported(self, package: Package) -> Iterator[Diagnostic]:
+        """Report misspelled targets of packages, such as ``rclcpp::rclcp``."""
+        for command in package.cmake.find("target_link_libraries"):
+            for argument in command.arguments[1:]:
+                owner, separator, name = argument.value.partition("::")
+                if not separator or owner == name or not package.cmake.finds(owner):
+                    continue
+                if is_near(name, owner) and is_released(owner):
+                    message = f"{owner} has no target {name!r}; did you mean '{owner}::{owner}'?"
+                    yield self.report(argument, message)
 
 
 def _closest(name: str) -> list[str]:

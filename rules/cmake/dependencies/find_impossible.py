@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from difflib import get_close_matches
 
 from scaffold.api import Diagnostic, Edit, Effect, Example, Fix, Location, Package, Report, Rule
 from scaffold.api.catalog import similar_package
@@ -20,6 +21,8 @@ _PURE = frozenset(
     tf_transformations topic_monitor yaml
     """.split()  # noqa: SIM905  a column of quoted names would hide them
 )
+
+_KEYWORDS = ("CONFIG", "EXACT", "MODULE", "NO_MODULE", "QUIET", "REQUIRED")
 
 
 class FindImpossible(Rule):
@@ -66,6 +69,38 @@ class FindImpossible(Rule):
                 + "ament_export_dependencies(std_msgs std_msgs)\n"
             },
         ),
+        Example(
+            "in ament_target_dependencies",
+            {
+                "CMakeLists.txt": _LISTS.format("std_msgs")
+                + "add_executable(talk talk.cpp)\nament_target_dependencies(talk std_msg)\n"
+            },
+            Report(
+                "4:32",
+                "unknown package 'std_msg'; did you mean 'std_msgs'?",
+                fix="Replace with std_msgs",
+            ),
+            fixed={
+                "CMakeLists.txt": _LISTS.format("std_msgs")
+                + "add_executable(talk talk.cpp)\nament_target_dependencies(talk std_msgs)\n"
+            },
+        ),
+        Example(
+            "a misspelled keyword, and a component like one",
+            {
+                "CMakeLists.txt": "project(talker)\nfind_package(std_msgs REQURED)\n"
+                "find_package(Talk REQUIRED REQUIRE)\n"
+            },
+            Report(
+                "2:23",
+                "unknown keyword 'REQURED': CMake stops; did you mean REQUIRED?",
+                fix="Replace with REQUIRED",
+            ),
+            fixed={
+                "CMakeLists.txt": "project(talker)\nfind_package(std_msgs REQUIRED)\n"
+                "find_package(Talk REQUIRED REQUIRE)\n"
+            },
+        ),
         Example("a module of CMake", {"CMakeLists.txt": _LISTS.format("rclpy")}),
         Example(
             "pure Python",
@@ -97,13 +132,15 @@ class FindImpossible(Rule):
     def check(self, package: Package) -> Iterator[Diagnostic]:
         yield from self._check_spelling(package)
         yield from self._check_python(package)
+        yield from self._check_keywords(package)
 
     def _check_spelling(self, package: Package) -> Iterator[Diagnostic]:
         for item in package.cmake.found_packages:
             yield from self._judge(package, item.name, item.command.arguments[0], item.location)
         found_names = {found_package.name for found_package in package.cmake.found_packages}
-        for command in package.cmake.find("ament_export_dependencies"):
-            for argument in command.arguments:
+        naming = package.cmake.find("ament_export_dependencies", "ament_target_dependencies")
+        for command in naming:
+            for argument in command.arguments[command.name == "ament_target_dependencies" :]:
                 name = argument.value
                 if name not in found_names and "$" not in name:
                     yield from self._judge(package, name, argument, argument.location)
@@ -121,6 +158,18 @@ class FindImpossible(Rule):
             edit = Edit("CMakeLists.txt", argument.start, argument.end, closest)
             fix = Fix(f"Replace with {closest}", (edit,))
         yield self.report(at, f"unknown package {name!r}; did you mean {closest!r}?", fix)
+
+    def _check_keywords(self, package: Package) -> Iterator[Diagnostic]:
+        for command in package.cmake.find("find_package"):
+            for argument in command.arguments[1:]:
+                word = argument.value
+                closest = get_close_matches(word, _KEYWORDS, 1, 0.8) if word.isupper() else []
+                if word in {"COMPONENTS", "OPTIONAL_COMPONENTS"} or word in _KEYWORDS:
+                    continue
+                if closest and not command.has("COMPONENTS") and not command.has(closest[0]):
+                    message = f"unknown keyword {word!r}: CMake stops; did you mean {closest[0]}?"
+                    edit = Edit("CMakeLists.txt", argument.start, argument.end, closest[0])
+                    yield self.report(argument, message, Fix(f"Replace with {closest[0]}", (edit,)))
 
     def _check_python(self, package: Package) -> Iterator[Diagnostic]:
         for call in package.cmake.found_packages:

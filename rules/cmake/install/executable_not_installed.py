@@ -209,6 +209,19 @@ class ExecutableNotInstalled(Rule):
             "4:16: 'listen' is built, but not installed: `ros2 run` does not "
             "find it; add it to install(TARGETS ...)",
         ),
+        Example(
+            "shared libraries, of which one is not installed, and a static one",
+            {
+                "CMakeLists.txt": "project(talker)\nfind_package(ament_cmake REQUIRED)\n"
+                "add_library(words SHARED words.cpp)\nadd_library(voice SHARED voice.cpp)\n"
+                "add_library(ear STATIC ear.cpp)\nadd_executable(talk talk.cpp)\n"
+                "target_link_libraries(talk words voice ear)\n"
+                "install(TARGETS words LIBRARY DESTINATION lib)\n"
+                "install(TARGETS talk DESTINATION lib/${PROJECT_NAME})\nament_package()\n"
+            },
+            "4:13: 'voice' is not installed, but 'talk' is linked with it: 'error while loading "
+            "shared libraries'; add it to install(TARGETS ...)",
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
@@ -286,6 +299,7 @@ class ExecutableNotInstalled(Rule):
         # An application without any install commands has not forgotten this one.
         if not installed or None in installed:
             return
+        yield from self._check_libraries(package, installed)
         for command in cmake.find("add_executable"):
             if command.blocks or not command.arguments or cmake.guarded_by_testing(command):
                 continue
@@ -304,6 +318,30 @@ class ExecutableNotInstalled(Rule):
                 f"{name!r} is built, but not installed: `ros2 "
                 f"run` does not find it; add it to install(TARGETS ...)",
             )
+
+    def _check_libraries(
+        self, package: Package, installed: set[str | None]
+    ) -> Iterator[Diagnostic]:
+        """Report shared libraries that installed executables need."""
+        cmake = package.cmake
+        names = {
+            cmake.expand(command.arguments[0], command): command.arguments[0]
+            for command in cmake.find("add_library")
+            if command.values[1:2] == ["SHARED"] and not command.blocks
+        }
+        for command in cmake.find("target_link_libraries"):
+            user = cmake.expand(command.arguments[0], command) if command.arguments else None
+            for argument in command.arguments[1:] if user in installed else ():
+                name = cmake.expand(argument, command)
+                place = names.pop(name, None)
+                if name is None or place is None or name in installed | {None}:
+                    continue
+                if not self._is_used(package, name):
+                    message = (
+                        f"{name!r} is not installed, but {user!r} is linked with it: 'error while "
+                        f"loading shared libraries'; add it to install(TARGETS ...)"
+                    )
+                    yield self.report(place, message)
 
     def _is_used(self, package: Package, name: str) -> bool:
         """Return whether the build itself runs or installs the executable."""

@@ -55,6 +55,10 @@ _GLOB = (
 _LISTS_PACKAGE = "project(talker)\nament_python_install_package({})\n"
 
 
+_FILE_KINDS = frozenset({"FILES", "PROGRAMS"})
+_COMPILING = ("add_executable", "add_library", "ament_add_gmock", "ament_add_gtest")
+
+
 class NamedFileMissing(Rule):
     """A command names a file or directory that does not exist or is of the wrong kind.
 
@@ -104,6 +108,23 @@ class NamedFileMissing(Rule):
             {"CMakeLists.txt": _INSTALL.format("DIRECTORY include/"), "include/": ""},
             "CMakeLists.txt:2:19: the directory include/ is empty: git does not keep it, so the "
             "build of a clone stops",
+        ),
+        Example(
+            "a directory as a file, a pattern, and sources of a test",
+            {
+                "CMakeLists.txt": _INSTALL.format("FILES launch")
+                + _INSTALL.format("PROGRAMS talker/*.py")
+                + "if(BUILD_TESTING)\n  ament_add_gtest(test_talk test_talk.cpp walk.cpp)\n"
+                "endif()\n",
+                "launch/talk.launch.py": "",
+                "talker/node.py": "",
+                "walk.cpp": "",
+            },
+            "CMakeLists.txt:2:15: installs the directory launch/ as a file: the build stops; use "
+            "DIRECTORY",
+            "CMakeLists.txt:4:18: CMake does not expand talker/*.py: the build stops; write each "
+            "file",
+            "CMakeLists.txt:6:29: file test_talk.cpp does not exist: CMake stops",
         ),
         Example(
             "a directory that git ignores, and a package in a subdirectory",
@@ -241,6 +262,9 @@ class NamedFileMissing(Rule):
                 continue  # CMake skips a missing directory
             for item in install.items:
                 problem = self._problem(package, install, item)
+                is_pattern = "*" in item.argument.raw and item.argument.raw == item.path
+                if is_pattern and install.kind in _FILE_KINDS:
+                    problem = f"CMake does not expand {item.path}: the build stops; write each file"
                 if problem:
                     yield self.report(item, problem)
 
@@ -255,8 +279,13 @@ class NamedFileMissing(Rule):
             return None  # the files of a nested package are its own
         if install.kind == "DIRECTORY":
             return self._directory_problem(package, path)
+        return self._file_problem(package, path)
+
+    def _file_problem(self, package: Package, path: str) -> str | None:
         if package.has(path):
             return None
+        if package.has_directory(path):
+            return f"installs the directory {path}/ as a file: the build stops; use DIRECTORY"
         hint = _closest(package, path, package.files, 0.8)
         return f"installs {path}, which does not exist: the build stops{hint}"
 
@@ -276,8 +305,8 @@ class NamedFileMissing(Rule):
         cmake = package.cmake
         if cmake.find(*_MAKERS_OF_SOURCES):
             return
-        for command in cmake.find("add_executable", "add_library"):
-            if command.blocks:
+        for command in cmake.find(*_COMPILING):
+            if len(command.blocks) > cmake.guarded_by_testing(command):
                 continue
             for argument in command.arguments[1:]:
                 value = cmake.expand(argument, command)

@@ -50,7 +50,7 @@ def package_data(package: Package) -> list[Glob] | None:
         setup.call is None
         or setup.has_unknown_keywords
         or setup.keyword("package_dir") is not None
-        or (included is not None and included.value is not False)
+        or (included is not None and included.value is not False and _has_manifest(package))
         or any("site-packages" in str(data.destination) for data in setup.data_files)
         or _mentions(package, "setup.cfg", "package_data")
         or _mentions(package, "pyproject.toml", "package-data")
@@ -69,6 +69,11 @@ def package_data(package: Package) -> list[Glob] | None:
                 return None
             globs.append(Glob(f"{base}/{pattern}", recursive=True))
     return globs
+
+
+def _has_manifest(package: Package) -> bool:
+    """Return whether ``include_package_data`` may include anything: it reads MANIFEST.in."""
+    return package.has("MANIFEST.in") or b"setuptools_scm" in package.data("setup.py")
 
 
 def _mentions(package: Package, path: str, word: str) -> bool:

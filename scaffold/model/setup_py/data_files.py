@@ -34,9 +34,21 @@ def data_file(module: PythonModule, evaluator: Evaluator, element: Element) -> D
     node, at = element.node, module.location(element.node)
     if isinstance(node, ast.Tuple | ast.List) and len(node.elts) == 2:  # noqa: PLR2004  a pair
         entry = _written(module, evaluator, node)
+    elif lacks_comma(evaluator, node):
+        entry = _evaluated((), node, at)._replace(malformed="a comma is missing before the files")
     else:
         entry = _evaluated(element.value, node, at)
     return entry._replace(conditional=element.conditional)
+
+
+def lacks_comma(evaluator: Evaluator, node: ast.expr) -> bool:
+    """Return whether a comma is missing in a pair: the list of files indexes the directory."""
+    return any(
+        isinstance(part.slice, ast.Constant | ast.Tuple)
+        and isinstance(evaluator.evaluate(part.value), str)
+        for part in ast.walk(node)
+        if isinstance(part, ast.Subscript)
+    )
 
 
 def _written(module: PythonModule, evaluator: Evaluator, node: ast.Tuple | ast.List) -> DataFile:

@@ -10,7 +10,7 @@ from functools import cached_property
 from scaffold.model.python.evaluation.evaluator import Evaluator
 from scaffold.model.python.evaluation.values import UNKNOWN, Unknown
 from scaffold.model.python.module import PythonModule
-from scaffold.model.setup_py.data_files import DataFile, data_file
+from scaffold.model.setup_py.data_files import DataFile, data_file, lacks_comma
 from scaffold.model.setup_py.entry_points import EntryPoint, EntryPointReader
 from scaffold.record import NamedTuple
 from scaffold.source import Location
@@ -216,7 +216,9 @@ class SetupPy:
         return [
             data_file(self.module, self.evaluator, element)
             for element in self.evaluator.elements(word.node).items
-            if element.value is not UNKNOWN or isinstance(element.node, ast.Tuple | ast.List)
+            if element.value is not UNKNOWN
+            or isinstance(element.node, ast.Tuple | ast.List)
+            or lacks_comma(self.evaluator, element.node)
         ]
 
     @cached_property
