@@ -14,6 +14,8 @@ CIRCLES_OF_TYPES = {
     "scaffold.model.rclpy.file": frozenset(
         f"{MODEL}.rclpy.{name}" for name in ("running.callbacks", "creation", "entities", "nodes")
     ),
+    # The view of a file has its calls of own functions, which the views of other files define.
+    f"{MODEL}.messages.inference": frozenset({f"{MODEL}.messages.passed"}),
 }
 """Modules that need each other for types, by one of them: what they are about refers to itself."""
 

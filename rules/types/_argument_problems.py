@@ -37,8 +37,6 @@ from ._arguments import (
     wrong_callback,
 )
 
-_UNCHECKED = (".get_parameter_or",)
-"""Functions that accept any value as long as the parameter is declared."""
 _ANY_VALUE = {
     ("DeclareLaunchArgument()", "description"),
     *((name, "emulate_tty") for name in ("ExecuteLocal()", "ExecuteProcess()", "Node()")),
@@ -100,7 +98,7 @@ def _argument(finding: TypeFinding, callee: str, expected: str, given: str) -> s
         return _function(finding, callee, expected, given)
     given = of_plain_class(finding, given) or given
     is_misfit = is_certain_misfit(expected, given) or is_uncallable(finding, expected, given)
-    if not is_misfit or callee.endswith(_UNCHECKED) or is_unpacked(finding):
+    if not is_misfit or is_unpacked(finding):
         return ""
     is_set_elsewhere = given == "None" and isinstance(finding.expression(), ast.Attribute)
     is_for_others = is_set_elsewhere or is_miscounted(finding, callee)  # which TY004 reports

@@ -117,6 +117,18 @@ class OperatorUnsupported(TypeRule):
             },
         ),
         Example(
+            "the plain alternative to a parameter, which is returned as it is",
+            {
+                "speed.py": "from rclpy.node import Node\n\n\n"
+                "class Speed(Node):\n"
+                "    def __init__(self):\n"
+                "        super().__init__('speed')\n"
+                "        self.factor = self.get_parameter_or('factor', 5.0)\n\n"
+                "    def scale(self, speed: float) -> float:\n"
+                "        return speed / self.factor\n"
+            },
+        ),
+        Example(
             "comparison of two durations", {"ticker.py": _NODE.format("Duration(seconds=1.0)")}
         ),
         Example(
