@@ -30,6 +30,10 @@ if TYPE_CHECKING:
     """Style findings by path."""
 
 
+WITHOUT_WORKSPACE = ("PX028",)
+"""Codes of rules that need the packages around the checked one, which are not loaded here."""
+
+
 class _Judged(NamedTuple):
     """The part of a draft that is checked, as sent to another process."""
 
@@ -113,7 +117,7 @@ def _session(rules: Sequence[type[Rule]]) -> Session:
     from scaffold.check.selection import Selection
     from scaffold.check.session import Session
 
-    return Session(rules, Selection(), is_remembered=False)
+    return Session(rules, Selection(ignore=WITHOUT_WORKSPACE), is_remembered=False)
 
 
 def _findings(

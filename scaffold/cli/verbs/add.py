@@ -122,9 +122,11 @@ def _run(
     from scaffold.configuration import content
     from scaffold.generate import repository
     from scaffold.generate.add import add
+    from scaffold.generate.checking import WITHOUT_WORKSPACE
 
     target, wanted = _target_and_wanted(options, directory, settings, targets)
-    session = Session(registry.load(content.roots("rules")), Selection())
+    selection = Selection(ignore=WITHOUT_WORKSPACE)
+    session = Session(registry.load(content.roots("rules")), selection)
     is_dry = options.diff or options.dry_run
     with writing.held(target.package.directory, is_dry=is_dry):
         before = session.check(target.package)
