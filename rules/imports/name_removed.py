@@ -74,6 +74,33 @@ class NameRemoved(PythonRule):
             distro="lyrical",
         ),
         Example(
+            "the old name as the alternative to another import, whatever the handler catches",
+            {
+                f"{name}.py": "try:\n    from rclpy.event_handler import EventHandler\n"
+                f"except{caught}:\n    from rclpy.qos_event import QoSEventHandler\n"
+                for name, caught in (("any", ""), ("exceptions", " Exception"))
+            },
+            distro="lyrical",
+        ),
+        Example(
+            "the old name where something else than an import failed",
+            {
+                "talker.py": "try:\n    print(open('events.txt').read())\n"
+                "except Exception:\n    import rclpy.qos_event\n"
+            },
+            Report(
+                "4:12",
+                "rclpy.qos_event was removed in Lyrical: ModuleNotFoundError; use "
+                "event_handler (rclpy 1456)",
+                fix="Replace with event_handler",
+            ),
+            fixed={
+                "talker.py": "try:\n    print(open('events.txt').read())\n"
+                "except Exception:\n    import rclpy.event_handler\n"
+            },
+            distro="lyrical",
+        ),
+        Example(
             "the old name",
             {"talker.py": _NODE.format("", "warn")},
             Report(

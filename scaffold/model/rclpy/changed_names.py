@@ -16,7 +16,7 @@ from scaffold.model.python.conditions.guards import (
     is_handled,
     values_asked,
 )
-from scaffold.model.python.conditions.handlers import last_names
+from scaffold.model.python.conditions.handlers import IMPORT_ERRORS, last_names
 from scaffold.model.python.conditions.import_flags import asks_which_release
 from scaffold.model.python.imports import IMPORT_OR_SKIP
 from scaffold.model.python.module import PythonModule
@@ -27,6 +27,7 @@ from scaffold.record import NamedTuple
 from scaffold.source import Location
 
 _LOGGER = "rclpy.impl.rcutils_logger.RcutilsLogger"
+_IMPORTS = (ast.Import, ast.ImportFrom)
 _OF_IMPORT = frozenset({"ImportError", "ModuleNotFoundError"})
 _ABOVE = {"ModuleNotFoundError": "ImportError"}
 """The class above an error."""
@@ -216,14 +217,18 @@ class _Search:
 
     def _is_fallback(self, node: ast.AST, replacement: str) -> bool:
         """Return whether an import or name is a fallback for another import or its replacement."""
-        is_import = isinstance(node, ast.Import | ast.ImportFrom)
-        expected = _OF_IMPORT if is_import else {"AttributeError"}
         child = node
         for parent in self._module.parents(node):
             match parent, child:
-                case ast.Try(body=body), ast.ExceptHandler(type=ast.expr() as caught):
-                    is_tried = is_import or _mentions(body, replacement.rpartition(".")[2])
-                    if is_tried and last_names(caught) & expected:
+                case ast.Try(body=body), ast.ExceptHandler(type=caught):
+                    names = last_names(caught) if caught else {"BaseException"}
+                    if isinstance(node, _IMPORTS):
+                        is_tried = any(isinstance(item, _IMPORTS) for item in body)
+                        if names & (IMPORT_ERRORS if is_tried else _OF_IMPORT):
+                            return True
+                    elif "AttributeError" in names and _mentions(
+                        body, replacement.rpartition(".")[2]
+                    ):
                         return True
             child = parent
         return False
