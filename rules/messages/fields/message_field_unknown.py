@@ -112,6 +112,16 @@ class MessageFieldUnknown(MessageRule):
             "std_msgs 5.3.6 of ROS 2 Jazzy)",
         ),
         Example(
+            "methods that the file adds to a class",
+            {
+                "times.py": "import builtin_interfaces.msg\nfrom std_msgs.msg import Header\n\n\n"
+                "def seconds(time):\n    return time.sec + time.nanosec / 1e9\n\n\n"
+                "builtin_interfaces.msg.Time.to_sec = seconds\n"
+                "Header.seq = property(lambda self: 0)\n"
+                "print(Header().stamp.to_sec(), Header().seq, Header.seq)\n"
+            },
+        ),
+        Example(
             "callback that another library calls as well",
             {
                 "listener.py": _NODE.format("text")
@@ -187,8 +197,9 @@ class MessageFieldUnknown(MessageRule):
 
     def check_file(self, types: MessageTypes) -> Iterator[Diagnostic]:
         yield from self._check_wrapped(types)
+        added = _added_to_classes(types)
         for node in types.module.walk(ast.Attribute):
-            message = _problem(types, node)
+            message = _problem(types, node, added)
             if message and not is_error_expected(types.module, node, _RAISED):
                 start, end = types.module.span(node)
                 at = types.module.source.location(max(start, end - len(node.attr)), end)
@@ -212,15 +223,24 @@ class MessageFieldUnknown(MessageRule):
                 yield self.report(types.module.location(node), message)
 
 
-def _problem(types: MessageTypes, node: ast.Attribute) -> str | None:
+def _added_to_classes(types: MessageTypes) -> set[tuple[str, str]]:
+    """Return what the file adds to message classes: ``Time.to_sec = to_sec``."""
+    places = [node for node in types.module.walk(ast.Attribute) if isinstance(node.ctx, ast.Store)]
+    classes = ((types.class_of(node.value), node.attr) for node in places)
+    return {(class_.name, name) for class_, name in classes if class_ is not None}
+
+
+def _problem(types: MessageTypes, node: ast.Attribute, added: set[tuple[str, str]]) -> str | None:
     owner = types.type_of(node.value)
     if owner is not None:
-        return None if owner.allows(node.attr) else _message(owner, node.attr)
+        is_known = owner.allows(node.attr) or (owner.name, node.attr) in added
+        return None if is_known else _message(owner, node.attr)
     if not isinstance(node.value, ast.Name | ast.Attribute):
         return None
     class_ = types.class_of(node.value)
     if class_ is not None:
         is_known = class_.allows(node.attr) or node.attr in _CLASS_PARTS
+        is_known = is_known or (class_.name, node.attr) in added
         return None if is_known or hasattr(type, node.attr) else _message(class_, node.attr)
     return _unknown_part(types, node)
 
