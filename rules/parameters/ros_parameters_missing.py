@@ -17,7 +17,7 @@ from scaffold.api import (
     Severity,
     ViewError,
 )
-from scaffold.api.launch import consumers, is_loaded, use_of
+from scaffold.api.launch import StartedNode, consumers, is_loaded, use_of
 from scaffold.api.parameters import (
     KEY,
     Misplaced,
@@ -105,6 +105,20 @@ class RosParametersMissing(Rule):
             },
         ),
         Example(
+            "nested parameters of a component; the name of the component above them",
+            {
+                "package.xml": "<package><name>demo</name></package>\n",
+                "CMakeLists.txt": "project(demo)\ninstall(DIRECTORY maps DESTINATION share/demo)\n",
+                "maps/hall.yaml": "timer:\n  rate: 20.0\n",
+                "maps/room.yaml": "plan:\n  rate: 20.0\n",
+                "launch/hall.launch.py": _LAUNCH,
+                "launch/room.launch.py": _LAUNCH.replace("hall.yaml", "room.yaml").replace(
+                    "plugin=", "name='plan', plugin="
+                ),
+            },
+            "maps/room.yaml:2:3: 'rate' is not under 'ros__parameters': launch sets 'plan.rate'",
+        ),
+        Example(
             "missing in a file that no launch file names; a file that the node reads itself",
             {
                 "talker.py": _NODE,
@@ -157,9 +171,8 @@ class RosParametersMissing(Rule):
             if file is None or not file.misplaced:
                 continue
             nodes = use_of(package, path).nodes
-            is_flat = not (file.sections or file.misplaced[0].above)
-            if nodes and is_flat and all(node.is_component for node in nodes):
-                continue  # launch_ros reads it itself, and accepts parameters at the top level
+            if nodes and all(_takes_whole(package, node, file) for node in nodes):
+                continue
             is_given = bool(nodes)
             is_read = is_given or bool(file.sections and not is_loaded(package, path))
             for entry in file.misplaced[:1]:
@@ -172,6 +185,9 @@ class RosParametersMissing(Rule):
                     )
                 elif entry.node_key is None and (is_read or _is_of_node(package, file)):
                     message = f"{entry.key.text!r} is not under {KEY!r}: rcl rejects the file"
+                    if is_given and not file.sections and all(n.is_component for n in nodes):
+                        name = ".".join([*entry.above, entry.key.text])
+                        message = f"{entry.key.text!r} is not under {KEY!r}: launch sets {name!r}"
                     severity = Severity.ERROR if is_given else Severity.WARNING
                     yield self.report(entry.key, message, severity=severity)
 
@@ -197,6 +213,17 @@ def _files_named_after_nodes(package: Package) -> Iterator[str]:
                 lines = package.source(path).text.splitlines()
                 if any(line.startswith(names) for line in lines):
                     yield path
+
+
+def _takes_whole(package: Package, node: StartedNode, file: ParameterFile) -> bool:
+    """Return whether a file without nodes is all parameters of a component.
+
+    launch_ros reads the files of components itself, and takes all values if none is below
+    ``ros__parameters``.
+    """
+    is_plain = not file.sections and all(entry.node_key is None for entry in file.misplaced)
+    above = {entry.above[0].strip("/") for entry in file.misplaced if entry.above}
+    return node.is_component and is_plain and above.isdisjoint({node.name(package), "**"})
 
 
 def _is_of_node(package: Package, file: ParameterFile) -> bool:
