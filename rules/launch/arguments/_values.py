@@ -198,13 +198,20 @@ def _arguments_of_include(launch: LaunchFile, call: LaunchCall, node: ast.expr) 
         if problem:
             yield value, f"{name!r} gets {problem}"
     match node:
-        case ast.Set():
+        case ast.Set(elts=items) if not all(map(_may_be_pair, items)):
             yield node, f"expected pairs, not a set: {_PAIRS}"
         case ast.Attribute(value=ast.Dict(), attr="items"):
             yield node, "items is not called; write .items()"
         case ast.List(elts=items) | ast.Tuple(elts=items):
             if any(isinstance(item, ast.Constant | ast.JoinedStr) for item in items):
                 yield node, f"not pairs: {_PAIRS}"
+
+
+def _may_be_pair(node: ast.expr) -> bool:
+    match node:
+        case ast.Tuple(elts=[_, _]) | ast.Name() | ast.Starred():
+            return True
+    return False
 
 
 def _include_problem(launch: LaunchFile, node: ast.expr) -> str:

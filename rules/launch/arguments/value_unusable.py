@@ -190,6 +190,10 @@ class ValueUnusable(LaunchRule):
             "'value')]",
         ),
         Example(
+            "arguments of an include: a set of pairs",
+            {"launch/a.launch.py": _INCLUDE.format("{('a', 'b')}")},
+        ),
+        Example(
             "arguments of an include: items, not called",
             {"launch/a.launch.py": _INCLUDE.format("{'a': 'b'}.items")},
             "13:30: items is not called; write .items()",
