@@ -47,6 +47,9 @@ _FILES_CALLS = {
     "      entry_points={'console_scripts': ['caller = demo.caller:main']})\n",
 }
 
+_WITHOUT_TIMEOUT = {("spin_once", 1), ("executor.spin_once", 0)}
+"""Calls that run one callback, with their number of arguments."""
+
 
 class WaitsUnspun(Rule):
     """``rate.sleep()`` or ``client.call()`` waits, but no other thread spins the node.
@@ -71,6 +74,15 @@ class WaitsUnspun(Rule):
             {**_FILES, "demo/talker.py": _ALONE},
             "demo/talker.py:9:9: sleep() never returns: the thread that would wake it is blocked "
             "in this call",
+        ),
+        Example(
+            "a rate whose timer is run in the loop",
+            {
+                **_FILES,
+                "demo/talker.py": _ALONE.replace(
+                    "        rate", "        rclpy.spin_once(node)\n        rate"
+                ),
+            },
         ),
         Example(
             "a rate, after a function that loops until rclpy is shut down",
@@ -190,8 +202,23 @@ def _is_sleep(file: RclpyFile, call: ast.Call) -> bool:
     value = call.func.value if isinstance(call.func, ast.Attribute) else call.func
     match file.evaluator.single_value(value):
         case ast.Call(func=ast.Attribute(attr="create_rate", value=node)):
-            return file.owner_of(node) is not None
+            return file.owner_of(node) is not None and not _is_spun_before(file, call)
     return False
+
+
+def _is_spun_before(file: RclpyFile, call: ast.Call) -> bool:
+    """Return whether the loop around a call runs a callback before it, maybe the timer of a rate.
+
+    The timer sets an event, and the next ``sleep()`` returns at once.
+    """
+    loop = file.module.enclosing(call, ast.While, ast.For)
+    return loop is not None and any(
+        (spin.name, len(spin.call.args)) in _WITHOUT_TIMEOUT
+        and not spin.call.keywords
+        and spin.call.lineno < call.lineno
+        and loop in file.module.parents(spin.call)
+        for spin in file.spin_calls
+    )
 
 
 @fact
