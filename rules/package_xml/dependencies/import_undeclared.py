@@ -32,6 +32,7 @@ from ._embedded_pythons import is_for_embedded_python
 _LAUNCH = frozenset({"launch", "launch_ros"})
 """Packages installed wherever launch files can be started."""
 _MANIFEST = '<package format="3">\n  <name>talker</name>\n{}</package>\n'
+_OF_ROS1 = '<buildtool_depend condition="$ROS_VERSION == 1">catkin</buildtool_depend>'
 _INDEX = frozenset({"torch", "torchvision"})
 """Packages often installed with pip, for a specific graphics card."""
 
@@ -474,6 +475,33 @@ class ImportUndeclared(Rule):
             "talker/node.py:2:1: imports 'std_msgs', and line 4 of package.xml declares it only "
             "if $ROS_DISTRO == humble, which excludes Jazzy; change the condition, or guard the "
             "import",
+        ),
+        Example(
+            "in a package for ROS 1 as well",
+            {
+                "package.xml": _manifest(_OF_ROS1),
+                "talker/__init__.py": "",
+                "talker/node.py": "import numpy\nfrom std_msgs.msg import String\n",
+            },
+            Report(
+                "talker/node.py:1:1",
+                "imports 'numpy', which package.xml does not declare; add "
+                "<exec_depend>python3-numpy</exec_depend>",
+                fix="Declare python3-numpy",
+            ),
+            Report(
+                "talker/node.py:2:1",
+                "imports 'std_msgs', which package.xml does not declare; add "
+                '<exec_depend condition="$ROS_VERSION == 2">std_msgs</exec_depend>',
+                fix="Declare std_msgs",
+            ),
+            fixed={
+                "package.xml": _manifest(
+                    _OF_ROS1,
+                    "python3-numpy",
+                    '<exec_depend condition="$ROS_VERSION == 2">std_msgs</exec_depend>',
+                )
+            },
         ),
         Example(
             "declared for this distribution and for another one",
