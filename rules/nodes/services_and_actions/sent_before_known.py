@@ -56,6 +56,14 @@ class SentBeforeKnown(RclpyRule):
             "waits", {"caller.py": _NODE.format("        self.client.wait_for_service(5.0)\n")}
         ),
         Example(
+            "sent after a message was received",
+            {
+                "caller.py": _NODE.format("        rclpy.spin_once(self)\n").replace(
+                    "from", "import rclpy\nfrom", 1
+                )
+            },
+        ),
+        Example(
             "sent repeatedly",
             {
                 "caller.py": _NODE.format("").replace(
@@ -151,7 +159,9 @@ class SentBeforeKnown(RclpyRule):
                 if not isinstance(func, ast.Attribute) or func.attr not in _SENDING:
                     continue
                 class_, what, wait = _SENDING[func.attr]
-                if class_of(file, func.value) == class_ and not _is_repeated(file, call):
+                if _is_repeated(file, call) or _is_spun_before(file, call):
+                    continue
+                if class_of(file, func.value) == class_:
                     message = (
                         f"the {what} is sent before the server is discovered: it is lost, and the "
                         f"future is never done; call {wait} first"
@@ -204,6 +214,14 @@ def _is_made_here(file: RclpyFile, made: ast.AST, where: ast.AST) -> bool:
     function = file.function_of(made)
     is_here = getattr(function, "name", "") == "__init__" or function is where
     return is_here and not conditions_on(file.module, made)
+
+
+def _is_spun_before(file: RclpyFile, call: ast.Call) -> bool:
+    """Return whether the same function waits for a message before: it may be that of the server."""
+    function = file.module.enclosing_function(call)
+    return any(
+        spin.function is function and spin.call.lineno < call.lineno for spin in file.spin_calls
+    )
 
 
 def _is_repeated(file: RclpyFile, call: ast.Call) -> bool:
