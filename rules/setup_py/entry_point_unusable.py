@@ -72,8 +72,8 @@ class EntryPointUnusable(Rule):
     code = "SP001"
     name = "entry-point-unusable"
     other_severities = {
-        Severity.WARNING: "no function is named, but the module runs its node on import, or CMake "
-        "builds the package and setup.py is not used"
+        Severity.WARNING: "the function is missing, but the module runs its node on import, or "
+        "CMake builds the package and setup.py is not used"
     }
     examples = (
         Example(
@@ -115,6 +115,21 @@ class EntryPointUnusable(Rule):
                 "setup.py:5:9",
                 "console script 'talker = talker.node': no function is named: name "
                 "= module:function",
+                severity=Severity.WARNING,
+            ),
+        ),
+        Example(
+            "no such function, in a module that serves on import",
+            {
+                "setup.py": _SETUP.format("        'serve = talker.serve:main',\n"),
+                "talker/__init__.py": "",
+                "talker/serve.py": "from http.server import HTTPServer, SimpleHTTPRequestHandler\n"
+                "\nserver = HTTPServer(('127.0.0.1', 8000), SimpleHTTPRequestHandler)\n"
+                "server.serve_forever()\n",
+            },
+            Report(
+                "setup.py:5:9",
+                "`ros2 run` of 'serve' fails when the module ends: talker/serve.py has no 'main'",
                 severity=Severity.WARNING,
             ),
         ),
@@ -316,7 +331,13 @@ class EntryPointUnusable(Rule):
                 if f" has no {entry.function!r}" in problem:
                     cause = f"modules without {entry.function}"
                 cause = f"moved to {directory}" if directory else cause
-                yield self.report(entry, message, cause=cause)
+                stays = " has no " in problem and _runs_when_imported(
+                    package, entry.module, calls_own=False
+                )
+                if stays:
+                    message = f"`ros2 run` of {entry.name!r} fails when the module ends: {problem}"
+                severity = Severity.WARNING if stays else Severity.ERROR
+                yield self.report(entry, message, severity=severity, cause=cause)
 
     def _problem(self, package: Package, entry: EntryPoint) -> str | None:
         root, *_ = entry.module.split(".")
@@ -430,16 +451,18 @@ def _closest_module(package: Package, name: str) -> str:
     return ""
 
 
-def _runs_when_imported(package: Package, name: str) -> bool:
-    """Return whether a module spins, or calls one of its functions, at its top level."""
+def _runs_when_imported(package: Package, name: str, *, calls_own: bool = True) -> bool:
+    """Return whether a module loops, spins, serves or calls a function of its own on import."""
     path = f"{name.replace('.', '/')}.py"
     if not name or not package.has(path):
         return False
     module = package.module(path)
     for statement in module.tree.body:
         match statement:
+            case ast.While() | ast.Expr(value=ast.Call(func=ast.Attribute(attr="serve_forever"))):
+                return True
             case ast.Expr(value=ast.Call(func=ast.Name(id=function))):
-                if function in module.functions:
+                if calls_own and function in module.functions:
                     return True
             case ast.Expr(value=ast.Call(func=called)):
                 if (module.qualified_name(called) or "").startswith("rclpy.spin"):
