@@ -19,7 +19,8 @@ from scaffold.source import Location, ViewError
 
 EXTENSIONS = frozenset({".c", ".cc", ".cpp", ".cxx", ".h", ".hh", ".hpp", ".hxx", ".cmake", ".py"})
 CONTRIBUTING = "CONTRIBUTING.md"
-REPOSITORY_FILES = (CONTRIBUTING, "LICENSE")
+LICENSE = "LICENSE"
+REPOSITORY_FILES = (CONTRIBUTING, LICENSE)
 
 _LICENSES = os.path.join(DATA, "licenses.tsv")
 _YEARS = r"\d{4}(?:-\d{4})?(?:,\s*\d{4}(?:-\d{4})?)*"

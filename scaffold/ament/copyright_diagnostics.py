@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterator
 from scaffold.ament.codes import diagnostic
 from scaffold.ament.copyright import (
     CONTRIBUTING,
+    LICENSE,
     REPOSITORY_FILES,
     Header,
     contributing,
@@ -112,13 +113,17 @@ def _of_repository(package: Package, code: str) -> Iterator[Diagnostic]:
 
 
 def _fix(package: Package, name: str) -> Fix | None:
-    """Return the fix that writes a missing file with a text fixed by the license."""
-    if name != CONTRIBUTING or package.has(name):
+    """Return the fix that writes a missing file with a text fixed by the license.
+
+    It is a legal statement: package.xml and LICENSE must agree on the license.
+    """
+    if name != CONTRIBUTING or package.has(name) or not package.has(LICENSE):
         return None
     named = {element.text for element in package.manifest.all("license")}
     texts = {contributing(item) for text in named for item in spdx_of(text) or (text,)}
     text = texts.pop() if len(texts) == 1 else None
-    if text is None or identify_file(name, text.encode()) is None:
+    license_ = identify_file(LICENSE, package.bytes_of(LICENSE))
+    if text is None or license_ is None or identify_file(name, text.encode()) != license_:
         return None
     return Fix(f"Create the {name} of the license", (CreateFile(name, text),))
 

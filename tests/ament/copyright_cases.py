@@ -72,6 +72,7 @@ LIABILITY, WHETHER IN AN ACTION OF CONTRACT, TORT OR OTHERWISE, ARISING FROM,
 OUT OF OR IN CONNECTION WITH THE SOFTWARE OR THE USE OR OTHER DEALINGS IN
 THE SOFTWARE.
 """
+NAMES_APACHE = "<package><license>Apache-2.0</license></package>\n"
 FILES = {
     "package.xml": "<package/>\n",
     "test/test_copyright.py": MIT_TEST,
@@ -252,6 +253,27 @@ CASES: Mapping[str, tuple[Example, ...]] = {
                 fix="Create the CONTRIBUTING.md of the license",
             ),
             fixed={"CONTRIBUTING.md": CONTRIBUTING},
+        ),
+        Example(
+            "a LICENSE that is not the one that package.xml names",
+            {**FILES, "package.xml": NAMES_APACHE, "LICENSE": MIT_TEXT},
+            Report(
+                "CONTRIBUTING.md:1:1",
+                "the repository has no CONTRIBUTING.md: ament_copyright fails",
+            ),
+        ),
+        Example(
+            "a LICENSE of one's own",
+            {**FILES, "package.xml": NAMES_APACHE, "LICENSE": "Do as you like.\n"},
+            Report(
+                "CONTRIBUTING.md:1:1",
+                "the repository has no CONTRIBUTING.md: ament_copyright fails",
+            ),
+            Report(
+                "LICENSE:1:1",
+                "LICENSE is not, word for word, the text that goes with a known license: "
+                "ament_copyright fails",
+            ),
         ),
         Example(
             "words of one's own",

@@ -62,8 +62,8 @@ shows which are known.
 the text it knows, and fails under ``colcon test``. A package inside of a repository is not
 asked.
 
-**Fix.** ``--fix`` writes the CONTRIBUTING.md of the license that package.xml names, and
-``ament_copyright --add-missing "NAME" LICENSE`` both files.
+**Fix.** ``--fix`` writes the CONTRIBUTING.md of the license if package.xml and LICENSE agree on
+it, and ``ament_copyright --add-missing "NAME" LICENSE`` both files.
 
 **Source.** ``ament_copyright/main.py`` and ``crawler.py``.
 """,
