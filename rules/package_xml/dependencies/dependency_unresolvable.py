@@ -111,6 +111,12 @@ class DependencyUnresolvable(Rule):
             rosdep_keys=_KEYS,
         ),
         Example(
+            "a key without a rule for this system, and one of pip that has a rule",
+            {"package.xml": _MANIFEST.format("python3-open3d")},
+            "3:11: rosdep has no rule for 'python3-open3d' on Ubuntu Noble, the system of "
+            "Jazzy: it stops; 'python3-open3d-pip' has one",
+        ),
+        Example(
             "a key of the vendor of other unknown packages",
             {
                 "package.xml": _MANIFEST.format(
@@ -209,7 +215,9 @@ def _problem(package: Package, name: str) -> tuple[str, Severity | None]:
     is_key = is_rosdep_key(name) and not is_released(name)
     if is_key and not has_rosdep_rule(name):
         system = f"Ubuntu {target().fact('ubuntu').capitalize()}, the system of {target().title}"
-        return f"rosdep has no rule for {name!r} on {system}: it stops", None
+        pip = f"{name}-pip"
+        hint = f"; {pip!r} has one" if is_rosdep_key(pip) and has_rosdep_rule(pip) else ""
+        return f"rosdep has no rule for {name!r} on {system}: it stops{hint}", None
     if is_in_cache or (is_in_cache is None and (is_key or _is_of_target(name))):
         return "", None
     hint = _hint(package, name)

@@ -108,6 +108,14 @@ class ImportUndeclared(Rule):
             },
         ),
         Example(
+            "declared with a key that rosdep cannot resolve, which PX028 reports",
+            {
+                "package.xml": _manifest("python3-open3d"),
+                "talker/__init__.py": "",
+                "talker/cloud.py": "import open3d\n",
+            },
+        ),
+        Example(
             "a library besides the interfaces",
             {
                 "package.xml": _manifest("rclpy"),
@@ -765,8 +773,9 @@ class ImportUndeclared(Rule):
             is_from_pip = is_in_requirements(package, need.module)
             if need.module in _INDEX and (is_from_pip or _is_required(package, need.module)):
                 continue
-            if any(key_of_debian(item.name) in need.keys for item in manifest.dependencies):
-                continue  # reported by dependency-malformed
+            alike = ((key_of_debian(x.name), f"{x.name}-pip") for x in manifest.dependencies)
+            if not all(map(frozenset(need.keys).isdisjoint, alike)):
+                continue  # reported by dependency-malformed or dependency-unresolvable
             if _is_by_rospkg(package, need) or _adds_sources(package, need):
                 continue
             comes_otherwise = _comes_with_launch(need) or need.module in _INDEX or need.in_data
