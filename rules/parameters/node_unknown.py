@@ -157,8 +157,8 @@ class NodeUnknown(Rule):
                 "launch/a.launch.py": _LAUNCH.replace("eyes", "demo").replace("'eye'", "'talk'"),
                 "config/demo.yaml": _FILE.format("talker"),
             },
-            "config/demo.yaml:1:1: no node is named 'talker': the section is ignored; "
-            "launch/a.launch.py:10 starts camera",
+            "config/demo.yaml:1:1: no node that gets the file is named 'talker': the section is "
+            "ignored; launch/a.launch.py:10 starts camera",
         ),
         Example(
             "the name in the code, next to sections that fit",
@@ -171,8 +171,8 @@ class NodeUnknown(Rule):
                 "launch/a.launch.py": _LAUNCH.replace("eyes", "demo").replace("'eye'", "'talk'"),
                 "config/demo.yaml": _FILE.format("/**") + _FILE.format("talker"),
             },
-            "config/demo.yaml:4:1: no node is named 'talker': the section is ignored; "
-            "launch/a.launch.py:10 starts camera",
+            "config/demo.yaml:4:1: no node that gets the file is named 'talker': the section is "
+            "ignored; launch/a.launch.py:10 starts camera",
         ),
         Example(
             "not the name in the launch file",
@@ -181,8 +181,8 @@ class NodeUnknown(Rule):
                 "launch/a.launch.py": _LAUNCH,
                 "config/demo.yaml": _FILE.format("eye"),
             },
-            "config/demo.yaml:1:1: no node is named 'eye': the section is ignored; "
-            "launch/a.launch.py:10 starts camera",
+            "config/demo.yaml:1:1: no node that gets the file is named 'eye': the section is "
+            "ignored; launch/a.launch.py:10 starts camera",
         ),
         Example("a section without a namespace", _files("camera")),
         Example("a section for any namespace", _files("/**/camera")),
@@ -251,7 +251,7 @@ class NodeUnknown(Rule):
                     started for started in use.nodes if started.name(package) in meant
                 ).location
                 message = (
-                    f"no node is named {name!r}: the section is ignored; "
+                    f"no node that gets the file is named {name!r}: the section is ignored; "
                     f"{first.path}:{first.line} starts {', '.join(meant)}"
                 )
                 yield self.report(section.key, message)
