@@ -163,6 +163,13 @@ def test_docstrings_with_backslashes(before: str, after: str) -> None:
     assert fixed.changed.get("a.py", before.encode()).decode() == after
 
 
+def test_docstrings_for_doxygen_are_left_alone() -> None:
+    text = '"""!\n@brief Go\nthere\n"""\n\n\ndef go():\n    """! Go there"""\n'
+    package = Package.of({"a.py": text})
+    assert {"D205", "D213", "D415"} & {item.code for item in check(package)}
+    assert fixer.fix(package, check).changed == {}
+
+
 @pytest.mark.parametrize(
     "statement",
     [

@@ -26,6 +26,8 @@ def fix(definition: Definition, code: str) -> tuple[tuple[Replacement, ...], str
     if code in _AROUND:
         make_edits, title = _AROUND[code]
         return tuple(make_edits(definition)), title
+    if _is_for_doxygen(definition):
+        return (), ""
     make_splices, title = _INSIDE.get(code) or _of_section(code)
     if "\\" in definition.docstring and not (code in _LOOKS_AT_ESCAPES or _is_raw(definition)):
         return (), ""
@@ -34,6 +36,12 @@ def fix(definition: Definition, code: str) -> tuple[tuple[Replacement, ...], str
     if not splices or (code != "D213" and _is_too_long(definition, splices)):
         return (), ""
     return tuple(_replacement(definition, splice) for splice in splices), title
+
+
+def _is_for_doxygen(definition: Definition) -> bool:
+    """Return whether the opening quotes are those of a comment for Doxygen, with ``!``."""
+    start, end = _quotes(definition)
+    return definition.docstring[start:end].startswith("!")
 
 
 def _is_raw(definition: Definition) -> bool:
