@@ -92,7 +92,11 @@ def write(
 def separate_notes(options: argparse.Namespace, shown: ReportOptions) -> Sequence[str]:
     """Return the notes for standard error: those that are not part of the report."""
     is_noted = options.format == "text" and options.output_file is None
-    return () if is_noted or shown.quiet else shown.notes
+    if is_noted or shown.quiet:
+        return ()
+    is_ignored = options.severity != "info" and options.format != "text"
+    ignored = f"note: --severity has no effect: --format {options.format} shows all findings"
+    return (*shown.notes, ignored) if is_ignored else shown.notes
 
 
 def text(results: Sequence[Result], shown: ReportOptions) -> str:

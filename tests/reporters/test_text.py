@@ -209,6 +209,15 @@ def test_severity_flag_hides_findings_but_counts_them(capsys: pytest.CaptureFixt
 
 
 @pytest.mark.usefixtures("workspace")
+def test_severity_flag_without_effect_is_noted(capsys: pytest.CaptureFixture[str]) -> None:
+    flags = ["check", "--no-types", "--severity", "error", "--format", "gitlab", "robot"]
+    for _ in range(2):  # the second report is from the cache
+        assert main(flags) == 1
+        noted = capsys.readouterr().err.splitlines()
+        assert noted == ["note: --severity has no effect: --format gitlab shows all findings"]
+
+
+@pytest.mark.usefixtures("workspace")
 def test_quiet_leaves_out_the_summary(capsys: pytest.CaptureFixture[str]) -> None:
     _, lines = check(capsys, "--quiet", "robot")
     assert lines == findings(lines) != []

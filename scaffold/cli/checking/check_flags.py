@@ -154,7 +154,7 @@ def _add_report_arguments(parser: argparse.ArgumentParser) -> None:
         "--severity",
         choices=("error", "warning", "info"),
         default="info",
-        help="show only findings of this severity and above",
+        help="show only findings of this severity and above (format text)",
     )
     report.add_argument(
         "--show-source",
