@@ -11,9 +11,30 @@ from scaffold.api.interfaces import FLOATS
 from scaffold.api.messages import Assigned, MessageTypes, TypeMismatches, rclpy_time
 from scaffold.api.python import PythonModule
 
+from ._only_read import is_only_read
+
 _TEST = (
     "from geometry_msgs.msg import Wrench\n\nfrom arm import talker, total\n\n\n"
     "def test_force():\n    wrench = Wrench()\n    wrench.force.x = 3\n    {}\n"
+)
+_DRIVE = (
+    "import rclpy\nfrom geometry_msgs.msg import Twist\nfrom rclpy.node import Node\n\n\n"
+    "class Drive(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('drive')\n"
+    "        self.last = Twist()\n"
+    "        self.publisher = self.create_publisher(Twist, 'cmd_vel', 10)\n"
+    "        self.create_timer(0.1, self.tick)\n\n"
+    "    def step(self):\n"
+    "        step = Twist()\n"
+    "        step.linear.x = 2\n"
+    "        return step\n\n"
+    "    def tick(self):\n"
+    "        twist = Twist()\n"
+    "        step = self.step()\n"
+    "        {}\n"
+    "        self.publisher.publish(twist)\n\n\n"
+    "def main():\n    rclpy.init()\n    rclpy.spin(Drive())\n"
 )
 _CODE = (
     "from rclpy.node import Node\n"
@@ -81,8 +102,8 @@ class FieldValueUnfit(MessageRule):
     name = "field-value-unfit"
     other_severities = {
         Severity.WARNING: "the value is another message with the same fields or the int 0 in a "
-        "float field, which are sent correctly, or an int in a float field in a test that sends "
-        "nothing, or the line is in a branch that never runs",
+        "float field, which are sent correctly, or an int in a float field of a message that is "
+        "not sent, or the line is in a branch that never runs",
     }
     examples = (
         Example("values of the correct types", {"talker.py": _CODE.format(*_RIGHT)}),
@@ -271,6 +292,20 @@ class FieldValueUnfit(MessageRule):
             "int: subscribers get another number; write float(...)",
         ),
         Example(
+            "int in a float field of a message that is only read, and of one that is published",
+            {
+                "drive.py": _DRIVE.format("twist.linear.x = step.linear.x + self.last.linear.x"),
+                "send.py": _DRIVE.format("twist = step"),
+            },
+            Report(
+                "drive.py:15:25",
+                "'x' of geometry_msgs/msg/Vector3 is float64, but 2 is an int",
+                severity=Severity.WARNING,
+            ),
+            "send.py:15:25: 'x' of geometry_msgs/msg/Vector3 is float64, but 2 is an int: "
+            "subscribers get another number; write float(...)",
+        ),
+        Example(
             "int 0 in a float field, None in a branch that never runs",
             {
                 "planner.py": "from geometry_msgs.msg import Twist\n"
@@ -457,6 +492,7 @@ class FieldValueUnfit(MessageRule):
                     misfits.is_alike(item)
                     or misfits.is_harmless_int(item)
                     or misfits.is_unreachable(item)
+                    or (problem.endswith(" is an int") and self._is_only_read(types, item))
                 )
                 severity = Severity.WARNING if is_harmless else Severity.ERROR
                 message += "" if is_harmless else _effect(item.field.type.name, problem)
@@ -464,6 +500,12 @@ class FieldValueUnfit(MessageRule):
 
         for item in types.passed:
             yield from self._check_passed(types, misfits, item)
+
+    def _is_only_read(self, types: MessageTypes, item: Assigned) -> bool:
+        """Return whether a number is not sent, in a distribution that does not check fields."""
+        is_number = item.field.type.name in FLOATS
+        is_checked = not target().fact("messages.has_check_fields")
+        return is_number and not is_checked and is_only_read(types.module, item.value)
 
     def _check_passed(
         self, types: MessageTypes, misfits: TypeMismatches, item: Assigned
