@@ -5,8 +5,9 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator, Sequence
 
-from scaffold.api import Diagnostic, Example, MessageRule
+from scaffold.api import Diagnostic, Example, MessageRule, Report, Severity
 from scaffold.api.messages import MessageTypes
+from scaffold.api.python import PythonModule
 
 _GIVES = {
     "tf_transformations.quaternion_from_euler": "xyzw",
@@ -54,6 +55,7 @@ class QuaternionOrderSwapped(MessageRule):
 
     code = "MS033"
     name = "quaternion-order-swapped"
+    other_severities = {Severity.WARNING: "the angles are stored in attributes that are never read"}
     examples = (
         Example(
             "correct order for each library",
@@ -89,6 +91,24 @@ class QuaternionOrderSwapped(MessageRule):
             "12:49: quaternion_from_euler() uses the order x, y, z, w, but this is w, x, y, z: it "
             "is another rotation",
         ),
+        Example(
+            "wrong order, for angles that are never read and for an angle that is",
+            {
+                f"{name}.py": _HEAD + "class Turn:\n"
+                "    def turn(self, q: Quaternion):\n"
+                "        self.roll, self.pitch, self.yaw = quat2euler((q.x, q.y, q.z, q.w))\n"
+                f"        print({shown})\n"
+                for name, shown in {"a": "q", "b": "self.yaw"}.items()
+            },
+            Report(
+                "a.py:8:54",
+                "quat2euler() uses the order w, x, y, z, but this is x, y, z, w: it is another "
+                "rotation",
+                severity=Severity.WARNING,
+            ),
+            "b.py:8:54: quat2euler() uses the order w, x, y, z, but this is x, y, z, w: it is "
+            "another rotation",
+        ),
     )
 
     def check_file(self, types: MessageTypes) -> Iterator[Diagnostic]:
@@ -96,10 +116,11 @@ class QuaternionOrderSwapped(MessageRule):
             return
         for name, order in _TAKES.items():
             for call in types.module.calls_of(name):
+                severity = Severity.WARNING if _is_unread(types.module, call) else None
                 for given in call.args:
-                    yield from self._compare(
-                        types, given, _order_of_parts(types, given), order, name
-                    )
+                    parts = _order_of_parts(types, given)
+                    for found in self._compare(types, given, parts, order, name):
+                        yield found._replace(severity=severity) if severity else found
         for assigned in types.module.walk(ast.Assign):
             name = _creating_function(types, assigned.value)
             for target in assigned.targets if name else ():
@@ -124,6 +145,22 @@ class QuaternionOrderSwapped(MessageRule):
                 "it is another rotation"
             )
             yield self.report(types.module.location(at), message)
+
+
+def _is_unread(module: PythonModule, call: ast.Call) -> bool:
+    """Return whether the results are stored in attributes of ``self`` that the file never reads."""
+    match module.parent(call):
+        case ast.Assign(targets=[ast.Tuple(elts=items)]):
+            names = {
+                item.attr
+                for item in items
+                if isinstance(item, ast.Attribute) and getattr(item.value, "id", "") == "self"
+            }
+            read = {
+                node.attr for node in module.walk(ast.Attribute) if isinstance(node.ctx, ast.Load)
+            }
+            return len(names) == len(items) and names.isdisjoint(read)
+    return False
 
 
 def _creating_function(types: MessageTypes, value: ast.expr) -> str:
