@@ -41,6 +41,23 @@ def test_subscriber_does_not_index_possibly_empty_arrays() -> None:
     assert "f'Received: name: {len(msg.name)}, position: {len(msg.position)}'" in node
 
 
+@pytest.mark.parametrize(
+    ("kind", "question"),
+    [
+        ("publisher", "message_type"),
+        ("subscriber", "message_type"),
+        ("publisher_subscriber", "input_type"),
+    ],
+)
+@pytest.mark.parametrize("type_", ["std_msgs/msg/String", "sensor_msgs/msg/Image"])
+def test_readme_says_how_often_messages_are_logged(kind: str, question: str, type_: str) -> None:
+    files = files_of(kind, **{question: type_})
+    is_throttled = "throttle_duration_sec=1.0" in files["talker/worker.py"]
+    assert is_throttled is (type_ == "sensor_msgs/msg/Image")
+    said = "at most one message per second" if is_throttled else "each message"
+    assert f"It logs {said} " in files["README.md"]
+
+
 def test_subscriber_imports_only_what_its_log_needs() -> None:
     files = files_of("subscriber", message_type="geometry_msgs/msg/PoseStamped")
     assert "import math\n" not in files["talker/worker.py"]
