@@ -34,7 +34,7 @@ def package(
     text = manifest.read_text()
     start = text.index('email="') + len('email="')
     text = text[:start] + "ada@todo.todo" + text[text.index('"', start) :]
-    dependencies = "<exec_depend>python3-furo-pip</exec_depend>\n  <exec_depend>rclpy_action"
+    dependencies = "<exec_depend>python3-mediapipe-pip</exec_depend>\n  <exec_depend>rclpy_action"
     text = text.replace("  <test_depend", f"  {dependencies}</exec_depend>\n  <test_depend", 1)
     manifest.write_text(text)
     monkeypatch.chdir(copy)
