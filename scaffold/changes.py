@@ -15,7 +15,7 @@ import os
 from functools import cache
 from typing import Any
 
-from scaffold import distributions
+from scaffold import distributions, toml
 from scaffold.distributions import Distribution, named
 from scaffold.record import NamedTuple
 
@@ -114,7 +114,7 @@ def _is_past(first: Distribution | None) -> bool:
 
 @cache
 def _entries() -> dict[str, list[dict[str, Any]]]:
-    return distributions.read_toml(os.path.join(distributions.DATA, _FILE))
+    return toml.read_toml(os.path.join(distributions.DATA, _FILE))
 
 
 @cache

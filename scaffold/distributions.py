@@ -12,6 +12,7 @@ from contextlib import contextmanager
 from functools import cached_property
 from typing import Any
 
+from scaffold import toml
 from scaffold.errors import InputError
 
 DATA = os.path.join(os.path.dirname(os.path.abspath(__file__)), "data")
@@ -59,7 +60,7 @@ class Distribution:
     @cached_property
     def profile(self) -> Mapping[str, Any]:
         """The facts of ``profile.toml``."""
-        return read_toml(self.path("profile.toml"))
+        return toml.read_toml(self.path("profile.toml"))
 
     @cached_property
     def python(self) -> tuple[int, int]:
@@ -78,18 +79,6 @@ class Distribution:
         for part in name.split("."):
             value = value[part]
         return value
-
-
-def read_toml(path: str) -> dict[str, Any]:
-    """Return a file of data."""
-    import sys
-
-    if sys.version_info >= (3, 11):
-        import tomllib
-    else:
-        import tomli as tomllib
-    with open(path, "rb") as file:
-        return tomllib.load(file)
 
 
 _KNOWN: dict[str, Distribution] = {}

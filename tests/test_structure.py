@@ -37,7 +37,8 @@ def assert_no_cycle(imported: Mapping[str, set[str]]) -> None:
 
 
 INSTALLED = {
-    *("argcomplete", "jinja2", "lxml", "prompt_toolkit", "pyflakes", "rich", "tqdm", "yaml"),
+    *("argcomplete", "jinja2", "lxml", "packaging", "prompt_toolkit", "pyflakes", "rich", "tqdm"),
+    "yaml",
     "tomli",  # before Python 3.11
 }
 """The packages among `dependencies` in pyproject.toml that the engine imports."""

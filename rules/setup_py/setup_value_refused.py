@@ -7,18 +7,13 @@ from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Effect, Example, Package, Rule, ViewError
 from scaffold.api.distributions import target
+from scaffold.api.formats import toml
+from scaffold.api.setup_py import is_requirement, is_specifier, is_version, requirements
 
 _STRICT = 66
 """The first version of setuptools that only accepts versions as PEP 440 defines them."""
-_VERSION = re.compile(
-    r"v?(\d+!)?\d+(\.\d+)*([-_.]?(a|b|c|rc|alpha|beta|pre|preview)[-_.]?\d*)?"
-    r"(-\d+|[-_.]?(post|rev|r)[-_.]?\d*)?([-_.]?dev[-_.]?\d*)?(\+[a-z0-9]+([-_.][a-z0-9]+)*)?",
-    re.IGNORECASE,
-)
-_CLAUSE = re.compile(r"(?:~=|===|==|!=|<=|>=|<|>)[ \t]*v?\d[\w.!+*-]*")
-_NAME = re.compile(r"([A-Za-z0-9][\w.-]*)[ \t]*(\[[^\]]*\])?")
 _ATTRIBUTE = re.compile(r"attr:\s*([\w.]+)\.(\w+)\s*")
-_TABLE = re.compile(r"^\[project\][ \t]*(?:#.*)?$\n((?:(?!^\[).*\n?)*)", re.MULTILINE)
+_TABLE = re.compile(r"^\[project\]", re.MULTILINE)
 _KEYS = ("name", "version")
 _SETUP = "from setuptools import setup\n\nsetup(\n    name='talker',\n    {},\n)\n"
 _CFG = "[metadata]\nname = talker\nversion = attr: talker.__version__\n"
@@ -130,19 +125,19 @@ class SetupValueRefused(Rule):
                 message = "setuptools 58 and later reject use_2to3: the build stops; delete it"
                 yield self.report(word, message)
             elif word.name == "version" and isinstance(value, str) and is_strict:
-                if not _VERSION.fullmatch(value.strip()):
+                if not is_version(value):
                     message = f"{value!r} is not a version of PEP 440: the build stops"
                     yield self.report(word, message)
             elif word.name == "python_requires" and isinstance(value, str):
-                if not _is_specifier(value):
+                if not is_specifier(value):
                     message = (
                         f"python_requires {value!r} is not a version specifier, such as '>=3.10': "
                         f"the build stops"
                     )
                     yield self.report(word, message)
             elif word.name in {"install_requires", "setup_requires", "extras_require"}:
-                for item in _requirements(value):
-                    if not _is_requirement(item):
+                for item in requirements(value):
+                    if not is_requirement(item):
                         message = (
                             f"{item!r} in {word.name} is not a requirement, such as "
                             f"'numpy>=1.26': the build stops"
@@ -169,41 +164,13 @@ class SetupValueRefused(Rule):
         """Check that the project has a name and a version."""
         source = package.source("pyproject.toml")
         table = _TABLE.search(source.text)
-        if table is None:
+        try:
+            project = toml.loads(source.text).get("project")
+        except (toml.TOMLDecodeError, ValueError, RecursionError):
             return
-        keys = {line.partition("=")[0].strip(" \t\"'") for line in table[1].splitlines()}
-        dynamic = table[1].partition("dynamic")[2].partition("]")[0]
+        if table is None or not isinstance(project, dict):
+            return
         for key in _KEYS:
-            if key not in keys and key not in dynamic:
-                at = source.location(table.start(), table.start() + len("[project]"))
+            if key not in project and key not in project.get("dynamic", ()):
+                at = source.location(*table.span())
                 yield self.report(at, f"[project] has no {key}: setuptools stops the build")
-
-
-def _is_specifier(text: str) -> bool:
-    """Return whether a text is a list of versions of PEP 440, which may be empty."""
-    return all(_CLAUSE.fullmatch(part.strip()) for part in text.split(",") if part.strip())
-
-
-def _is_requirement(text: str) -> bool:
-    """Return whether a text has the form of PEP 508: a name, versions or an address, a marker."""
-    before, at, _ = text.partition("@")
-    plain = before.strip() if at else text.partition(";")[0].strip()
-    name = _NAME.match(plain)
-    if name is None or name[1].endswith((".", "-")):
-        return False
-    versions = plain[name.end() :].strip()
-    if versions.startswith("(") and versions.endswith(")"):
-        versions = versions[1:-1]
-    is_complete = not versions.strip().endswith(",")
-    return not versions if at else is_complete and _is_specifier(versions)
-
-
-def _requirements(value: object) -> Iterator[str]:
-    """Yield the known requirements of a keyword of setup()."""
-    if isinstance(value, dict):
-        for item in value.values():
-            yield from _requirements(item)
-    elif isinstance(value, list | tuple):
-        yield from (item for item in value if isinstance(item, str))
-    elif isinstance(value, str):
-        yield from (line for line in value.splitlines() if line.strip() and line.strip()[0] != "#")

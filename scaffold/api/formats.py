@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from scaffold import toml
 from scaffold.formats import xml_reader
 from scaffold.formats import yaml as yaml_tree
 from scaffold.formats.hash_comments import without_comments
@@ -15,6 +16,7 @@ __all__ = [
     "Scalar",
     "Sequence",
     "YamlNode",
+    "toml",
     "without_comments",
     "xml_reader",
     "yaml_tree",

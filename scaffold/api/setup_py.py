@@ -22,6 +22,12 @@ from scaffold.model.install.package_data import installed_data, matches, package
 from scaffold.model.setup_py import edit as setup_edit
 from scaffold.model.setup_py.data_files import DataFile
 from scaffold.model.setup_py.entry_points import EntryPoint
+from scaffold.model.setup_py.metadata import (
+    is_requirement,
+    is_specifier,
+    is_version,
+    requirements,
+)
 from scaffold.model.setup_py.setup_py import FindPackages, SetupPy
 
 __all__ = [
@@ -40,10 +46,14 @@ __all__ = [
     "has_extra",
     "installed_data",
     "installs_configured",
+    "is_requirement",
+    "is_specifier",
+    "is_version",
     "lacks_pytest",
     "matches",
     "node_scripts",
     "package_data",
+    "requirements",
     "setup_cfg",
     "setup_edit",
 ]

@@ -14,7 +14,7 @@ from scaffold.configuration.exclusion import Exclusion
 from scaffold.diagnostic import Diagnostic, Severity
 from scaffold.model.contents.dead_code import is_dead
 from scaffold.model.contents.python_facts import imports_of, paths_importing
-from scaffold.model.discovery.colcon import IGNORE_MARKERS
+from scaffold.model.discovery.colcon import is_ignored
 from scaffold.model.discovery.foreign import ENVIRONMENTS, Foreign
 from scaffold.model.install.reach import is_never_run, is_unreached
 from scaffold.model.install.unused import is_apart, is_copy_of_old_code
@@ -157,7 +157,7 @@ class Adjustments(NamedTuple):
 
 def _is_harmless_there(package: Package, diagnostic: Diagnostic) -> bool:
     """Return whether an error is in a package that colcon never builds, or in unused code."""
-    is_built = not any(map(package.has, IGNORE_MARKERS))
+    is_built = not is_ignored(package)
     if not is_built and diagnostic.code.startswith(_OF_BUILDS):
         return True
     return _is_of_unused_code(package, diagnostic)

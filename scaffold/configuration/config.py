@@ -16,6 +16,7 @@ import os
 from collections.abc import Iterator, Mapping
 from typing import Any
 
+from scaffold import toml
 from scaffold.configuration import keys, trust
 from scaffold.configuration.content import is_url
 from scaffold.errors import ConfigError
@@ -309,12 +310,6 @@ def _why_ignored(disk: Disk, path: str) -> str | None:
 
 
 def _read(disk: Disk, path: str, most: int = MAX_BYTES) -> dict[str, Any]:
-    import sys
-
-    if sys.version_info >= (3, 11):
-        import tomllib
-    else:
-        import tomli as tomllib
     try:
         data = disk.read(path, most).decode()
     except OSError as error:
@@ -323,9 +318,9 @@ def _read(disk: Disk, path: str, most: int = MAX_BYTES) -> dict[str, Any]:
         line = error.object.count(b"\n", 0, error.start) + 1
         raise ConfigError(f"{path}:{line}: not UTF-8") from error
     try:
-        entries = tomllib.loads(data)
+        entries = toml.loads(data)
         _refuse_large(entries, path)
-    except tomllib.TOMLDecodeError as error:
+    except toml.TOMLDecodeError as error:
         raise ConfigError(f"{path}: invalid TOML: {error}") from error
     except RecursionError:
         raise ConfigError(f"{path}: nested too deeply") from None

@@ -10,6 +10,8 @@ from scaffold.api.catalog import is_released, released_dependencies
 if TYPE_CHECKING:
     from scaffold.api import Package
 
+_LIBRARIES = frozenset({"fmt", "glog", "gflags", "pybind11", "spdlog", "tinyxml2", "yaml_cpp"})
+"""Libraries with names like those of packages of ROS."""
 _GENERATORS = "rosidl_"
 """The start of the names of packages that only find their tools when they generate code."""
 
@@ -46,7 +48,3 @@ def packages_found(package: Package, before: int | None = None) -> set[str] | No
         elif name.islower() and "-" not in name and name not in _LIBRARIES:
             return None  # perhaps a package of ROS
     return result
-
-
-_LIBRARIES = frozenset({"fmt", "glog", "gflags", "pybind11", "spdlog", "tinyxml2", "yaml_cpp"})
-"""Libraries with names like those of packages of ROS."""

@@ -253,7 +253,8 @@ def _is_of_target(name: str) -> bool:
 
 def _is_known(package: Package, name: str) -> bool:
     """Return whether a name is a known package, or another rule reports it."""
-    if name in {*ROS_PACKAGES, *ROS1_PACKAGES, *OTHER_NAMES, package.name}:
+    known = (ROS_PACKAGES, ROS1_PACKAGES, OTHER_NAMES)
+    if name == package.name or any(name in names for names in known):
         return True
     if why_no_key(package, name) or removed_package(name) is not None or is_fetched(package, name):
         return True

@@ -7,12 +7,12 @@ from collections.abc import Iterator
 from itertools import takewhile
 
 from scaffold.api import Diagnostic, Effect, Example, Package, Rule
+from scaffold.api.workspace import is_ignored
 
 _MANIFEST = (
     '<package format="3">\n  <name>talker</name>\n  <export>\n'
     "    <build_type>ament_python</build_type>\n  </export>\n</package>\n"
 )
-_MARKERS = ("COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE")
 _SOURCES = "src"
 """The directory of a workspace with its packages."""
 
@@ -55,10 +55,10 @@ class PackageNameRepeated(Rule):
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         element = package.manifest.one("name")
-        if element is None or _is_ignored(package):
+        if element is None or is_ignored(package):
             return
         for other in package.workspace.namesakes(package):
-            if other.directory < package.directory or _is_ignored(other):
+            if other.directory < package.directory or is_ignored(other):
                 continue
             if _is_same_workspace(package.directory, other.directory):
                 where = os.path.relpath(other.directory, package.directory)
@@ -67,10 +67,6 @@ class PackageNameRepeated(Rule):
                 )
                 yield self.report(element, message)
                 return
-
-
-def _is_ignored(package: Package) -> bool:
-    return any(map(package.has, _MARKERS))
 
 
 def _is_same_workspace(directory: str, other: str) -> bool:

@@ -9,6 +9,7 @@ from scaffold.files.tree import BUILD_DIRECTORIES, ENVIRONMENT, MANIFEST
 
 if TYPE_CHECKING:
     from scaffold.files.disk import Disk
+    from scaffold.model.package_files import PackageFiles
 
 SOURCES = "src"
 """The directory of a workspace with the packages."""
@@ -51,6 +52,11 @@ def package_directories(
         if most is not None and len(pending) + len(result) > most:
             return []
     return sorted(result)
+
+
+def is_ignored(package: PackageFiles) -> bool:
+    """Return whether a marker hides a package from colcon."""
+    return any(map(package.has, IGNORE_MARKERS))
 
 
 def _is_visible(disk: Disk, directory: str) -> bool:

@@ -41,7 +41,7 @@ class Workspace(Generic[AnyMember]):
 
     def forget(self) -> None:
         """Drop data derived from the packages, after the files of one have changed."""
-        for name in ("by_name", "interfaces"):
+        for name in ("all_by_name", "by_name", "interfaces"):
             self.__dict__.pop(name, None)
         self._near.clear()
         for package in self._packages:
@@ -52,12 +52,17 @@ class Workspace(Generic[AnyMember]):
         return iter(self._packages)
 
     @cached_property
+    def all_by_name(self) -> Mapping[str, list[AnyMember]]:
+        """The packages by the name in their manifest."""
+        result: dict[str, list[AnyMember]] = {}
+        for package in self._packages:
+            result.setdefault(package.name, []).append(package)
+        return result
+
+    @cached_property
     def by_name(self) -> Mapping[str, AnyMember]:
         """The packages by the name in their manifest; the first of a name wins."""
-        result: dict[str, AnyMember] = {}
-        for package in self._packages:
-            result.setdefault(package.name, package)
-        return result
+        return {name: packages[0] for name, packages in self.all_by_name.items()}
 
     def get(self, name: str) -> AnyMember | None:
         """Return the package with a name, if it is in the workspace."""
@@ -143,11 +148,8 @@ class WorkspaceView(Generic[AnyMember]):
 
     def namesakes(self, package: AnyMember) -> list[AnyMember]:
         """Return the other checked packages with the name of a package."""
-        return [
-            other
-            for other in self._workspace
-            if other.name == package.name and other.directory != package.directory
-        ]
+        others = self._workspace.all_by_name.get(package.name, ())
+        return [other for other in others if other.directory != package.directory]
 
     @property
     def names(self) -> list[str]:
