@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 
 from scaffold.api import Diagnostic, Example, Report, Severity, TypeRule
-from scaffold.api.types import MARKED, TypeFinding, in_words, with_article
+from scaffold.api.types import MARKED, TypeFinding, in_words, is_certain, with_article
 
 from ._argument_problems import argument_problem
 from ._arguments import TIMEOUTS, timeout
@@ -296,6 +296,20 @@ class ArgumentTypeUnfit(TypeRule):
         Example(
             "method called with messages and values of unknown type",
             {"speaker.py": _SPEAKER.format("String(data='hello')", "self.greeting")},
+        ),
+        Example(
+            "parameters by prefix, of which a function makes other dictionaries",
+            {
+                "turn.py": "from geometry_msgs.msg import Quaternion\n"
+                "from rclpy.node import Node\n\n\n"
+                "class Turner(Node):\n"
+                "    def __init__(self, nested):\n"
+                "        super().__init__('turner')\n"
+                "        self.turns = self.get_parameters_by_prefix('turns')\n"
+                "        self.turns = nested(self.turns)\n\n"
+                "    def turn(self, name):\n"
+                "        return Quaternion(**self.turns[name])\n"
+            },
         ),
         Example(
             "tuple of a function unpacked as keywords, header and points swapped",
@@ -919,6 +933,8 @@ class ArgumentTypeUnfit(TypeRule):
             return self._judge_overload(finding)
         unpacked = finding.match(r"Argument expression after \*\* .*: Found `(?P<type>[^`]+)`")
         if unpacked is not None:
+            if not is_certain(unpacked["type"]):
+                return None
             given = in_words(unpacked["type"])
             return self.report(finding, f"** needs a dictionary, not {given}: TypeError")
         problem = argument_problem(finding)
