@@ -10,11 +10,9 @@ from scaffold.api.types import (
     class_itself,
     elements_misfit,
     full_name,
-    in_words,
     is_certain_misfit,
-    name_of,
     short_name,
-    with_article,
+    unlike,
 )
 
 from ._arguments import when_sent
@@ -169,6 +167,16 @@ class AssignedTypeUnfit(TypeRule):
             },
         ),
         Example(
+            "list of entries of a dictionary with values of different types",
+            {
+                "show.py": "from sensor_msgs.msg import PointCloud2\n"
+                "from visualization_msgs.msg import Marker, MarkerArray\n\n"
+                "SEEN = {'left': Marker(), 'right': Marker(), 'all': PointCloud2()}\n"
+                "views = MarkerArray()\n"
+                "views.markers = [SEEN[side] for side in ('left', 'right')]\n"
+            },
+        ),
+        Example(
             "method instead of its result, in an array field",
             {
                 "arm.py": "from rclpy.node import Node\n"
@@ -281,7 +289,7 @@ class AssignedTypeUnfit(TypeRule):
         return self.report(
             finding,
             f"{matched['field']!r} of {full_name(matched['owner'])} is "
-            f"{with_article(name_of(expected))}, not {in_words(given)}{outcome}",
+            f"{unlike(expected, given)}{outcome}",
             severity=Severity.WARNING if is_alike or is_converted else None,
         )
 

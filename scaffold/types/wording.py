@@ -65,7 +65,8 @@ def is_certain_misfit(expected: str, given: str) -> bool:
         return bool(class_in(given)) and is_certain(given)
     if _lacks_elements(expected, given):
         return True
-    if not is_certain(_ITERABLE.sub("list[", expected).replace("|", ",")):
+    may_fit = _ITERABLE.search(expected) is not None and _is_mixed(given)
+    if may_fit or not is_certain(_ITERABLE.sub("list[", expected).replace("|", ",")):
         return False
     is_container = _CONTAINER.fullmatch(_without_arguments(given)) and _CLASSES.fullmatch(expected)
     if is_container or is_certain(given) or is_function(given):
@@ -82,6 +83,12 @@ def _lacks_elements(expected: str, given: str) -> bool:
         return True
     is_sequence = _SEQUENCE.fullmatch(expected) and "|" not in _without_arguments(expected)
     return bool(is_sequence and _NO_SEQUENCE.fullmatch(given))
+
+
+def _is_mixed(given: str) -> bool:
+    """Return whether elements of a container are of several types, of which all used may fit."""
+    is_container = _CONTAINER.fullmatch(_without_arguments(given)) is not None
+    return is_container and len(_alternatives(given.partition("[")[2].removesuffix("]"))) > 1
 
 
 def elements_misfit(expected: str, given: str) -> str:
