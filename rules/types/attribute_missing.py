@@ -140,6 +140,20 @@ _RESTART = (
     "        self.connect(Wheels, self.on_start)\n\n"
     "    def on_start(self, odometry: Odometry):\n        odometry.restart()\n"
 )
+_PATH = (
+    "from rclpy.node import Node\n\n\n"
+    "class Path(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('path')\n"
+    "        self.lengths = []\n\n"
+    "    def last(self):\n        return self.lengths.size - 1\n"
+)
+_LINE = (
+    "import numpy as np\n\nfrom .path import Path\n\n\n"
+    "class Smooth(Path):\n    pass\n\n\n"
+    "class Line(Smooth):\n"
+    "    def start(self):\n        self.{} = np.zeros(3)\n"
+)
 _DRIVE = (
     "from rclpy.node import Node\nfrom std_srvs.srv import Trigger\n\n"
     "from .odometry import Odometry\n\n\n"
@@ -961,6 +975,25 @@ class AttributeMissing(TypeRule):
                 "play.py": "from rosbag2_py import SequentialReader\n\n"
                 "reader = SequentialReader()\nreader.open_uri('recording')\nreader.close()\n"
             },
+        ),
+        Example(
+            "attribute that a subclass sets to another object",
+            {
+                "package.xml": "<package><name>rover</name></package>\n",
+                "rover/__init__.py": "",
+                "rover/path.py": _PATH,
+                "rover/line.py": _LINE.format("lengths"),
+            },
+        ),
+        Example(
+            "attribute that no subclass sets",
+            {
+                "package.xml": "<package><name>rover</name></package>\n",
+                "rover/__init__.py": "",
+                "rover/path.py": _PATH,
+                "rover/line.py": _LINE.format("weights"),
+            },
+            "rover/path.py:10:16: a list has no 'size': AttributeError",
         ),
         Example(
             "method of all derived classes of an annotated base that nothing creates",

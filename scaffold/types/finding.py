@@ -21,6 +21,7 @@ from scaffold.model.python.conditions.guards import (
 from scaffold.model.python.conditions.handlers import is_tested_to_fail, last_names
 from scaffold.model.python.evaluation.given_arguments import arguments_for
 from scaffold.model.python.module import PythonModule
+from scaffold.model.rclpy.evaluation.attributes import is_set_by_subclass
 from scaffold.source import Location
 from scaffold.types import origins
 from scaffold.types.arithmetic import may_be_of_library
@@ -214,7 +215,25 @@ class TypeFinding:
     def _is_changed_later(self, node: ast.AST) -> bool:
         """Return whether what is used is patched, imported or defined again."""
         return (
-            self._is_patched(node) or self._is_imported_anew(node) or self._is_defined_again(node)
+            self._is_patched(node)
+            or self._is_imported_anew(node)
+            or self._is_defined_again(node)
+            or self._is_set_by_subclass(node)
+        )
+
+    def _is_set_by_subclass(self, node: ast.AST) -> bool:
+        """Return whether a subclass sets an attribute of ``self`` that is used."""
+        class_ = self.module.enclosing_class(node)
+        around = node if isinstance(node, ast.Call) else self.module.enclosing(node, ast.Call)
+        names = {
+            attribute.attr
+            for attribute in self.module.below(around or node, ast.Attribute)
+            if self.module.text(attribute.value) == "self"
+        }
+        return (
+            bool(names)
+            and class_ is not None
+            and is_set_by_subclass(self.package, class_.name, names)
         )
 
     def _is_patched(self, node: ast.AST) -> bool:

@@ -4,18 +4,21 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Callable, Iterator
+from collections.abc import Set as AbstractSet
 from contextlib import suppress
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeVar
 
 from scaffold.model.facts import fact
 from scaffold.model.rclpy.api import known_names
 from scaffold.model.rclpy.evaluation.named_attributes import set_by_name
 from scaffold.source import ViewError
 
+_Name = TypeVar("_Name", str, tuple[str, str])
 _LIFECYCLE = "rclpy.lifecycle.node.LifecycleNode"
 
 if TYPE_CHECKING:
     from scaffold.model.package import Package
+    from scaffold.model.python.module import PythonModule
     from scaffold.model.python.scopes import FunctionNode
     from scaffold.model.rclpy.file import RclpyFile
     from scaffold.model.rclpy.nodes import NodeClass
@@ -121,6 +124,44 @@ def is_overridden(package: Package, method: FunctionNode, class_: ast.ClassDef) 
     return overriding and class_.name not in _classes_called(package)
 
 
+def is_set_by_subclass(package: Package, class_: str, attributes: AbstractSet[str]) -> bool:
+    """Return whether a subclass in the workspace sets one of the attributes on ``self``."""
+    pairs = frozenset[tuple[str, str]]().union(
+        *(_attributes_of_subclasses(other) for other in package.workspace)
+    )
+    bases = {class_}
+    while True:
+        below = {name for base, name in pairs if base in bases}
+        if not below.isdisjoint(f".{name}" for name in attributes):
+            return True
+        if below <= bases:
+            return False
+        bases |= below
+
+
+@fact
+def _attributes_of_subclasses(package: Package) -> frozenset[tuple[str, str]]:
+    return _of_all_files(package, _attributes_of_subclasses_in)
+
+
+@fact
+def _attributes_of_subclasses_in(package: Package, path: str) -> frozenset[tuple[str, str]]:
+    """Return pairs of a base and the name of a subclass, or ``.name`` of what that sets."""
+    module = package.module(path)
+    return frozenset(
+        (base, name)
+        for class_ in module.walk(ast.ClassDef)
+        for base in _base_names(class_)
+        for name in (class_.name, *_set_on_self(module, class_))
+    )
+
+
+def _set_on_self(module: PythonModule, class_: ast.ClassDef) -> Iterator[str]:
+    for node in module.below(class_, ast.Attribute):
+        if isinstance(node.ctx, ast.Store) and module.text(node.value) == "self":
+            yield f".{node.attr}"
+
+
 @fact
 def _overridden_methods(package: Package) -> frozenset[str]:
     return _of_all_files(package, _overridden_in)
@@ -156,9 +197,9 @@ def given_from_outside(package: Package) -> frozenset[str]:
 
 
 def _of_all_files(
-    package: Package, names: Callable[[Package, str], frozenset[str]]
-) -> frozenset[str]:
-    result: set[str] = set()
+    package: Package, names: Callable[[Package, str], frozenset[_Name]]
+) -> frozenset[_Name]:
+    result: set[_Name] = set()
     for path in package.python_files:
         with suppress(ViewError):
             result |= names(package, path)
