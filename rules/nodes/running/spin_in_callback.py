@@ -15,7 +15,7 @@ from scaffold.api.programs import (
     names_other_executor,
 )
 from scaffold.api.python import arguments_for, conditions_on
-from scaffold.api.rclpy import RclpyFile
+from scaffold.api.rclpy import Entity, NodeClass, RclpyFile
 
 MOST = 2
 """The maximum number of arguments without an executor: the node and a future."""
@@ -93,6 +93,27 @@ class SpinInCallback(RclpyRule):
                 "        self.create_timer(1.0, self.tick)\n\n"
                 "    def tick(self):\n        self.caller.ask()\n"
             },
+        ),
+        Example(
+            "a separate node for service calls, made in a callback of a plain node",
+            {
+                "caller.py": _NODE.format("rclpy.spin_until_future_complete(self, future)").replace(
+                    "        self.create_timer(1.0, self.ask)\n", ""
+                )
+                + "\n\ndef tick():\n    Caller().ask()\n\n\n"
+                "node = Node('asker')\ntimer = node.create_timer(1.0, tick)\n"
+            },
+        ),
+        Example(
+            "a timer that a function creates for the node",
+            {
+                "caller.py": _NODE.format("rclpy.spin_until_future_complete(self, future)").replace(
+                    "        self.create_timer(1.0, self.ask)\n", ""
+                )
+                + "\n\ncaller = Caller()\ncaller.create_timer(1.0, caller.ask)\n"
+            },
+            "11:9: rclpy.spin_until_future_complete(self) runs in callback 'ask' of the same "
+            "node: no callback runs afterward; use add_done_callback() or await",
         ),
         Example(
             "a spin before the node exits",
@@ -214,7 +235,6 @@ class SpinInCallback(RclpyRule):
         yield from self._check_constructors(file)
         executions = (*in_callbacks(file), *in_tasks(file))
         for function, origin, entity in {x.function: x for x in reversed(executions)}.values():
-            called = file.module.enclosing_class(entity.call) if entity else None
             for call in file.spin_calls:
                 if call.name.startswith("executor.") or len(call.call.args) > MOST:
                     continue
@@ -224,7 +244,7 @@ class SpinInCallback(RclpyRule):
                 if not isinstance(node, ast.Name):
                     continue
                 spun = file.evaluator.self_class(node)
-                if spun is None or (called and called not in file.related_classes(spun)):
+                if spun is None or (entity and not _is_of(file, entity, spun)):
                     continue  # another node than the one with the callback
                 is_once = _is_last(file, function) or _waits_once(file, call.call)
                 if is_once or _depends_on_caller(file, call.call):
@@ -254,6 +274,14 @@ class SpinInCallback(RclpyRule):
             )
             severity = None if outside else Severity.WARNING
             yield self.report(call, message, severity=severity)
+
+
+def _is_of(file: RclpyFile, entity: Entity, spun: ast.ClassDef) -> bool:
+    """Return whether the node with a callback is of the class of the spun one."""
+    class_ = file.module.enclosing_class(entity.call)
+    if class_ is None and isinstance(entity.owner, NodeClass):
+        class_ = entity.owner.node
+    return class_ in file.related_classes(spun)
 
 
 def _depends_on_caller(file: RclpyFile, call: ast.Call) -> bool:
