@@ -6,7 +6,7 @@ import ast
 import re
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, RclpyRule, Report
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, RclpyRule, Report
 from scaffold.api.rclpy import RclpyFile, class_of, has, is_method
 
 _WHOLE = r"(?!rclpy\.)\w+\.(srv|action)\.[A-Z][A-Za-z0-9]*"
@@ -63,6 +63,14 @@ class ObjectCalledWrongly(RclpyRule):
             "12:32: Trigger cannot be instantiated: NotImplementedError; write Trigger.Request()",
         ),
         Example(
+            "classes of ROS 1, which do not exist",
+            {
+                "reset.py": "from rover_msgs import srv as own\nfrom std_srvs import srv\n"
+                "import rclpy\n\nrclpy.init()\n"
+                "print(srv.TriggerResponse(), own.ResetResponse())\n"
+            },
+        ),
+        Example(
             "a class of a module named action",
             {
                 "package.xml": "<package><name>talker</name></package>\n",
@@ -99,13 +107,13 @@ class ObjectCalledWrongly(RclpyRule):
         ),
     )
 
-    def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
-        yield from self._check_objects(file)
+    def check_in(self, package: Package, file: RclpyFile) -> Iterator[Diagnostic]:
+        yield from self._check_objects(package, file)
         yield from self._check_callbacks(file)
 
-    def _check_objects(self, file: RclpyFile) -> Iterator[Diagnostic]:
+    def _check_objects(self, package: Package, file: RclpyFile) -> Iterator[Diagnostic]:
         for call in file.module.walk(ast.Call):
-            problem = _problem(file, call)
+            problem = _problem(package, file, call)
             if problem:
                 yield self.report(file.module.location(call), problem)
 
@@ -126,10 +134,11 @@ class ObjectCalledWrongly(RclpyRule):
             yield self.report(callback, message, fix)
 
 
-def _problem(file: RclpyFile, call: ast.Call) -> str:
+def _problem(package: Package, file: RclpyFile, call: ast.Call) -> str:
     name = file.module.qualified_name(call.func) or ""
     problem = ""
-    if re.fullmatch(_WHOLE, name) and file.interface(call.func):
+    interface = file.interface(call.func) if re.fullmatch(_WHOLE, name) else None
+    if interface and not _is_missing(package, interface):
         part = "Goal" if ".action." in name else "Request"
         kind = name.rpartition(".")[2]
         problem = f"{kind} cannot be instantiated: NotImplementedError; write {kind}.{part}()"
@@ -141,6 +150,14 @@ def _problem(file: RclpyFile, call: ast.Call) -> str:
             if callback.is_called and not callback.is_partial:
                 problem = f"{callback.name}() is called here; pass the function itself, without ()"
     return problem
+
+
+def _is_missing(package: Package, interface: str) -> bool:
+    """Return whether an interface does not exist, or has a name of ROS 1: TY003 reports it."""
+    definitions = package.workspace.interfaces
+    if interface.partition("/")[0] in definitions.packages():
+        return definitions.find(interface) is None
+    return interface.endswith(("Request", "Response"))
 
 
 def _is_value(file: RclpyFile, node: ast.Attribute) -> bool:
