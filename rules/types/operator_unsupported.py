@@ -129,6 +129,25 @@ class OperatorUnsupported(TypeRule):
             },
         ),
         Example(
+            "Duration and Time added to attributes that are initially None or a number",
+            {
+                "pace.py": "from rclpy.clock import Clock\nfrom rclpy.duration import Duration\n"
+                "from rclpy.time import Time\n\n\n"
+                "class Pace:\n"
+                "    def __init__(self):\n"
+                "        self.next = None\n"
+                "        self.last = 0\n\n"
+                "    def start(self):\n"
+                "        self.next = Clock().now()\n"
+                "        self.last = Clock().now()\n\n"
+                "    def go(self):\n"
+                "        self.next += Duration(seconds=1.0)\n"
+                "        self.last += Duration(seconds=1.0)\n"
+                "        self.next += Time(seconds=1.0)\n"
+            },
+            "18:9: '+=' does not work on an rclpy.time.Time: TypeError; use Duration(seconds=...)",
+        ),
+        Example(
             "comparison of two durations", {"ticker.py": _NODE.format("Duration(seconds=1.0)")}
         ),
         Example(
@@ -356,7 +375,8 @@ class OperatorUnsupported(TypeRule):
             return self.report(finding, _on_text(operator, words)) if is_sure else None
         if _PLAIN.issuperset(words):
             return self.report(finding, _on_plain(operator, words)) if are_sure(finding) else None
-        if not any(classes) or not all(map(is_certain, types)):
+        is_initial = types[0] == "None" and finding.node(ast.AugAssign) is not None
+        if is_initial or not any(classes) or not all(map(is_certain, types)):
             return None
         pair = " and ".join(dict.fromkeys(map(in_words, types)))
         hints = [_replacement(full_name(class_), operator) for class_ in classes if class_]

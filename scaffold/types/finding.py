@@ -339,6 +339,8 @@ class TypeFinding:
     def _is_calculated_from_several(self, node: ast.AST) -> bool:
         """Return whether an operand or a value may be of another type than the reported one."""
         match node:
+            case ast.AugAssign(target=target) if origins.is_of_several(self.module, target):
+                return True  # the type checker reports each type by itself
             case ast.BinOp(left=left, right=right) | ast.AugAssign(target=left, value=right):
                 if any(
                     isinstance(part, ast.Subscript) and origins.is_of_several(self.module, part)
