@@ -20,7 +20,7 @@ from scaffold.api import (
 )
 from scaffold.api.distributions import removed_name
 from scaffold.api.python import conditions_on
-from scaffold.api.rclpy import only_while_stopping
+from scaffold.api.rclpy import NODE, has, only_while_stopping
 from scaffold.api.types import TypeFinding, class_in
 
 from ._attribute_owners import (
@@ -1132,7 +1132,9 @@ class AttributeMissing(TypeRule):
         fix = _fix(finding, node, closest, is_sure=change is not None) if closest else None
         is_late = only_while_stopping(finding.module, node)
         severity = Severity.WARNING if is_late else Severity.ERROR
-        return self.report(finding, message, fix, severity=severity, cause=cause(shown))
+        is_of_node = is_inside and has(NODE, name)
+        common = f"base of {shown} in {finding.path}" if is_of_node else cause(shown)
+        return self.report(finding, message, fix, severity=severity, cause=common)
 
 
 def _is_named(finding: TypeFinding, name: str, owner: str) -> bool:

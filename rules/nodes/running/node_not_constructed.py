@@ -250,7 +250,8 @@ class NodeNotConstructed(RclpyRule):
                     f"{class_.name!r} uses methods of Node, but does not inherit from it: "
                     f"AttributeError; inherit from Node"
                 )
-                yield self.report(class_, message)
+                cause = f"base of {class_.name} in {file.module.path}"  # as in TY003
+                yield self.report(class_, message, cause=cause)
 
 
 def _skipping(file: RclpyFile, node: NodeClass) -> tuple[ast.Call, str] | None:
