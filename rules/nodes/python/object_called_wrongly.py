@@ -63,12 +63,14 @@ class ObjectCalledWrongly(RclpyRule):
             "12:32: Trigger cannot be instantiated: NotImplementedError; write Trigger.Request()",
         ),
         Example(
-            "classes of ROS 1, which do not exist",
+            "a class of ROS 1, an unknown service, and a class that may be of ROS 1",
             {
-                "reset.py": "from rover_msgs import srv as own\nfrom std_srvs import srv\n"
+                "reset.py": "import std_srvs as std\nfrom rover_msgs import srv as own\n"
+                "from std_srvs import srv\n"
                 "import rclpy\n\nrclpy.init()\n"
-                "print(srv.TriggerResponse(), own.ResetResponse())\n"
+                "print(std.srv.TriggerResponse(), srv.Reset(), own.ResetResponse())\n"
             },
+            "7:7: 'TriggerResponse' is a class of ROS 1: AttributeError; write Trigger.Response()",
         ),
         Example(
             "a class of a module named action",
@@ -138,10 +140,8 @@ def _problem(package: Package, file: RclpyFile, call: ast.Call) -> str:
     name = file.module.qualified_name(call.func) or ""
     problem = ""
     interface = file.interface(call.func) if re.fullmatch(_WHOLE, name) else None
-    if interface and not _is_missing(package, interface):
-        part = "Goal" if ".action." in name else "Request"
-        kind = name.rpartition(".")[2]
-        problem = f"{kind} cannot be instantiated: NotImplementedError; write {kind}.{part}()"
+    if interface:
+        problem = _interface_problem(package, call, interface)
     elif isinstance(call.func, ast.Attribute) and not name and _is_value(file, call.func):
         problem = f"{call.func.attr!r} is a property, not a method: TypeError; remove the ()"
     match call:
@@ -152,12 +152,20 @@ def _problem(package: Package, file: RclpyFile, call: ast.Call) -> str:
     return problem
 
 
-def _is_missing(package: Package, interface: str) -> bool:
-    """Return whether an interface does not exist, or has a name of ROS 1: TY003 reports it."""
+def _interface_problem(package: Package, call: ast.Call, interface: str) -> str:
+    """Return the problem with a call of a service or an action, or of a class of ROS 1."""
+    root, kind, name = interface.split("/")
     definitions = package.workspace.interfaces
-    if interface.partition("/")[0] in definitions.packages():
-        return definitions.find(interface) is None
-    return interface.endswith(("Request", "Response"))
+    of_ros1 = re.fullmatch(r"(\w+)(Request|Response)", name)
+    is_uncertain = of_ros1 or root in definitions.packages()
+    if definitions.find(interface) is not None or not is_uncertain:
+        part = "Goal" if kind == "action" else "Request"
+        return f"{name} cannot be instantiated: NotImplementedError; write {name}.{part}()"
+    if of_ros1 and isinstance(call.func, ast.Attribute):  # otherwise TY002 reports the import
+        whole, part = of_ros1.groups()
+        if definitions.find(f"{root}/{kind}/{whole}") is not None:
+            return f"{name!r} is a class of ROS 1: AttributeError; write {whole}.{part}()"
+    return ""
 
 
 def _is_value(file: RclpyFile, node: ast.Attribute) -> bool:
