@@ -8,7 +8,8 @@ from collections.abc import Iterator
 from scaffold.api import Diagnostic, Example, Package, RclpyRule, Report, Severity
 from scaffold.api.rclpy import NODE, NodeClass, RclpyFile, class_of, is_method, only_while_stopping
 
-_FUNCTIONS = frozenset({"rclpy.init", "rclpy.shutdown", "rclpy.try_shutdown"})
+_SHUTDOWN = frozenset({"rclpy.shutdown", "rclpy.try_shutdown"})
+_FUNCTIONS = _SHUTDOWN | {"rclpy.init"}
 _FUNCTION_HAS = ("func", "self")
 """Attributes of bound methods and wrappers."""
 _NODE = (
@@ -107,6 +108,19 @@ class MethodNotCalled(RclpyRule):
             Report(
                 "11:5",
                 "rclpy.shutdown is not called; add the parentheses",
+                severity=Severity.WARNING,
+            ),
+        ),
+        Example(
+            "before the shutdown of a program that spins once",
+            {
+                "talker.py": "import rclpy\nfrom rclpy.node import Node\n\n\ndef main():\n"
+                "    rclpy.init()\n    node = Node('talker')\n    rclpy.spin_once(node)\n"
+                "    node.destroy_node\n    rclpy.shutdown()\n"
+            },
+            Report(
+                "9:5",
+                "'destroy_node' is a method that is not called; write destroy_node()",
                 severity=Severity.WARNING,
             ),
         ),
@@ -230,10 +244,23 @@ _PLACES = frozenset(
 
 def _level(file: RclpyFile, node: ast.Attribute) -> Severity:
     """Return the severity: cleanup at the end of a program is also done by the system."""
-    if not isinstance(file.module.parent(node), ast.Expr):
+    statement = file.module.parent(node)
+    if not isinstance(statement, ast.Expr):
         return Severity.ERROR
-    is_late = node.attr in _TIDYING and only_while_stopping(file.module, node)
+    is_late = only_while_stopping(file.module, node) or _is_before_shutdown(file, statement)
+    is_late = is_late and node.attr in _TIDYING
     return Severity.WARNING if is_late or node.attr in _LOGGING else Severity.ERROR
+
+
+def _is_before_shutdown(file: RclpyFile, statement: ast.stmt) -> bool:
+    """Return whether a later statement of the same block shuts rclpy down."""
+    field, start = file.module.index.place(statement)
+    later = getattr(file.module.parent(statement), field)[start + 1 :]
+    calls = [item.value for item in later if isinstance(item, ast.Expr)]
+    return any(
+        isinstance(call, ast.Call) and file.module.qualified_name(call.func) in _SHUTDOWN
+        for call in calls
+    )
 
 
 _CALLBACKS = frozenset({"callback", "command", "on_press", "target"})
