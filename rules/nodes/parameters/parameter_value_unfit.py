@@ -34,8 +34,8 @@ _SCALARS: Mapping[str, tuple[type, ...]] = {
     "string": (str,),
 }
 """The Python types of values that may equal those of parameters."""
-
-
+_UNSET = {"bool_value": "False", "double_value": "0.0", "integer_value": "0", "string_value": "''"}
+"""The values of fields of other types."""
 _NODE_FIELDS = (
     "from rclpy.node import Node\n\n\n"
     "class Talker(Node):\n"
@@ -157,7 +157,7 @@ class ParameterValueUnfit(RclpyRule):
             {"talker.py": _NODE_FIELDS.format("integer_value")},
             Report(
                 "8:23",
-                "'period' is declared as double: integer_value is always empty; use double_value",
+                "'period' is declared as double: integer_value is always 0; use double_value",
                 unsafe_fix="Read the field of the declared type",
             ),
             fixed={"talker.py": _NODE_FIELDS.format("double_value")},
@@ -167,7 +167,7 @@ class ParameterValueUnfit(RclpyRule):
             {"talker.py": _VARIABLES.format("string_value")},
             Report(
                 "9:23",
-                "'period' is declared as double: string_value is always empty; use double_value",
+                "'period' is declared as double: string_value is always ''; use double_value",
                 unsafe_fix="Read the field of the declared type",
             ),
             fixed={"talker.py": _VARIABLES.format("double_value")},
@@ -218,9 +218,10 @@ class ParameterValueUnfit(RclpyRule):
                     continue  # a fallback
                 if _is_of_asked_type(file, field):
                     continue
+                unset = _UNSET.get(field.attr, "empty")
                 _, end = file.module.span(field)
                 edit = Edit(file.module.path, end - len(field.attr), end, f"{declared}_value")
-                message = f"{read!r} is declared as {declared}: {field.attr} is always empty; "
+                message = f"{read!r} is declared as {declared}: {field.attr} is always {unset}; "
                 message += f"use {declared}_value"
                 fix = Fix("Read the field of the declared type", (edit,), Safety.UNSAFE)
                 yield self.report(file.module.location(field), message, fix)
