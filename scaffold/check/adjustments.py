@@ -379,9 +379,15 @@ def _adds_globals(module: PythonModule) -> bool:
     """Return whether a module sets global variables whose names are not in its text."""
     if not module.mentions("globals()"):
         return False
+    calls = [node for node in module.walk(ast.Call) if module.text(node.func) != "eval"]
     written = (
         *(node.value for node in module.walk(ast.Attribute) if node.attr == "update"),
         *(node.value for node in module.walk(ast.Subscript) if isinstance(node.ctx, ast.Store)),
+        *(
+            value
+            for call in calls
+            for value in (*call.args, *(word.value for word in call.keywords))
+        ),
     )
     return any(isinstance(node, ast.Call) and module.text(node) == "globals()" for node in written)
 

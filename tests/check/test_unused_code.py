@@ -797,6 +797,8 @@ def test_assertion_of_an_undefined_false(package: Path, capsys: pytest.CaptureFi
     [
         ("globals().update({'word': 1})", "warning"),
         ("globals()['word'] = 1", "warning"),
+        ("load('words', into=globals())", "warning"),
+        ("print(eval('1', globals()))", "error"),
         ("print(globals()['word'])", "error"),
     ],
 )

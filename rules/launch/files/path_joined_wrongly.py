@@ -16,6 +16,10 @@ _LAUNCH = (
 )
 
 
+_OF_SYSTEM = frozenset({"dev", "etc", "home", "media", "mnt", "opt", "root", "tmp", "usr", "var"})
+"""Directories at the root of every Linux system: a path into them is meant to be absolute."""
+
+
 class PathJoinedWrongly(LaunchRule):
     """A path in a share directory is joined with an extra slash, or without one.
 
@@ -32,6 +36,14 @@ class PathJoinedWrongly(LaunchRule):
     examples = (
         Example(
             "joined", {"launch/a.launch.py": _LAUNCH.format("PATH = os.path.join(SHARE, 'config')")}
+        ),
+        Example(
+            "an absolute path, which replaces the parts before it",
+            {
+                "launch/a.launch.py": _LAUNCH.format(
+                    "PATH = os.path.join(SHARE, '/opt/talk/a.yaml')"
+                )
+            },
         ),
         Example(
             "an extra slash",
@@ -65,7 +77,8 @@ class PathJoinedWrongly(LaunchRule):
             first = _text(launch, call.args[0])
             for part in call.args[1:]:
                 text = _text(launch, part)
-                if text.startswith("/") and not text.startswith(SHARE) and first:
+                is_absolute = text.partition("/")[2].partition("/")[0] in _OF_SYSTEM
+                if text.startswith("/") and not (is_absolute or text.startswith(SHARE)) and first:
                     message = (
                         f"{text!r} starts with a slash, which discards all parts before it; "
                         f"remove the slash"
