@@ -147,6 +147,23 @@ class NodeUnknown(Rule):
             },
         ),
         Example(
+            "a name unlike that of the only node with these parameters",
+            {
+                "package.xml": _MANIFEST,
+                "demo/talker.py": _NODE + "\n\ndef main():\n    Talker()\n",
+                "setup.py": "from setuptools import setup\n\n"
+                "setup(name='demo', packages=['demo'],\n"
+                "      entry_points={'console_scripts': ['talk = demo.talker:main']})\n",
+                "launch/a.launch.py": _LAUNCH.replace(
+                    "    ])",
+                    "        Node(package='demo', executable='talk', parameters=[params]),\n    ])",
+                ),
+                "config/demo.yaml": _FILE.format("camera") + _FILE.format("speech"),
+            },
+            "config/demo.yaml:4:1: no node that gets the file is named 'speech': the section is "
+            "ignored; launch/a.launch.py:11 starts talker",
+        ),
+        Example(
             "the name in the code, which the launch file overrides",
             {
                 "package.xml": _MANIFEST,
@@ -243,6 +260,8 @@ class NodeUnknown(Rule):
             if section.is_pattern or name in names or _may_be_created(use.nodes, name):
                 continue
             alike = _names_alike(file, names, name)
+            if not alike and use.complete and name not in everywhere:
+                alike = _nodes_with_parameters(package, file, section, use.nodes)
             is_renamed = name not in everywhere or name in codes
             renamed = _renamed(package, file, name) if use.complete else []
             if alike or renamed or (useless and use.complete and is_renamed):
@@ -349,6 +368,22 @@ def _names_alike(file: ParameterFile, names: set[str], name: str) -> list[str]:
     """Return the nodes without a section that one for ``name`` may be meant for."""
     given = {section.name for section in file.sections}
     return [other for other in sorted(names - given) if _is_alike(name, other)]
+
+
+def _nodes_with_parameters(
+    package: Package, file: ParameterFile, section: Section, nodes: list[StartedNode]
+) -> list[str]:
+    """Return the only node without a section that declares all parameters of one, if any."""
+    given = {section.name for section in file.sections}
+    found: set[str] = set()
+    for node in nodes:
+        owner, name = node.owner(package), node.name(package)
+        if owner is None or not isinstance(name, str) or name in given or not section.entries:
+            continue
+        declared = declared_by(owner, package).types
+        if all(entry.name in declared for entry in section.entries):
+            found.add(name)
+    return sorted(found) if len(found) == 1 else []
 
 
 def _is_alike(name: str, other: str) -> bool:

@@ -171,9 +171,22 @@ class ValueTypes:
         bindings = [
             item for item in self._module.index.bindings_of(node) if item.kind != "annotation"
         ]
+        if bindings and all(self._is_index(item.node) for item in bindings):
+            return "int"
         if not bindings or any(b.kind != "assignment" or b.value is None for b in bindings):
             return None
         return self.common_type([b.value for b in bindings if b.value is not None])
+
+    def _is_index(self, target: ast.AST) -> bool:
+        """Return whether a loop counts with a variable: by ``range`` or ``enumerate``."""
+        function, parent = "range", self._module.parent(target)
+        if isinstance(parent, ast.Tuple) and parent.elts[0] is target:
+            function, target, parent = "enumerate", parent, self._module.parent(parent)
+        match parent:
+            case ast.For(iter=ast.Call() as call) | ast.comprehension(iter=ast.Call() as call):
+                is_own = self._module.index.lookup(function, call) is not None
+                return parent.target is target and ast.unparse(call.func) == function and not is_own
+        return False
 
     def _of_attribute(self, node: ast.Attribute) -> str | None:
         """Return the type of a field, or of an attribute of ``self`` used as a counter."""
