@@ -103,6 +103,17 @@ class ObjectAppendedAgain(MessageRule):
             "self.pose; create a new object for each element",
         ),
         Example(
+            "attribute appended under another name",
+            {
+                "tracker.py": _NODE.replace("self.pose =", "self.last =").format(
+                    "pose = self.last\n        pose.pose = msg.pose.pose\n"
+                    "        self.path.poses.append(pose)"
+                )
+            },
+            "16:32: the same object from line 10 is appended each time: all elements are the last "
+            "pose; create a new object for each element",
+        ),
+        Example(
             "same object appended in a loop",
             {
                 "row.py": _LOOP.format(
@@ -179,22 +190,18 @@ def _made_once(
     made = _only_value(types, item)
     if not isinstance(made, ast.Call) or types.class_of(made.func) is None:
         return None
-    function = module.enclosing_function(call)
-    if isinstance(item, ast.Name):
-        loops = [
-            parent for parent in module.parents(call) if isinstance(parent, ast.For | ast.While)
-        ]
-        if not loops or loops[0] in module.parents(made) or _ends_after_append(loops[0], call):
+    function, maker = module.enclosing_function(call), module.enclosing_function(made)
+    if function is not maker and maker is not None:
+        is_kept = isinstance(holder, ast.Attribute) and module.text(holder).startswith("self.")
+        if not is_kept or function is None or maker.name != "__init__":
             return None
-        is_filled = _is_changed(types, loops[0], item) and not _is_emptied(types, loops[0], holder)
+        is_filled = _is_changed(types, function, item) and not _is_emptied(types, function, holder)
         return made if is_filled else None
-    is_kept = isinstance(holder, ast.Attribute) and module.text(holder).startswith("self.")
-    maker = module.enclosing_function(made)
-    if not is_kept or function is None or maker is function or maker is None:
+    loops = [parent for parent in module.parents(call) if isinstance(parent, ast.For | ast.While)]
+    if not loops or loops[0] in module.parents(made) or _ends_after_append(loops[0], call):
         return None
-    if maker.name != "__init__" or _is_emptied(types, function, holder):
-        return None
-    return made if _is_changed(types, function, item) else None
+    is_filled = _is_changed(types, loops[0], item) and not _is_emptied(types, loops[0], holder)
+    return made if is_filled and isinstance(item, ast.Name) else None
 
 
 def _only_value(types: MessageTypes, item: ast.Name | ast.Attribute) -> ast.expr | None:

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import ast
 
-from scaffold.api.messages import MessageTypes
+from scaffold.api.messages import MessageTypes, ValueTypes
 from scaffold.api.python import is_generator, may_end, returned
 from scaffold.api.rclpy import ActionServer, Service
+from scaffold.api.types import with_article
 
 ANSWERS = {"goal_callback": "GoalResponse", "cancel_callback": "CancelResponse"}
 """The enumerations whose values callbacks of an action server return, by its parameter."""
@@ -32,9 +33,9 @@ def wrong_for_action(
 
 def _wrong_answer(types: MessageTypes, value: ast.expr, answer: str) -> str:
     """Describe a returned value that is certainly not an answer to a goal."""
-    match value:
-        case ast.Compare() | ast.UnaryOp(op=ast.Not()):
-            return "a bool"
+    kind = "bool" if isinstance(value, ast.Compare) else ValueTypes(types).of(value)
+    if kind is not None:
+        return with_article(kind)
     name = types.module.qualified_name(value) or ""
     other = next((x for x in ANSWERS.values() if f".{x}." in name), answer)
     return "" if other == answer else f"a {other}"

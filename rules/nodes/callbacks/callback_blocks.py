@@ -13,7 +13,7 @@ from scaffold.api.programs import (
     names_other_executor,
     spins_in_one_thread,
 )
-from scaffold.api.rclpy import RclpyFile
+from scaffold.api.rclpy import RclpyFile, class_of
 
 SHORT = 0.05
 """Seconds; shorter sleeps are harmless."""
@@ -23,6 +23,7 @@ WAITING = frozenset(
     | {"urllib.request.urlopen", "urllib.request.urlretrieve"}
 )
 """Calls that wait for a server; the duration of subprocesses is unknown."""
+_CLOCKS = frozenset({"rclpy.clock.Clock", "rclpy.clock.ROSClock"})
 WAITS = frozenset({"wait_for_service", "wait_for_server"})
 _CALLER = (
     "from rclpy.node import Node\nfrom std_srvs.srv import Trigger\n\n\n"
@@ -93,6 +94,16 @@ class CallbackBlocks(RclpyRule):
     effect = Effect.WRONG_BEHAVIOR
     examples = (
         Example("no wait", {"talker.py": _NODE.format("self.now = time.time()")}),
+        Example(
+            "a sleep of a clock",
+            {
+                "talker.py": _NODE.replace(
+                    "import time\n", "from rclpy.duration import Duration"
+                ).format("self.get_clock().sleep_for(Duration(seconds=5.0))")
+            },
+            "11:9: self.get_clock().sleep_for() blocks callback 'tick' and all other callbacks; "
+            "use a timer or a thread of the node",
+        ),
         Example("a harmlessly short sleep", {"talker.py": _NODE.format("time.sleep(0.001)")}),
         Example(
             "a sleep",
@@ -208,8 +219,15 @@ def _blocking(file: RclpyFile, call: ast.Call) -> str:
         return "cv2.waitKey(0)" if isinstance(delay, int | float) and delay <= 0 else ""
     if name == "matplotlib.pyplot.show" and not call.args and not call.keywords:
         return "" if file.module.mentions(".ion()") else "matplotlib.pyplot.show()"
-    if isinstance(call.func, ast.Attribute) and _is_queue_awaited(file, call, call.func):
-        return f"{file.module.text(call.func)}() without a timeout"
+    return _blocking_method(file, call)
+
+
+def _blocking_method(file: RclpyFile, call: ast.Call) -> str:
+    match call.func:
+        case ast.Attribute(attr="sleep_for", value=clock) if class_of(file, clock) in _CLOCKS:
+            return f"{file.module.text(call.func)}()"
+        case ast.Attribute() as method if _is_queue_awaited(file, call, method):
+            return f"{file.module.text(method)}() without a timeout"
     return ""
 
 

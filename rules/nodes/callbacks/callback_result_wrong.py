@@ -97,6 +97,12 @@ class CallbackResultWrong(MessageRule):
             "treated as a rejection",
         ),
         Example(
+            "a bool computed by a function",
+            {"server.py": _NODE.format("return bool(goal.order)", "return Fibonacci.Result()")},
+            "13:9: returns a bool, not a GoalResponse for the action server of line 9: it is "
+            "treated as a rejection",
+        ),
+        Example(
             "the wrong response type, the feedback",
             {
                 "server.py": _NODE.format(
