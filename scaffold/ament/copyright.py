@@ -14,6 +14,7 @@ from scaffold.distributions import DATA
 from scaffold.files.disk import LargeFileError
 from scaffold.model.facts import fact
 from scaffold.model.package import Package
+from scaffold.model.remembered import remembered
 from scaffold.record import NamedTuple
 from scaffold.source import Location, ViewError
 
@@ -49,16 +50,13 @@ class Header(NamedTuple):
         return bool(self.holders) and self.license is not None
 
 
+@remembered
 def headers(package: Package) -> list[Header]:
     """Return the headers of the source files that ament_copyright checks.
 
     These are C, C++, CMake and Python files except empty ones and the ``setup.py`` next to
     package.xml.
     """
-    return package.remember("copyright", lambda: _headers(package))
-
-
-def _headers(package: Package) -> list[Header]:
     result: list[Header] = []
     for path in lintable(package):
         if os.path.splitext(path)[1] not in EXTENSIONS or path == "setup.py":

@@ -13,6 +13,7 @@ from itertools import pairwise
 
 from scaffold.ament.files import lintable
 from scaffold.model.package import Package
+from scaffold.model.remembered import remembered
 from scaffold.record import NamedTuple
 from scaffold.source import Location, Source, ViewError
 
@@ -79,14 +80,12 @@ def _is_cmake(path: str) -> bool:
     return name == "cmakelists.txt" or name.endswith((".cmake", ".cmake.in"))
 
 
+@remembered
 def _of_file(package: Package, path: str) -> dict[str, list[Finding]]:
-    def scan() -> dict[str, list[Finding]]:
-        result: dict[str, list[Finding]] = {}
-        for finding in Scan(package.source(path)).run():
-            result.setdefault(finding.filter, []).append(finding)
-        return result
-
-    return package.remember(("cmake_style", path), scan)
+    result: dict[str, list[Finding]] = {}
+    for finding in Scan(package.source(path)).run():
+        result.setdefault(finding.filter, []).append(finding)
+    return result
 
 
 class Line(NamedTuple):

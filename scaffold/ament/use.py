@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 from scaffold.model.install.declared_pytest import lacks_pytest
 from scaffold.model.install.unused import is_named, is_unrun_test
 from scaffold.model.python.module import is_collected
+from scaffold.model.remembered import remembered
 from scaffold.record import NamedTuple
 from scaffold.source import ViewError
 
@@ -55,6 +56,7 @@ class Use(NamedTuple):
         )
 
 
+@remembered
 def linter_use(package: Package, linter: str) -> Use:
     """Return how a package uses a linter: by CMake, or by a test in Python.
 
@@ -62,10 +64,6 @@ def linter_use(package: Package, linter: str) -> Use:
         package: The package.
         linter: Its name without ``ament_``: ``copyright``, ``flake8``, ``pep257``.
     """
-    return package.remember(("linter_use", linter), lambda: _use_of_linter(package, linter))
-
-
-def _use_of_linter(package: Package, linter: str) -> Use:
     uses = (_by_cmake(package, linter), _by_pytest(package, f"ament_{linter}"))
     result = [use for use in uses if use is not None]
     running = [use for use in result if use.runs]

@@ -8,7 +8,7 @@ import os
 import posixpath
 import re
 import sys
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from functools import lru_cache
 from typing import TYPE_CHECKING
 from xml.parsers import expat
@@ -18,6 +18,7 @@ from scaffold.ament.files import broken_links, lintable
 from scaffold.distributions import DATA
 from scaffold.files.disk import LargeFileError
 from scaffold.model.package import Package
+from scaffold.model.remembered import remembered
 from scaffold.record import NamedTuple
 from scaffold.source import Location, ParseError, Source
 
@@ -154,15 +155,12 @@ class _Use(NamedTuple):
     href: str
 
 
-def verdicts(package: Package) -> Sequence[Verdict]:
+@remembered
+def verdicts(package: Package) -> list[Verdict]:
     """Return the verdicts on XML files other than package.xml with their schemas.
 
     For an invalid file, the first error.
     """
-    return package.remember("xml_schemas", lambda: _verdicts(package))
-
-
-def _verdicts(package: Package) -> list[Verdict]:
     uses = [use for path in of_package(package) for use in _uses(package, path)]
     verdict_of: dict[_Use, Verdict | None] = {}
     jobs: dict[_Use, xml_validate.Job] = {}

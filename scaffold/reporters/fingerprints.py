@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from scaffold import lazy_re
 from scaffold.ament.codes import STYLE
 from scaffold.check.several import without_distribution
+from scaffold.model.remembered import remembered
 from scaffold.reporters.paths import in_repository
 from scaffold.source import ViewError
 
@@ -95,13 +96,10 @@ class _LineHashes:
         return f"{value % 2**64:x}:{count}"
 
 
+@remembered
 def _text(package: Package, path: str) -> str:
     """Return the text of a file, or of none."""
-
-    def read() -> str:
-        try:
-            return package.data(path).decode("utf-8", "replace")
-        except ViewError:
-            return ""
-
-    return package.remember(("text of lines", path), read)
+    try:
+        return package.data(path).decode("utf-8", "replace")
+    except ViewError:
+        return ""

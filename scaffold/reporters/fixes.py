@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from scaffold.edits import CreateFile, Edit, Fix, MakeExecutable, Remove
 from scaffold.model.package import Package
+from scaffold.model.remembered import remembered
 from scaffold.record import NamedTuple
 from scaffold.source import Location, Source, ViewError
 
@@ -65,14 +66,11 @@ class Repetitions:
         return self._written.setdefault(fix, number)
 
 
+@remembered
 def _source(package: Package, path: str) -> Source:
     """Return the text that the offsets of edits refer to; an ASCII file need not be parsed."""
-
-    def read() -> Source:
-        try:
-            source = package.source(path)
-        except ViewError:
-            return package.editable(path)
-        return source if source.text.isascii() else package.editable(path)
-
-    return package.remember(("text of edits", path), read)
+    try:
+        source = package.source(path)
+    except ViewError:
+        return package.editable(path)
+    return source if source.text.isascii() else package.editable(path)

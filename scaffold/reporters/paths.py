@@ -7,15 +7,21 @@ from collections.abc import Callable
 
 from scaffold.diagnostic import Diagnostic
 from scaffold.model.package import Package
+from scaffold.model.remembered import remembered
 from scaffold.printable import printable
 
 
+@remembered
 def shown(package: Package, path: str) -> str:
     """Return the path of a file of a package relative to the current directory.
 
     A file outside the current directory keeps the form in which its package was given.
     """
-    return package.remember(("shown", path), lambda: _shown(package, path))
+    joined = os.path.normpath(os.path.join(package.directory, path))
+    if not os.path.isabs(joined):
+        return joined
+    relative = os.path.relpath(joined)
+    return joined if relative.startswith(os.pardir) else relative
 
 
 def printable_path(package: Package, path: str) -> str:
@@ -33,24 +39,13 @@ def place(
     return f"{name(package, at.path)}:{at.line}:{at.column}"
 
 
+@remembered
 def in_repository(package: Package, path: str) -> str:
     """Return the real path of a file of a package relative to the top of its repository.
 
     The repository is the one around the current directory if the file is in it, else the one around
     the file. A file in no repository is relative to the current directory, like `shown`.
     """
-    return package.remember(("in repository", path), lambda: _in_repository(package, path))
-
-
-def _shown(package: Package, path: str) -> str:
-    joined = os.path.normpath(os.path.join(package.directory, path))
-    if not os.path.isabs(joined):
-        return joined
-    relative = os.path.relpath(joined)
-    return joined if relative.startswith(os.pardir) else relative
-
-
-def _in_repository(package: Package, path: str) -> str:
     real = os.path.realpath(os.path.join(package.directory, path))
     current = os.path.realpath(os.curdir)
     for start in (current, os.path.dirname(real)):

@@ -17,6 +17,7 @@ from scaffold.model.catalog import (
     similar_package,
 )
 from scaffold.model.released import dependencies, is_released, transitive_dependencies
+from scaffold.model.remembered import remembered
 from scaffold.record import NamedTuple
 from scaffold.source import ViewError
 
@@ -77,12 +78,9 @@ class Declared(NamedTuple):
         )
 
 
+@remembered
 def declared(package: Package, *, for_tests: bool) -> Declared:
     """Return the packages available to the package, or to its tests."""
-    return package.remember(("declared", for_tests), lambda: _declared(package, for_tests))
-
-
-def _declared(package: Package, for_tests: bool) -> Declared:  # noqa: FBT001  as declared() says
     manifest = package.manifest
     direct = set(manifest.run_names)
     # Code generators are build dependencies with modules as well.

@@ -14,6 +14,7 @@ from scaffold.model.contents.ament_cmake import has_unknown_commands
 from scaffold.model.facts import fact
 from scaffold.model.interfaces.sources import is_test_data
 from scaffold.model.interfaces.syntax import SECTIONS, Definition, Problem, ProblemKind, parse
+from scaffold.model.remembered import remembered, remembered_list
 from scaffold.record import NamedTuple
 from scaffold.source import ViewError
 
@@ -74,20 +75,13 @@ def is_commented_out(package: Package, path: str) -> bool:
     return any(name in cmake.text(token) for token in cmake.comments)
 
 
+@remembered
 def names_used_in_code(package: Package) -> set[str]:
     """Return the words in the workspace's code and interfaces that may name a type of a package.
 
     ``Beat`` of ``from my_msgs.msg import Beat``, ``my_msgs::msg::Beat``, ``my_msgs/Beat``, or alone
     in an interface of the package that is generated or used itself.
     """
-    return package.remember("names_used_in_code", lambda: _words_of_users(package))
-
-
-_COMMENT = lazy_re.compile(r"^[ \t]*(?://|#(?!include)).*", re.MULTILINE)
-"""Matches a line that is a comment of C++ or Python."""
-
-
-def _words_of_users(package: Package) -> set[str]:
     result: set[str] = set()
     not_generated: dict[str, AbstractSet[str]] = {}
     own: set[str] = set()
@@ -115,6 +109,10 @@ def _words_of_users(package: Package) -> set[str]:
     return result
 
 
+_COMMENT = lazy_re.compile(r"^[ \t]*(?://|#(?!include)).*", re.MULTILINE)
+"""Matches a line that is a comment of C++ or Python."""
+
+
 @fact
 def _names_used_in_python(package: Package, path: str, name: str) -> frozenset[str]:
     return _names_used_in(package, path, name)
@@ -135,15 +133,12 @@ def _capitalized(text: str) -> list[str]:
     return re.findall(r"[A-Z]\w+", text)
 
 
-def interface_files(package: Package) -> list[InterfaceFile]:
+@remembered_list
+def interface_files(package: Package) -> Iterator[InterfaceFile]:
     """Return the files that ``rosidl_generate_interfaces`` reads, or may read.
 
     None when nothing is generated: then they may be of ROS 1. Raises ViewError.
     """
-    return package.remember("interface_files", lambda: list(_read(package)))
-
-
-def _read(package: Package) -> Iterator[InterfaceFile]:
     calls = generations(package)
     if not calls:
         return

@@ -4,22 +4,20 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from scaffold.model.remembered import remembered
 from scaffold.source import ViewError
 
 if TYPE_CHECKING:
     from scaffold.model.package import Package
 
 
+@remembered
 def name_used_elsewhere(package: Package) -> str | None:
     """Return the name that all files except package.xml use, if there is one.
 
     The build file has another name, and more of the directory, the Python package,
     the marker and setup.cfg agree with it than with package.xml: then package.xml is wrong.
     """
-    return package.remember("name_used_elsewhere", lambda: _other_name(package))
-
-
-def _other_name(package: Package) -> str | None:
     try:
         declared = package.manifest.name
     except ViewError:

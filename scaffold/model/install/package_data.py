@@ -7,6 +7,7 @@ import re
 from typing import TYPE_CHECKING
 
 from scaffold.model.python.evaluation.values import Glob
+from scaffold.model.remembered import remembered
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -20,15 +21,12 @@ def matches(pattern: Glob, files: Iterable[str]) -> list[str]:
     return [path for path in files if re.fullmatch(expression, path)]
 
 
+@remembered
 def installed_data(package: Package) -> frozenset[str] | None:
     """Return the files that data_files install; ``None`` if unknown.
 
     A ``glob`` with a condition may install less than this.
     """
-    return package.remember("installed data", lambda: _installed_data(package))
-
-
-def _installed_data(package: Package) -> frozenset[str] | None:
     setup = package.setup_py
     if setup.call is None or setup.has_unknown_keywords or not setup.data_files_complete:
         return None

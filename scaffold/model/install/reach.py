@@ -25,6 +25,7 @@ from scaffold.model.install.unused import (
     names_file,
 )
 from scaffold.model.python.module import is_in_tests
+from scaffold.model.remembered import remembered
 from scaffold.source import ViewError
 
 if TYPE_CHECKING:
@@ -50,6 +51,7 @@ def is_never_run(package: Package, path: str) -> bool:
     return is_copy_of_old_code(package, path) or is_unreached(package, path, from_sources=False)
 
 
+@remembered
 def is_unreached(package: Package, path: str, *, from_sources: bool = True) -> bool:
     """Return whether no program, launch file, test or library runs or imports a Python file.
 
@@ -63,14 +65,10 @@ def is_unreached(package: Package, path: str, *, from_sources: bool = True) -> b
         from_sources: Whether a file is reached if a text tells people to start it from the
             sources.
     """
-
-    def find() -> bool:
-        try:
-            return _is_unreached(package, path, from_sources=from_sources)
-        except ViewError:  # of setup.py, for example
-            return False
-
-    return package.remember(("unreached", path, from_sources), find)
+    try:
+        return _is_unreached(package, path, from_sources=from_sources)
+    except ViewError:  # of setup.py, for example
+        return False
 
 
 def _is_unreached(package: Package, path: str, *, from_sources: bool) -> bool:

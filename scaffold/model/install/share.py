@@ -11,6 +11,7 @@ from scaffold.model.contents.ament_cmake import has_unknown_commands
 from scaffold.model.discovery.gitignore import is_untracked
 from scaffold.model.install.package_data import matches
 from scaffold.model.python.evaluation.values import Glob
+from scaffold.model.remembered import remembered
 from scaffold.record import NamedTuple
 from scaffold.source import ViewError
 
@@ -34,12 +35,9 @@ class Share(NamedTuple):
         return path in self.files or any(name.startswith(f"{path}/") for name in self.files)
 
 
+@remembered
 def share_of(package: Package) -> Share:
     """Return the files that a package installs below its share directory."""
-    return package.remember("share_files", lambda: _share(package))
-
-
-def _share(package: Package) -> Share:
     read = {"ament_cmake": _by_cmake, "ament_python": _by_setup}.get(package.build_type)
     try:
         share = read(package) if read else None

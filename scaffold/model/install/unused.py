@@ -11,6 +11,7 @@ from scaffold.formats.hash_comments import code_with, without_comments
 from scaffold.model.contents.words import files_with
 from scaffold.model.facts import fact
 from scaffold.model.python.module import is_collected, is_in_tests
+from scaffold.model.remembered import remembered
 from scaffold.source import ViewError
 
 if TYPE_CHECKING:
@@ -234,22 +235,19 @@ def is_named_in_text(package: Package, path: str, name: str) -> bool:
     )
 
 
+@remembered
 def _naming_files(package: Package, texts: tuple[str, ...]) -> Sequence[str]:
     """Return the files that may mention what is used."""
-
-    def find() -> list[str]:
-        unused = ("package.xml", *(_BUILDING[1:] if _is_built_by_cmake(package) else ()))
-        endings = (*_NAMING, *texts)
-        return [
-            item
-            for item in package.files
-            if item not in unused
-            and (item.endswith(endings) or item.startswith("scripts/"))
-            and not item.startswith(("config/", "params/"))
-            and (not item.endswith(_OF_CMAKE) or item in _lists(package))
-        ]
-
-    return package.remember(("files that mention names", texts), find)
+    unused = ("package.xml", *(_BUILDING[1:] if _is_built_by_cmake(package) else ()))
+    endings = (*_NAMING, *texts)
+    return [
+        item
+        for item in package.files
+        if item not in unused
+        and (item.endswith(endings) or item.startswith("scripts/"))
+        and not item.startswith(("config/", "params/"))
+        and (not item.endswith(_OF_CMAKE) or item in _lists(package))
+    ]
 
 
 @fact

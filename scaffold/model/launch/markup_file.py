@@ -10,6 +10,7 @@ from scaffold.formats import xml_reader
 from scaffold.formats import yaml as yaml_tree
 from scaffold.formats.xml import Attribute
 from scaffold.formats.yaml import Mapping, Scalar, Sequence
+from scaffold.model.remembered import remembered
 from scaffold.record import NamedTuple
 from scaffold.source import Location, Source, ViewError
 
@@ -90,14 +91,11 @@ class MarkupFile(NamedTuple):
         return named[0].get("default") if len(named) == 1 else None
 
 
+@remembered
 def markup_files(package: Package) -> list[MarkupFile]:
     """Return the launch files in XML and YAML that can be read; tests are skipped."""
-
-    def read() -> list[MarkupFile]:
-        result = [_read(package, path) for path in markup_paths(package)]
-        return [file for file in result if file is not None]
-
-    return package.remember("launch_markup", read)
+    result = [_read(package, path) for path in markup_paths(package)]
+    return [file for file in result if file is not None]
 
 
 def markup_paths(package: Package) -> list[str]:

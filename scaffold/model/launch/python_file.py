@@ -14,6 +14,7 @@ from scaffold.model.package import mentions
 from scaffold.model.python.evaluation.given_arguments import given_once
 from scaffold.model.python.evaluation.values import UNKNOWN, Unknown
 from scaffold.model.python.module import is_in_tests
+from scaffold.model.remembered import remembered_list
 from scaffold.record import NamedTuple
 from scaffold.source import Location, ViewError
 
@@ -48,17 +49,14 @@ class SharePath(NamedTuple):
     node: ast.expr
 
 
-def launch_paths(package: Package) -> list[str]:
+@remembered_list
+def launch_paths(package: Package) -> Iterator[str]:
     """Return the Python files that import launch, except those only used by tests."""
-
-    def find() -> Iterator[str]:
-        for path in package.python_files:
-            with suppress(ViewError):
-                imports_launch = not _ROOTS.isdisjoint(package.imports(path))
-                if imports_launch and not is_in_tests(path) and ".test." not in path:
-                    yield path
-
-    return package.remember("launch_paths", lambda: list(find()))
+    for path in package.python_files:
+        with suppress(ViewError):
+            imports_launch = not _ROOTS.isdisjoint(package.imports(path))
+            if imports_launch and not is_in_tests(path) and ".test." not in path:
+                yield path
 
 
 class LaunchFile:

@@ -8,22 +8,20 @@ from contextlib import suppress
 from scaffold.model.facts import fact
 from scaffold.model.interfaces.definitions import KINDS
 from scaffold.model.package import Package
+from scaffold.model.remembered import remembered_list
 from scaffold.source import ViewError
 
 _CONVERTING = frozenset({"cv_bridge", "sensor_msgs_py", "tf2_geometry_msgs"})
 """Libraries that create and read messages."""
 
 
-def message_paths(package: Package) -> Sequence[str]:
+@remembered_list
+def message_paths(package: Package) -> Iterator[str]:
     """Return the Python files that import interfaces, except those of ROS 1."""
-
-    def find() -> Iterator[str]:
-        for path in package.python_files:
-            with suppress(ViewError):
-                if _uses_interfaces(package, path):
-                    yield path
-
-    return package.remember("message_paths", lambda: [*find()])
+    for path in package.python_files:
+        with suppress(ViewError):
+            if _uses_interfaces(package, path):
+                yield path
 
 
 @fact

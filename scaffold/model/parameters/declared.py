@@ -14,6 +14,7 @@ from scaffold.model.rclpy.files import rclpy_files, rclpy_paths
 from scaffold.model.rclpy.nodes import NodeClass, NodeDefinition
 from scaffold.model.rclpy.parameters.descriptors import Descriptor
 from scaffold.model.rclpy.parameters.divisors import divisors
+from scaffold.model.remembered import remembered
 from scaffold.record import NamedTuple
 from scaffold.source import Location
 
@@ -208,17 +209,14 @@ def _from_outside(owner: NodeDefinition, package: Package) -> Iterator[Parameter
                 yield from (parameter for parameter in file.parameters if parameter.owner is owner)
 
 
+@remembered
 def own_nodes(package: Package) -> tuple[list[KnownNode], bool]:
     """Return the nodes in the Python code of a package, and whether there are no others."""
-
-    def find() -> tuple[list[KnownNode], bool]:
-        result = [node for path in rclpy_paths(package) for node in known_nodes(package, path)]
-        compiled = any(
-            path.endswith(_COMPILED) and not path.startswith("test") for path in package.files
-        )
-        return result, not compiled and all(isinstance(node.node_name, str) for node in result)
-
-    return package.remember("own_nodes", find)
+    result = [node for path in rclpy_paths(package) for node in known_nodes(package, path)]
+    compiled = any(
+        path.endswith(_COMPILED) and not path.startswith("test") for path in package.files
+    )
+    return result, not compiled and all(isinstance(node.node_name, str) for node in result)
 
 
 def _fixed_type(parameter: Parameter, *, may_be_dynamic: bool) -> str | None:

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 
 from scaffold.formats import yaml as yaml_tree
 from scaffold.formats.yaml import Alias, Mapping, Scalar, Sequence, YamlNode
+from scaffold.model.remembered import remembered
 from scaffold.record import NamedTuple
 from scaffold.source import ParseError, TooLargeError, ViewError
 
@@ -158,31 +159,24 @@ def mistake(package: Package, path: str) -> ParseError | None:
     return _read(package, path)[1]
 
 
+@remembered
 def _read(package: Package, path: str) -> tuple[ParameterFile | None, ParseError | None]:
-    def read() -> tuple[ParameterFile | None, ParseError | None]:
-        try:
-            return ParameterFile(path, yaml_tree.parse(package.source(path))), None
-        except TooLargeError:
-            return None, None
-        except ParseError as error:
-            return None, error
-        except ViewError:
-            return None, None
-
-    return package.remember(("parameter_file", path), read)
+    try:
+        return ParameterFile(path, yaml_tree.parse(package.source(path))), None
+    except TooLargeError:
+        return None, None
+    except ParseError as error:
+        return None, error
+    except ViewError:
+        return None, None
 
 
+@remembered
 def parameter_paths(package: Package) -> list[str]:
     """Return the files that are parameter files, or look like misspelled ones."""
-
-    def find() -> list[str]:
-        return [
-            path
-            for path in package.files
-            if path.endswith(ENDINGS) and _is_candidate(package, path)
-        ]
-
-    return package.remember("parameter_paths", find)
+    return [
+        path for path in package.files if path.endswith(ENDINGS) and _is_candidate(package, path)
+    ]
 
 
 def _is_candidate(package: Package, path: str) -> bool:

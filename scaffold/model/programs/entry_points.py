@@ -11,6 +11,7 @@ from scaffold.model.contents.python_facts import imports_of
 from scaffold.model.facts import fact
 from scaffold.model.install.configured_scripts import configured_scripts, installs_configured
 from scaffold.model.rclpy.file import rclpy_file
+from scaffold.model.remembered import remembered, remembered_list
 from scaffold.record import NamedTuple
 from scaffold.source import ViewError
 
@@ -49,9 +50,18 @@ class Execution(NamedTuple):
                 yield call, owner
 
 
-def starts_of(package: Package) -> Sequence[EntryPoint]:
+@remembered_list
+def starts_of(package: Package) -> Iterator[EntryPoint]:
     """Return the entry points of Python programs."""
-    return package.remember("program_starts", lambda: list(_starts(package)))
+    try:
+        if package.build_type == "ament_python":
+            yield from _console_scripts(package)
+        elif package.build_type == "ament_cmake":
+            yield from _programs(package)
+        if installs_configured(package):
+            yield from _configured(package)
+    except ViewError:
+        return
 
 
 def run_of(package: Package, path: str, function: str | None) -> Execution:
@@ -64,27 +74,25 @@ def files_of(package: Package, path: str) -> Sequence[RclpyFile]:
     return [rclpy_file(package, other) for other in paths_of(package, path)]
 
 
-def paths_of(package: Package, path: str) -> Sequence[str]:
+@remembered
+def paths_of(package: Package, path: str) -> list[str]:
     """Return the paths of a file and of its transitive imports in its package.
 
     The ``__init__.py`` of the packages around them are imported along with them.
     """
-    return package.remember(("program_paths", path), lambda: _paths(package, path))
+    result: list[str] = []
+    pending = [path]
+    while pending and len(result) < _MAX_FILES:
+        current = pending.pop()
+        if current in result or not package.has(current):
+            continue
+        with suppress(ViewError):
+            pending += [*_imported(package, current)]
+            result.append(current)
+    return result
 
 
 # -- entry points
-
-
-def _starts(package: Package) -> Iterator[EntryPoint]:
-    try:
-        if package.build_type == "ament_python":
-            yield from _console_scripts(package)
-        elif package.build_type == "ament_cmake":
-            yield from _programs(package)
-        if installs_configured(package):
-            yield from _configured(package)
-    except ViewError:
-        return
 
 
 def _configured(package: Package) -> Iterator[EntryPoint]:
@@ -163,19 +171,6 @@ def _calls_outside(file: RclpyFile) -> list[ast.Call]:
 
 
 # -- files of the package
-
-
-def _paths(package: Package, path: str) -> list[str]:
-    result: list[str] = []
-    pending = [path]
-    while pending and len(result) < _MAX_FILES:
-        current = pending.pop()
-        if current in result or not package.has(current):
-            continue
-        with suppress(ViewError):
-            pending += [*_imported(package, current)]
-            result.append(current)
-    return result
 
 
 def _imported(package: Package, path: str) -> Iterator[str]:

@@ -16,6 +16,7 @@ from scaffold.model.install.configured_scripts import (
     unknown_groups,
 )
 from scaffold.model.programs.known_nodes import KnownNode, known_nodes
+from scaffold.model.remembered import remembered, remembered_list
 from scaffold.record import NamedTuple
 from scaffold.source import ViewError
 
@@ -54,9 +55,14 @@ class Programs(NamedTuple):
     """Whether these are all."""
 
 
+@remembered
 def programs_of(package: Package) -> Programs:
     """Return the programs that a package installs in ``lib/<package>``."""
-    return package.remember("package_programs", lambda: _programs(package))
+    read = {"ament_cmake": _by_cmake, "ament_python": _by_setup}.get(package.build_type)
+    try:
+        return read(package) if read else Programs({}, complete=False)
+    except ViewError:
+        return Programs({}, complete=False)
 
 
 def nodes_of(package: Package, program: str) -> Sequence[KnownNode]:
@@ -93,12 +99,9 @@ def _made_by_others(package: Package, path: str) -> Iterator[KnownNode]:
                 yield from (node for node in known_nodes(other, name) if not node.is_class)
 
 
-def _imported(package: Package, path: str) -> Sequence[str]:
+@remembered_list
+def _imported(package: Package, path: str) -> Iterator[str]:
     """Return the files of the package that a file imports from."""
-    return package.remember(("imported_files", path), lambda: [*_find_imported(package, path)])
-
-
-def _find_imported(package: Package, path: str) -> Iterator[str]:
     roots = ("", "src/", f"{path.rpartition('/')[0]}/")
     for item in imports_of(package, path):
         if item.level or item.in_function:
@@ -123,14 +126,6 @@ def _is_readable(package: Package, path: str) -> bool:
     except ViewError:
         return False
     return True
-
-
-def _programs(package: Package) -> Programs:
-    read = {"ament_cmake": _by_cmake, "ament_python": _by_setup}.get(package.build_type)
-    try:
-        return read(package) if read else Programs({}, complete=False)
-    except ViewError:
-        return Programs({}, complete=False)
 
 
 def _by_setup(package: Package) -> Programs:

@@ -20,6 +20,7 @@ from scaffold.model.rclpy.entities import (
 from scaffold.model.rclpy.file import rclpy_file
 from scaffold.model.rclpy.files import rclpy_paths
 from scaffold.model.rclpy.topics.qos import Qos
+from scaffold.model.remembered import remembered
 from scaffold.record import NamedTuple
 from scaffold.source import Location, ViewError
 
@@ -97,9 +98,15 @@ def _named_endpoints(package: Package, path: str) -> tuple[NamedEndpoint, ...]:
     )
 
 
+@remembered
 def topics_of(package: Package) -> Mapping[str, Topic]:
     """Return the topics by name as written, without a leading slash."""
-    return package.remember("topics", lambda: _topics(package))
+    return {
+        name: Topic(publishers, subscriptions, *is_plain)
+        for name, publishers, subscriptions, is_plain in _by_name(
+            package, "Publisher", "Subscription"
+        )
+    }
 
 
 def one_sided(package: Package) -> tuple[list[Topic], list[Topic]]:
@@ -111,9 +118,13 @@ def one_sided(package: Package) -> tuple[list[Topic], list[Topic]]:
     )
 
 
+@remembered
 def services_of(package: Package) -> Mapping[str, ServiceName]:
     """Return the services by name as written, without a leading slash."""
-    return package.remember("services", lambda: _services(package))
+    return {
+        name: ServiceName(services, clients, is_plain[0])
+        for name, services, clients, is_plain in _by_name(package, "Service", "Client")
+    }
 
 
 def is_private(endpoint: NamedEndpoint) -> bool:
@@ -146,22 +157,6 @@ def _compiled_code(package: Package) -> Iterator[bytes]:
             if path.endswith(_COMPILED):
                 with suppress(ViewError):
                     yield other.data(path)
-
-
-def _topics(package: Package) -> Mapping[str, Topic]:
-    return {
-        name: Topic(publishers, subscriptions, *is_plain)
-        for name, publishers, subscriptions, is_plain in _by_name(
-            package, "Publisher", "Subscription"
-        )
-    }
-
-
-def _services(package: Package) -> Mapping[str, ServiceName]:
-    return {
-        name: ServiceName(services, clients, is_plain[0])
-        for name, services, clients, is_plain in _by_name(package, "Service", "Client")
-    }
 
 
 def _by_name(

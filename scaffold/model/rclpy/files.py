@@ -10,24 +10,22 @@ from scaffold.model.facts import fact
 from scaffold.model.package import Package
 from scaffold.model.python.module import is_in_tests
 from scaffold.model.rclpy.file import RclpyFile, rclpy_file
+from scaffold.model.remembered import remembered_list
 from scaffold.source import ViewError
 
 
-def rclpy_paths(package: Package) -> Sequence[str]:
+@remembered_list
+def rclpy_paths(package: Package) -> Iterator[str]:
     """Return the Python files that use rclpy, except tests, which may misuse it on purpose.
 
     One that gets a node, or is part of one, need not import it.
     """
-
-    def find() -> Iterator[str]:
-        for path in package.python_files:
-            with suppress(ViewError):
-                if "rclpy" not in package.imports(path) and not _uses_a_node(package, path):
-                    continue
-                if not is_in_tests(path) or not package.module(path).in_tests:
-                    yield path
-
-    return package.remember("rclpy_paths", lambda: list(find()))
+    for path in package.python_files:
+        with suppress(ViewError):
+            if "rclpy" not in package.imports(path) and not _uses_a_node(package, path):
+                continue
+            if not is_in_tests(path) or not package.module(path).in_tests:
+                yield path
 
 
 _OF_NODES = lazy_re.compile(

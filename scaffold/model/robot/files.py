@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from scaffold.formats import xml_reader
 from scaffold.model.install.share import share_of
 from scaffold.model.launch.files import launch_files
+from scaffold.model.remembered import remembered
 from scaffold.record import NamedTuple
 from scaffold.source import ParseError, Source, UnreadEndError
 
@@ -65,33 +66,30 @@ def _is_of_browser(package: Package, path: str) -> bool:
     )
 
 
+@remembered
 def robot_file(package: Package, path: str) -> RobotFile | None:
     """Return a file; ``None`` if it has a document type, which is not supported.
 
     Raises:
         ViewError: it does not exist, or is not well-formed.
     """
-
-    def read() -> RobotFile | None:
-        try:
-            source = xml_reader.decode(path, package.data(path))
-            # urdfdom ignores namespaces: elements of Drake need no declaration.
-            is_xacro = not path.endswith(".urdf") or "xacro" in source.text
-            root = xml_reader.parse(source, has_namespaces=is_xacro).root
-            return RobotFile(package, path, root)
-        except ParseError as error:
-            if "DOCTYPE" in error.message or not package.bytes_of(path).strip():
-                return None
-            message = error.message.replace("package.xml", path).replace(" such as <package>", "")
-            if '"xacro:" is not declared' in message:
-                message += (
-                    "; xacro and urdfdom reject the file: write "
-                    'xmlns:xacro="http://www.ros.org/wiki/xacro" in its root element'
-                )
-            is_read = path.endswith(".urdf") and _is_read_by_urdfdom(package, path, error)
-            raise (UnreadEndError if is_read else ParseError)(error.location, message) from None
-
-    return package.remember(("robot_file", path), read)
+    try:
+        source = xml_reader.decode(path, package.data(path))
+        # urdfdom ignores namespaces: elements of Drake need no declaration.
+        is_xacro = not path.endswith(".urdf") or "xacro" in source.text
+        root = xml_reader.parse(source, has_namespaces=is_xacro).root
+        return RobotFile(package, path, root)
+    except ParseError as error:
+        if "DOCTYPE" in error.message or not package.bytes_of(path).strip():
+            return None
+        message = error.message.replace("package.xml", path).replace(" such as <package>", "")
+        if '"xacro:" is not declared' in message:
+            message += (
+                "; xacro and urdfdom reject the file: write "
+                'xmlns:xacro="http://www.ros.org/wiki/xacro" in its root element'
+            )
+        is_read = path.endswith(".urdf") and _is_read_by_urdfdom(package, path, error)
+        raise (UnreadEndError if is_read else ParseError)(error.location, message) from None
 
 
 def _is_read_by_urdfdom(package: Package, path: str, error: ParseError) -> bool:

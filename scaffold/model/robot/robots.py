@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from scaffold import lazy_re
 from scaffold.model.package import mentions
+from scaffold.model.remembered import remembered
 from scaffold.model.robot.expressions import SHARE_MARK, is_known
 from scaffold.model.robot.files import RobotFile, next_to, robot_file, robot_paths
 from scaffold.model.robot.xacro.expansion import Expansion
@@ -39,28 +40,9 @@ class Robots(NamedTuple):
     """Files and macros not used by any robot."""
 
 
+@remembered
 def robots(package: Package) -> Robots:
     """Return the robots of a package."""
-    return package.remember("robots", lambda: _robots(package))
-
-
-def urdf_parts(package: Package) -> Iterator[Part]:
-    """Yield each URDF element in the files of a package, with its values in each call."""
-    expansions = robots(package)
-    for expansion in (*expansions.whole, *expansions.fragments):
-        if not expansion.file.is_robot:
-            continue
-        pending = [*expansion.root.children]
-        while pending:
-            part = pending.pop()
-            if part.tag in NOT_URDF or any(child.tag in _OF_CONTROL for child in part.children):
-                continue
-            if part.file.package is package:
-                yield part
-            pending += part.children
-
-
-def _robots(package: Package) -> Robots:
     files: list[RobotFile] = []
     for path in robot_paths(package):
         try:
@@ -91,6 +73,22 @@ def _robots(package: Package) -> Robots:
         if element.tag == "xacro:macro" and id(element) not in called
     ]
     return Robots(whole, fragments)
+
+
+def urdf_parts(package: Package) -> Iterator[Part]:
+    """Yield each URDF element in the files of a package, with its values in each call."""
+    expansions = robots(package)
+    for expansion in (*expansions.whole, *expansions.fragments):
+        if not expansion.file.is_robot:
+            continue
+        pending = [*expansion.root.children]
+        while pending:
+            part = pending.pop()
+            if part.tag in NOT_URDF or any(child.tag in _OF_CONTROL for child in part.children):
+                continue
+            if part.file.package is package:
+                yield part
+            pending += part.children
 
 
 def is_launched(package: Package, path: str) -> bool:

@@ -15,6 +15,7 @@ from scaffold.model.package import mentions
 from scaffold.model.python.evaluation.given_arguments import given_argument
 from scaffold.model.python.evaluation.values import UNKNOWN
 from scaffold.model.rclpy.file import rclpy_file
+from scaffold.model.remembered import remembered_list
 from scaffold.record import NamedTuple
 from scaffold.source import ViewError
 
@@ -117,16 +118,13 @@ def helper_paths(package: Package, path: str) -> tuple[HelperPath, ...]:
     return tuple(result)
 
 
-def _helpers(package: Package) -> list[HelperPath]:
+@remembered_list
+def _helpers(package: Package) -> Iterator[HelperPath]:
     """Return the helpers of all modules."""
-
-    def find() -> Iterator[HelperPath]:
-        for path in package.python_files:
-            with suppress(ViewError):
-                if mentions(package, path, _SHARE):
-                    yield from helper_paths(package, path)
-
-    return package.remember("helper_paths", lambda: [*find()])
+    for path in package.python_files:
+        with suppress(ViewError):
+            if mentions(package, path, _SHARE):
+                yield from helper_paths(package, path)
 
 
 @fact

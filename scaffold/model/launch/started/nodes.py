@@ -17,6 +17,7 @@ from scaffold.model.launch.python_file import NODES, LaunchFile, launch_paths
 from scaffold.model.launch.started.parameter_values import GivenValue, value_given
 from scaffold.model.programs.executables import nodes_of
 from scaffold.model.python.evaluation.values import UNKNOWN, Unknown
+from scaffold.model.remembered import remembered_list
 from scaffold.record import NamedTuple
 from scaffold.source import Location, ViewError
 
@@ -135,13 +136,11 @@ def consumers(package: Package) -> list[StartedNode]:
     return [node for node in _all_started(package) if node.has_parameters]
 
 
-def _all_started(package: Package) -> list[StartedNode]:
-    def find() -> Iterator[StartedNode]:
-        for path in launch_paths(package):
-            with suppress(ViewError):
-                yield from _started_by(package, path)
-
-    return package.remember("started_nodes", lambda: [*find()])
+@remembered_list
+def _all_started(package: Package) -> Iterator[StartedNode]:
+    for path in launch_paths(package):
+        with suppress(ViewError):
+            yield from _started_by(package, path)
 
 
 @fact

@@ -13,6 +13,7 @@ from scaffold.model.launch.started.nodes import StartedNode, consumers, started_
 from scaffold.model.launch.unused.unlaunched import is_in_unlaunched_action
 from scaffold.model.package import mentions
 from scaffold.model.parameters.declared import Declared, declared_by, own_nodes
+from scaffold.model.remembered import remembered, remembered_list
 from scaffold.record import NamedTuple
 from scaffold.source import ViewError
 
@@ -56,12 +57,9 @@ def values_in_files(package: Package) -> Iterator[FileValue]:
                 yield FileValue(file.path, entry, declared)
 
 
+@remembered
 def use_of(package: Package, path: str) -> FileUse:
     """Return the nodes that read a parameter file, according to the package itself."""
-    return package.remember(("file_use", path), lambda: _use_of(package, path))
-
-
-def _use_of(package: Package, path: str) -> FileUse:
     installed = share_of(package).files
     result: list[StartedNode] = []
     passed = False
@@ -144,25 +142,20 @@ def _has(package: Package, code: str, key: str) -> bool:
     return not key or any(mentions(package, code, f"{quote}{key}{quote}") for quote in "'\"")
 
 
-def _code_loading_yaml(package: Package) -> list[str]:
-    def find() -> Iterator[str]:
-        for path in package.python_files:
-            with contextlib.suppress(ViewError):
-                if any(mentions(package, path, loader) for loader in _LOADERS):
-                    yield path
-
-    return package.remember("code_loading_yaml", lambda: [*find()])
+@remembered_list
+def _code_loading_yaml(package: Package) -> Iterator[str]:
+    for path in package.python_files:
+        with contextlib.suppress(ViewError):
+            if any(mentions(package, path, loader) for loader in _LOADERS):
+                yield path
 
 
+@remembered
 def node_names(package: Package) -> set[str]:
     """Return all names of nodes in the code and launch files of the package."""
-
-    def find() -> set[str]:
-        names = {str(node.node_name) for node in own_nodes(package)[0]}
-        started = (*started_nodes(package), *consumers(package))
-        return names | {str(node.name(package)) for node in started}
-
-    return package.remember("node_names", find)
+    names = {str(node.node_name) for node in own_nodes(package)[0]}
+    started = (*started_nodes(package), *consumers(package))
+    return names | {str(node.name(package)) for node in started}
 
 
 def _is_mentioned(package: Package, path: str, launch_files: set[str]) -> bool:
