@@ -142,15 +142,6 @@ def _is_each(finding: TypeFinding) -> bool:
     return False
 
 
-def timeout(call: ast.Call, name: str) -> ast.expr | None:
-    """Return the timeout argument of such a function."""
-    for keyword in call.keywords:
-        if keyword.arg == "timeout":
-            return keyword.value
-    place = TIMEOUTS[name]
-    return call.args[place] if len(call.args) > place else None
-
-
 def instead(package: Package, expected: str, given: str) -> str:
     """Return the replacement, if it is clear."""
     wanted, class_ = class_in(expected.partition(" | ")[0]), class_itself(given)

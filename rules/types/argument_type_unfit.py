@@ -5,10 +5,11 @@ from __future__ import annotations
 import ast
 
 from scaffold.api import Diagnostic, Example, Report, Severity, TypeRule
+from scaffold.api.python import argument_of
 from scaffold.api.types import MARKED, TypeFinding, in_words, is_certain, with_article
 
 from ._argument_problems import argument_problem
-from ._arguments import TIMEOUTS, timeout
+from ._arguments import TIMEOUTS
 
 _NODE = (
     "import rclpy\nfrom rclpy.duration import Duration\nfrom rclpy.node import Node\n"
@@ -947,7 +948,7 @@ class ArgumentTypeUnfit(TypeRule):
         matched = finding.match(rf"No overload of .*`{MARKED}\.(?P<name>\w+)` matches arguments")
         if call is None or matched is None or matched["name"] not in TIMEOUTS:
             return None
-        value = timeout(call, matched["name"])
+        value = argument_of(call, "timeout", TIMEOUTS[matched["name"]])
         if not (isinstance(value, ast.Constant) and type(value.value) in {int, float}):
             return None
         name, kind = matched["name"], with_article(type(value.value).__name__)

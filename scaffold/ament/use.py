@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 
 from scaffold.model.install.declared_pytest import lacks_pytest
 from scaffold.model.install.unused import is_named, is_unrun_test
+from scaffold.model.python.evaluation.given_arguments import argument_of
 from scaffold.model.python.module import is_collected
 from scaffold.model.remembered import remembered
 from scaffold.record import NamedTuple
@@ -247,8 +248,8 @@ def _given_paths(module: PythonModule) -> tuple[str, ...]:
     for call in module.walk(ast.Call):
         if not ast.unparse(call.func).endswith("main"):
             continue
-        given = [word.value for word in call.keywords if word.arg == "argv"] or call.args[:1]
-        values = _constants(given[0]) if given and isinstance(given[0], ast.List) else None
+        given = argument_of(call, "argv", 0)
+        values = _constants(given) if isinstance(given, ast.List) else None
         paths = {_plain(value) for option, value in values or () if not option}
         if values is None or paths <= {"", "."} or "." in paths:
             return ()

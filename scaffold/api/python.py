@@ -18,7 +18,11 @@ from scaffold.model.python.conditions.guards import (
     is_handled,
     values_asked,
 )
-from scaffold.model.python.evaluation.given_arguments import arguments_for, given_argument
+from scaffold.model.python.evaluation.given_arguments import (
+    argument_of,
+    arguments_for,
+    given_argument,
+)
 from scaffold.model.python.evaluation.literals import joined_names
 from scaffold.model.python.evaluation.returns import (
     is_generator,
@@ -51,6 +55,7 @@ __all__ = [
     "PythonModule",
     "Unknown",
     "all_conditions",
+    "argument_of",
     "arguments_for",
     "caught_around",
     "conditions_on",

@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping
 
 from scaffold.api.interfaces import FLOATS, INTEGER_RANGES, FieldType
 from scaffold.api.messages import MessageTypes, kind_of_field
+from scaffold.api.python import argument_of
 
 _NUMBERS = frozenset({"float", "int"})
 KINDS: dict[str, type] = {"bool": bool, "float": float, "int": int, "str": str}
@@ -216,9 +217,9 @@ def _encoding(types: MessageTypes, image: ast.expr) -> object:
             last = function.body[-1]
             made = last.value if isinstance(last, ast.Return) else None
     match made:
-        case ast.Call(func=ast.Attribute(attr="imgmsg_to_cv2"), args=args, keywords=words):
-            given = [*args[1:], *(word.value for word in words if word.arg == "desired_encoding")]
-            return types.file.evaluator.evaluate(given[0]) if len(given) == 1 else None
+        case ast.Call(func=ast.Attribute(attr="imgmsg_to_cv2")):
+            given = argument_of(made, "desired_encoding", 1)
+            return types.file.evaluator.evaluate(given) if given is not None else None
     return None
 
 

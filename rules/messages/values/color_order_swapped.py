@@ -8,6 +8,7 @@ from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, MessageRule
 from scaffold.api.messages import MessageTypes
+from scaffold.api.python import argument_of
 
 _NODE = (
     "import cv2\nfrom cv_bridge import CvBridge\nfrom sensor_msgs.msg import Image\n\n\n"
@@ -319,6 +320,6 @@ def _is_frame(types: MessageTypes, image: ast.Name) -> bool:
 
 
 def _encoding(types: MessageTypes, call: ast.Call, keyword: str) -> str:
-    given = [word.value for word in call.keywords if word.arg == keyword] or call.args[1:2]
-    value = types.file.evaluator.evaluate(given[0]) if given else ""
+    given = argument_of(call, keyword, 1)
+    value = types.file.evaluator.evaluate(given) if given is not None else ""
     return value if isinstance(value, str) else ""

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, PythonRule
 from scaffold.api.distributions import target
-from scaffold.api.python import PythonModule
+from scaffold.api.python import PythonModule, argument_of
 from scaffold.api.rclpy import RclpyFile
 
 _NODE = (
@@ -97,13 +97,10 @@ class CallbackWithoutSignature(PythonRule):
 def _callbacks(file: RclpyFile) -> Iterator[ast.expr]:
     """Yield the callbacks of subscriptions of any node."""
     for call in file.module.walk(ast.Call):
-        match call:
-            case ast.Call(
-                func=ast.Attribute(attr="create_subscription"), args=[_, _, callback, *_]
-            ):
+        if isinstance(call.func, ast.Attribute) and call.func.attr == "create_subscription":
+            callback = argument_of(call, "callback", 2)
+            if callback is not None:
                 yield callback
-            case ast.Call(func=ast.Attribute(attr="create_subscription"), keywords=keywords):
-                yield from (item.value for item in keywords if item.arg == "callback")
 
 
 def _method(file: RclpyFile, node: ast.expr) -> str:

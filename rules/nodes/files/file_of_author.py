@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, RclpyRule, Severity
-from scaffold.api.python import PathValue
+from scaffold.api.python import PathValue, argument_of
 from scaffold.api.rclpy import RclpyFile
 
 _READERS = frozenset(
@@ -88,8 +88,8 @@ class FileOfAuthor(RclpyRule):
 
 def _opens_for_reading(call: ast.Call) -> bool:
     """Return whether ``open`` reads: it has no mode, or a literal mode for reading."""
-    modes = [*call.args[1:2], *(word.value for word in call.keywords if word.arg == "mode")]
-    return all(isinstance(mode, ast.Constant) and str(mode.value)[:1] == "r" for mode in modes)
+    mode = argument_of(call, "mode", 1)
+    return mode is None or (isinstance(mode, ast.Constant) and str(mode.value)[:1] == "r")
 
 
 def _is_in(package: Package, text: str) -> bool:

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, RclpyRule, Report, Safety
 from scaffold.api.parameters import declared_by
-from scaffold.api.python import UNKNOWN, Unknown, conditions_on, is_handled
+from scaffold.api.python import UNKNOWN, Unknown, argument_of, conditions_on, is_handled
 from scaffold.api.rclpy import FIELDS, NodeDefinition, RclpyFile, is_listed_parameter, name_asked
 
 _NUMBERS = ("double", "integer")
@@ -375,8 +375,9 @@ def _parameter_read(file: RclpyFile, node: ast.expr) -> tuple[NodeDefinition | N
     func = file.method_of(made)
     if func is None or func.attr not in _GIVING:
         return None, UNKNOWN
-    named = [*made.args[:1], *(word.value for word in made.keywords if word.arg == "name")]
-    return file.owner_of(func.value), file.evaluator.text(named[0]) if named else UNKNOWN
+    named = argument_of(made, "name", 0)
+    name = file.evaluator.text(named) if named is not None else UNKNOWN
+    return file.owner_of(func.value), name
 
 
 def _indexed_parameter(

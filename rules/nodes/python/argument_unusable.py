@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, RclpyRule, Report
-from scaffold.api.python import UNKNOWN, kind_of
+from scaffold.api.python import UNKNOWN, argument_of, kind_of
 from scaffold.api.rclpy import (
     Argument,
     Client,
@@ -184,12 +184,14 @@ class ArgumentUnusable(RclpyRule):
         yield from self._check_order(file)
         for call in file.module.walk(ast.Call):
             if file.module.qualified_name(call.func) in _TOPICS:
-                for word in call.keywords:
-                    name = file.evaluator.evaluate(word.value) if word.arg == "type" else ""
-                    if isinstance(name, str) and name and not re.fullmatch(_FULL_NAME, name):
-                        message = f"{name!r} is not a full type name, such as "
-                        message += "'std_msgs/msg/String': the bag cannot be read"
-                        yield self.report(file.module.location(word.value), message)
+                given = argument_of(call, "type")
+                name = file.evaluator.evaluate(given) if given is not None else ""
+                if given is None or not isinstance(name, str) or not name:
+                    continue
+                if not re.fullmatch(_FULL_NAME, name):
+                    message = f"{name!r} is not a full type name, such as "
+                    message += "'std_msgs/msg/String': the bag cannot be read"
+                    yield self.report(file.module.location(given), message)
 
     def _check_types(self, file: RclpyFile) -> Iterator[Diagnostic]:
         for entity in file.entities:

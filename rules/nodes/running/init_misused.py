@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Effect, Example, Fix, RclpyRule, Report, Severity
 from scaffold.api.distributions import target
-from scaffold.api.python import FunctionNode
+from scaffold.api.python import FunctionNode, argument_of
 from scaffold.api.rclpy import RclpyCall, RclpyFile, known_names
 
 _MAIN = (
@@ -160,16 +160,15 @@ class InitMisused(RclpyRule):
 
     def _check_arguments(self, file: RclpyFile) -> Iterator[Diagnostic]:
         for call in file.init_calls:
-            given = [word.value for word in call.call.keywords if word.arg == "args"]
-            given = given or call.call.args[:1]
-            if not given or not isinstance(given[0], ast.List | ast.Tuple) or given[0].elts:
+            given = argument_of(call.call, "args", 0)
+            if not isinstance(given, ast.List | ast.Tuple) or given.elts:
                 continue
-            if any(word.arg == "context" for word in call.call.keywords):
+            if argument_of(call.call, "context") is not None:
                 continue
             own = call.function.args.args if call.function else []
             fix = None
             if any(argument.arg == "args" for argument in own):
-                edit = Edit(file.module.path, *file.module.span(given[0]), "args")
+                edit = Edit(file.module.path, *file.module.span(given), "args")
                 fix = Fix("Pass the arguments", (edit,))
             message = "an empty list replaces the command line: --ros-args is ignored; pass args"
             is_meant = any(
@@ -177,7 +176,7 @@ class InitMisused(RclpyRule):
             )
             is_given = call.function is not None and _is_given_more(call.function)
             severity = Severity.WARNING if is_meant or is_given else Severity.ERROR
-            yield self.report(file.module.location(given[0]), message, fix, severity=severity)
+            yield self.report(file.module.location(given), message, fix, severity=severity)
 
 
 def _is_given_more(function: FunctionNode) -> bool:

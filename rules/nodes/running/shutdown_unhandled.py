@@ -6,6 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, RclpyRule, Severity
+from scaffold.api.python import argument_of
 from scaffold.api.rclpy import RclpyCall, RclpyFile
 
 _IMPORTS = "import rclpy\nfrom rclpy.executors import ExternalShutdownException\n\n\n"
@@ -147,5 +148,5 @@ def _is_in_main_loop(file: RclpyFile, call: RclpyCall) -> bool:
 
 def _never_waits(file: RclpyFile, call: RclpyCall) -> bool:
     """Return whether ``timeout_sec=0`` lets a loop end on shutdown without an exception."""
-    given = [word.value for word in call.call.keywords if word.arg == "timeout_sec"]
-    return bool(given) and file.evaluator.evaluate(given[0]) == 0
+    given = argument_of(call.call, "timeout_sec")
+    return given is not None and file.evaluator.evaluate(given) == 0

@@ -14,7 +14,7 @@ from scaffold.api.programs import (
     names_callback_group,
     names_other_executor,
 )
-from scaffold.api.python import arguments_for, conditions_on
+from scaffold.api.python import argument_of, arguments_for, conditions_on
 from scaffold.api.rclpy import Entity, NodeClass, RclpyFile
 
 MOST = 2
@@ -367,5 +367,5 @@ def _endings_after(file: RclpyFile, node: ast.AST) -> Iterator[ast.stmt]:
 
 
 def _is_self(file: RclpyFile, call: ast.Call) -> bool:
-    given = [*call.args[:1], *(word.value for word in call.keywords if word.arg == "node")]
-    return bool(given) and file.evaluator.self_class(given[0]) is not None
+    given = argument_of(call, "node", 0)
+    return given is not None and file.evaluator.self_class(given) is not None

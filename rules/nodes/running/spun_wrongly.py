@@ -6,6 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Effect, Example, RclpyRule, Report, Severity
+from scaffold.api.python import argument_of
 from scaffold.api.rclpy import RclpyCall, RclpyFile, class_of
 
 from ._executors import Shutdowns, used_of_executor
@@ -219,7 +220,7 @@ class SpunWrongly(RclpyRule):
                 node = call.call.args[0] if call.call.args else None
                 if call.name.startswith("executor.") or node is None:
                     continue
-                if any(word.arg == "executor" for word in call.call.keywords):
+                if argument_of(call.call, "executor") is not None:
                     continue
                 if file.module.text(node) == name and _share_scope(file, thread, call.call):
                     message = (
@@ -361,8 +362,8 @@ def _has_many_threads(call: ast.Call) -> bool:
 def _has_one_thread(file: RclpyFile, call: ast.Call) -> bool:
     if file.module.in_tests or not _has_many_threads(call):
         return False
-    given = [*call.args[:1], *(word.value for word in call.keywords if word.arg == "num_threads")]
-    return bool(given) and file.evaluator.evaluate(given[0]) == 1
+    given = argument_of(call, "num_threads", 0)
+    return given is not None and file.evaluator.evaluate(given) == 1
 
 
 def _left_out(file: RclpyFile, made: ast.Call) -> list[str]:

@@ -6,7 +6,7 @@ import ast
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
-from scaffold.api.python import returned
+from scaffold.api.python import argument_of, returned
 from scaffold.api.rclpy import class_of
 
 if TYPE_CHECKING:
@@ -90,9 +90,8 @@ def _made(file: RclpyFile, call: ast.Call) -> str | None:
     if name not in _DEFAULTS or any(word.arg is None for word in call.keywords):
         return None
     place, default = _DEFAULTS[name]
-    given = call.args[place : place + 1]
-    given += [word.value for word in call.keywords if word.arg == "clock_type"]
-    if not given:
+    given = argument_of(call, "clock_type", place)
+    if given is None:
         return default
-    type_ = file.module.qualified_name(file.evaluator.single_value(given[0])) or ""
+    type_ = file.module.qualified_name(file.evaluator.single_value(given)) or ""
     return type_.rpartition(".")[2] if "ClockType." in type_ else None

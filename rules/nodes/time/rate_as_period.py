@@ -7,6 +7,7 @@ import re
 from collections.abc import Iterator, Mapping
 
 from scaffold.api import Diagnostic, Effect, Example, RclpyRule, Report, Severity
+from scaffold.api.python import argument_of
 from scaffold.api.rclpy import RclpyFile
 
 _RATES = frozenset({"rate", "frequency", "freq", "hz", "fps"})
@@ -188,14 +189,14 @@ class RateAsPeriod(RclpyRule):
         self, file: RclpyFile, call: ast.Call, name: str
     ) -> Iterator[Diagnostic]:
         """Check a rate, and a duration in nanoseconds."""
-        for word in call.keywords if name == "Duration" else ():
-            value = file.evaluator.evaluate(word.value) if word.arg == "nanoseconds" else None
-            if isinstance(value, int | float) and 1 < value < _FEWEST:
-                message = f"{value:g} ns are no time at all; write seconds={value:g}"
-                yield self.report(file.module.location(word.value), message)
         if name == "Duration":
+            given = argument_of(call, "nanoseconds")
+            value = file.evaluator.evaluate(given) if given is not None else None
+            if given is not None and isinstance(value, int | float) and 1 < value < _FEWEST:
+                message = f"{value:g} ns are no time at all; write seconds={value:g}"
+                yield self.report(file.module.location(given), message)
             return
-        given = _argument(call, 0, "frequency")
+        given = argument_of(call, "frequency", 0)
         if given is not None and _words(file, given) & _PERIODS:
             message = "a period is passed as the rate; write 1.0 / period"
             yield self.report(file.module.location(given), message)
@@ -238,14 +239,6 @@ def _is_milliseconds(number: float) -> bool:
     return number >= _LONG and number % 10 == 0 and number % 60 != 0
 
 
-def _argument(call: ast.Call, place: int, name: str) -> ast.expr | None:
-    for word in call.keywords:
-        if word.arg == name:
-            return word.value
-    given = call.args[place] if len(call.args) > place else None
-    return None if isinstance(given, ast.Starred) else given
-
-
 def _seconds(file: RclpyFile, call: ast.Call, name: str) -> ast.expr | None:
     """Return the argument in seconds of a function."""
     place, word = _SECONDS[name]
@@ -253,7 +246,7 @@ def _seconds(file: RclpyFile, call: ast.Call, name: str) -> ast.expr | None:
         return None
     if name == "Duration" and file.module.qualified_name(call.func) != "rclpy.duration.Duration":
         return None
-    return _argument(call, place, word)
+    return argument_of(call, word, place)
 
 
 def _words(file: RclpyFile, node: ast.expr) -> frozenset[str]:

@@ -6,6 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Effect, Example, Package, RclpyRule, Severity
+from scaffold.api.python import argument_of
 from scaffold.api.rclpy import RclpyFile
 
 _PARAMETERS = frozenset({"rclpy.parameter.Parameter", "rclpy.Parameter"})
@@ -88,10 +89,9 @@ def _is_of_simulation(package: Package, file: RclpyFile) -> bool:
 def _forced(file: RclpyFile, call: ast.Call) -> ast.expr | None:
     """Return the expression in a call that turns simulated time on."""
     if not _PARAMETERS.isdisjoint(file.module.qualified_names(call.func)):
-        named = [*call.args[:1], *(x.value for x in call.keywords if x.arg == "name")]
-        values = [*call.args[2:3], *(x.value for x in call.keywords if x.arg == "value")]
-        is_named = bool(named) and file.evaluator.text(named[0]) == "use_sim_time"
-        is_on = bool(values) and file.evaluator.evaluate(values[0]) is True
+        name, value = argument_of(call, "name", 0), argument_of(call, "value", 2)
+        is_named = name is not None and file.evaluator.text(name) == "use_sim_time"
+        is_on = value is not None and file.evaluator.evaluate(value) is True
         return call if is_named and is_on else None
     if file.module.qualified_name(call.func) == "rclpy.init" or any(
         word.arg == "cli_args" for word in call.keywords

@@ -9,6 +9,7 @@ from scaffold import distributions
 from scaffold.changes import Change, of_kind
 from scaffold.model.python.conditions.distribution_branches import is_run
 from scaffold.model.python.conditions.guards import caught_around, has_fallback
+from scaffold.model.python.evaluation.given_arguments import argument_of
 from scaffold.model.python.evaluation.values import is_none_literal
 from scaffold.model.python.module import PythonModule
 from scaffold.model.rclpy.api import class_of
@@ -57,11 +58,11 @@ def _is_meant(file: RclpyFile, call: ast.Call, change: Change) -> bool:
     """Return whether a call has the changed arguments, and is not prepared for the change."""
     if any(word.arg is None for word in call.keywords) or _is_ready(file.module, call, change):
         return False
-    if change.without and _argument(call, change.without) is not None:
+    if change.without and argument_of(call, change.without) is not None:
         return False
     if not change.having:
         return True
-    value = _argument(call, change.having, change.position)
+    value = argument_of(call, change.having, change.position)
     return value is not None and _is_meant_value(file, value, change)
 
 
@@ -84,17 +85,6 @@ def _is_caught(module: PythonModule, call: ast.Call, error: str) -> bool:
     if not caught_around(module, call).isdisjoint({error, _ABOVE.get(error, error)}):
         return True
     return has_fallback(module, call, is_rare=True)
-
-
-def _argument(call: ast.Call, keyword: str, place: int | None = None) -> ast.expr | None:
-    """Return an argument of a call, by name or position."""
-    for word in call.keywords:
-        if word.arg == keyword:
-            return word.value
-    if place is None or len(call.args) <= place:
-        return None
-    before = call.args[: place + 1]
-    return None if any(isinstance(item, ast.Starred) for item in before) else call.args[place]
 
 
 def _is_of_node(file: RclpyFile, value: ast.expr) -> bool:

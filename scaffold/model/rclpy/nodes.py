@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from scaffold.model.python.evaluation.given_arguments import given_argument
+from scaffold.model.python.evaluation.given_arguments import argument_of, given_argument
 from scaffold.model.python.evaluation.values import UNKNOWN, Unknown
 from scaffold.model.rclpy.entities import (
     ActionClient,
@@ -117,16 +117,7 @@ class NodeDefinition:
 
     def _constructor_argument(self, name: str, position: int | None) -> ast.expr | None:
         call = self.constructor_call
-        if call is None:
-            return None
-        for word in call.keywords:
-            if word.arg == name:
-                return word.value
-        args = call.args
-        if position is not None and len(args) > position:
-            given = args[: position + 1]
-            return None if any(isinstance(arg, ast.Starred) for arg in given) else args[position]
-        return None
+        return argument_of(call, name, position) if call is not None else None
 
 
 class NodeObject(NodeDefinition):

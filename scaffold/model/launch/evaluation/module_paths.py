@@ -12,7 +12,7 @@ from scaffold.model.facts import fact
 from scaffold.model.launch.evaluation.evaluator import LaunchEvaluator, share_path
 from scaffold.model.launch.python_file import LaunchFile, SharePath
 from scaffold.model.package import mentions
-from scaffold.model.python.evaluation.given_arguments import given_argument
+from scaffold.model.python.evaluation.given_arguments import argument_of, given_argument
 from scaffold.model.python.evaluation.values import UNKNOWN
 from scaffold.model.rclpy.file import rclpy_file
 from scaffold.model.remembered import remembered_list
@@ -204,7 +204,5 @@ def _is_read(call: ast.Call) -> bool:
     name = getattr(call.func, "attr", getattr(call.func, "id", ""))
     if name != "open":
         return _READING.fullmatch(name) is not None
-    modes = [*call.args[1:2], *(item.value for item in call.keywords if item.arg == "mode")]
-    return all(
-        isinstance(mode, ast.Constant) and not {*"wax+"} & {*str(mode.value)} for mode in modes
-    )
+    mode = argument_of(call, "mode", 1)
+    return mode is None or (isinstance(mode, ast.Constant) and not {*"wax+"} & {*str(mode.value)})

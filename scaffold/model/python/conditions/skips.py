@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
+from scaffold.model.python.evaluation.given_arguments import argument_of
 from scaffold.model.python.module import PythonModule
 from scaffold.model.python.scopes import FunctionNode
 from scaffold.record import NamedTuple
@@ -61,8 +62,8 @@ def _conditions(module: PythonModule, mark: ast.expr, depth: int) -> Iterator[Sk
             for binding in lookup[1] if lookup and len(lookup[1]) == 1 else ():
                 if binding.kind == "assignment" and binding.value is not None:
                     yield from _conditions(module, binding.value, depth + 1)
-        case ast.Call(func=func, args=args, keywords=words):
+        case ast.Call(func=func):
             needed = _NEEDED.get(module.qualified_name(func) or "")
-            given = [*args[:1], *(word.value for word in words if word.arg == "condition")]
-            if needed is not None and given:
-                yield SkipCondition(given[0], needed)
+            given = argument_of(mark, "condition", 0)
+            if needed is not None and given is not None:
+                yield SkipCondition(given, needed)

@@ -11,6 +11,23 @@ if TYPE_CHECKING:
     from scaffold.model.python.syntax_tree import SyntaxTree
 
 
+def argument_of(call: ast.Call, name: str, place: int | None = None) -> ast.expr | None:
+    """Return the argument of a call by its name or place; ``None`` if it is not given, or unknown.
+
+    Args:
+        call: The call.
+        name: The name of the parameter.
+        place: Its place among positional arguments; ``None`` if it is keyword-only.
+    """
+    for word in call.keywords:
+        if word.arg == name:
+            return word.value
+    if place is None or not 0 <= place < len(call.args):
+        return None
+    before = call.args[: place + 1]
+    return None if any(isinstance(item, ast.Starred) for item in before) else call.args[place]
+
+
 def given_once(module: SyntaxTree, parameter: ast.AST) -> ast.expr | None:
     """Return the argument for a parameter of a function if the file only calls it once."""
     function = module.parent(module.parent(parameter) or parameter)

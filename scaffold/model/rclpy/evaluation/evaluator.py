@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from scaffold.model.python.evaluation.attributes import AttributeEvaluator
 from scaffold.model.python.evaluation.call_sites import CallSites
-from scaffold.model.python.evaluation.given_arguments import given_argument
+from scaffold.model.python.evaluation.given_arguments import argument_of, given_argument
 from scaffold.model.python.evaluation.values import UNKNOWN, is_known, same
 
 if TYPE_CHECKING:
@@ -108,8 +108,8 @@ class NodeEvaluator(AttributeEvaluator):
         func = self.single_value(call.func) if isinstance(call.func, ast.Name) else call.func
         if not isinstance(func, ast.Attribute) or func.attr not in PARAMETER_CALLS:
             return UNKNOWN
-        named = [*call.args, *(word.value for word in call.keywords if word.arg == "name")]
-        name = self.text(named[0]) if named else UNKNOWN
+        named = argument_of(call, "name", 0)
+        name = self.text(named) if named is not None else UNKNOWN
         if name is UNKNOWN:
             return UNKNOWN
         value = self._default_of(func.value, name)
