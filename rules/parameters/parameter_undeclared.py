@@ -19,7 +19,6 @@ from scaffold.api import (
 )
 from scaffold.api.launch import (
     GivenParameter,
-    StartedNode,
     is_loaded,
     is_only_loaded,
     nodes_for,
@@ -250,7 +249,7 @@ class ParameterUndeclared(Rule):
             if owner is None or declared is None or not declared.complete:
                 continue
             for given in node.parameters:
-                if not declared.has(given.name) and not _is_shared(package, node, given.name):
+                if not declared.has(given.name):
                     value = _comparable_in_launch(given)
                     others = {other.name: _comparable_in_launch(other) for other in node.parameters}
                     ignored = _Ignored(package, [owner], [declared], given.name, value, others)
@@ -321,14 +320,3 @@ def _comparable_in_launch(given: GivenParameter) -> str:
     if value is None or given.configuration is not None:
         return ""
     return value.text if value.number is None else comparable(value.number)
-
-
-def _is_shared(package: Package, node: StartedNode, name: str) -> bool:
-    """Return whether another program with the same node name has the parameter."""
-    return any(
-        other.launch == node.launch
-        and other.executable != node.executable
-        and any(given.name == name for given in other.parameters)
-        and other.name(package) == node.name(package)
-        for other in started_nodes(package)
-    )

@@ -48,15 +48,12 @@ def _may_fail(module: PythonModule, node: ast.AST) -> bool:
 
 def _is_received(module: PythonModule, test: FunctionNode, loop: ast.For) -> bool:
     """Return whether a loop runs over a list that only a callback fills."""
-    match loop.iter:
-        case ast.Name():
-            value = module.index.only_value(loop.iter)
-            uses = [use for use in module.below(test, ast.Name) if use.id == loop.iter.id]
-            others = [use for use in uses if not _is_plain(module, use, loop)]
-            return not others and (_is_filled(module, loop.iter, value) or _collects(module, value))
-        case ast.Call():
-            return _collects(module, loop.iter)
-    return False
+    name = loop.iter
+    if not isinstance(name, ast.Name):
+        return False
+    uses = [use for use in module.below(test, ast.Name) if use.id == name.id]
+    is_plain = all(_is_plain(module, use, loop) for use in uses)
+    return is_plain and _is_filled(module, name, module.index.only_value(name))
 
 
 def _is_plain(module: PythonModule, use: ast.Name, loop: ast.For) -> bool:
@@ -74,17 +71,3 @@ def _is_filled(module: PythonModule, name: ast.Name, value: ast.expr | None) -> 
 def _appended(module: PythonModule) -> set[str]:
     """Return the lists that subscriptions of the file append to."""
     return {name for call in module.walk(ast.Call) for name in appended_lists(call)}
-
-
-def _collects(module: PythonModule, value: ast.expr | None) -> bool:
-    """Return whether a call returns a list that a callback fills, and nothing else."""
-    function = module.index.only_node(value.func) if isinstance(value, ast.Call) else None
-    if not isinstance(function, ast.FunctionDef):
-        return False
-    if any(isinstance(node, ast.Assert | ast.Raise) for node in ast.walk(function)):
-        return False
-    returned = [node.value for node in module.below(function, ast.Return)]
-    match returned:
-        case [ast.Name() as name]:
-            return _is_filled(module, name, module.index.only_value(name))
-    return False

@@ -3,15 +3,12 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 
 from scaffold.model.python.module import PythonModule
 
 _MAX_DEPTH = 8
 """The maximum number of names and operators to trace a value through."""
-_OF_NUMBERS = frozenset({"float", "int", "str", "len", "round", "repr"})
-_OF_CLOCKS = frozenset({"time.time", "time.monotonic", "time.perf_counter"})
-"""Functions that return a number or a text, whatever is passed."""
 
 
 def may_be_of_library(module: PythonModule, value: ast.AST) -> bool:
@@ -21,7 +18,7 @@ def may_be_of_library(module: PythonModule, value: ast.AST) -> bool:
     ``if x is None: return`` it only sees the float.
     """
     return any(
-        _is_asked_about(module, operand) and not _is_plain(module, operand)
+        _is_asked_about(module, operand)
         for operation in _operations(module, value)
         for operand in _operands(operation)
     )
@@ -86,40 +83,3 @@ def _tests_in(module: PythonModule, function: ast.AST) -> Iterator[ast.expr]:
                 yield test
             case ast.Assert(test=test):
                 yield test
-
-
-def _is_plain(module: PythonModule, value: ast.expr, depth: int = 0) -> bool:
-    """Return whether a value is a number or a text for certain; ``None`` before it is set."""
-    if depth > _MAX_DEPTH:
-        return False
-    values: Sequence[ast.expr] = ()
-    match value:
-        case ast.Constant() | ast.JoinedStr():
-            return True
-        case ast.Call(func=func):
-            is_conversion = isinstance(func, ast.Name) and func.id in _OF_NUMBERS
-            return is_conversion or module.qualified_name(func) in _OF_CLOCKS
-        case ast.BinOp(left=left, right=right):
-            values = (left, right)
-        case ast.UnaryOp(operand=operand):
-            values = (operand,)
-        case ast.Name() | ast.Attribute(value=ast.Name(id="self")):
-            values = _all_values(module, value)
-    return bool(values) and all(_is_plain(module, item, depth + 1) for item in values)
-
-
-def _all_values(module: PythonModule, variable: ast.Name | ast.Attribute) -> Sequence[ast.expr]:
-    """Return all that is assigned to a variable or an attribute of ``self``; empty if unknown."""
-    if isinstance(variable, ast.Name):
-        values = [*_assigned(module, variable)]
-        return values if len(values) == len(module.index.bindings_of(variable)) else ()
-    stores = [
-        use for use in module.index.attributes(variable.attr) if not isinstance(use.ctx, ast.Load)
-    ]
-    statements = [module.parent(use) for use in stores]
-    values = [
-        item.value
-        for item in statements
-        if isinstance(item, ast.Assign | ast.AugAssign) and item.value is not None
-    ]
-    return values if len(values) == len(stores) else ()

@@ -17,7 +17,6 @@ _RENAMED = {
     "node_plugin": "plugin",
 }
 """The keywords of nodes that were renamed in Foxy and removed in Galactic."""
-_RELEASES = frozenset({"crystal", "dashing", "eloquent", "foxy", "ROS_DISTRO"})
 _IMPORTS = (
     "from launch import LaunchDescription\n"
     "from launch.actions import DeclareLaunchArgument, TimerAction\n"
@@ -135,7 +134,7 @@ class ArgumentsDoNotFit(LaunchRule):
                 if (
                     message
                     and word.value not in reported
-                    and not _is_meant(launch, call.call, name)
+                    and not is_tried(launch.module, call.call, name)
                 ):
                     reported.add(word.value)
                     yield self._of_keyword(launch, call, word, message)
@@ -179,13 +178,6 @@ def _unknown(call: LaunchCall, keyword: str) -> str:
     return f"{call.kind} has no argument {keyword!r}: TypeError{hint}"
 
 
-def _is_meant(launch: LaunchFile, call: ast.Call, keyword: str) -> bool:
-    """Return whether the code handles a failing call, or is for an old release."""
-    if is_tried(launch.module, call, keyword):
-        return True
-    return keyword in _RENAMED and _is_for_release(launch, call)
-
-
 def _misfit(call: LaunchCall) -> str:
     """Return the problem with the number of arguments; empty if there is none."""
     parameters = signature(call.kind)
@@ -207,15 +199,3 @@ def _too_many(kind: str, positional: tuple[str, ...]) -> str:
         return f"{kind} takes keyword arguments only"
     count = f"{len(positional)} positional argument" + "s" * (len(positional) > 1)
     return f"{kind} takes {count}: {', '.join(positional)}"
-
-
-def _is_for_release(launch: LaunchFile, call: ast.Call) -> bool:
-    """Return whether a call is only run on another release of ROS."""
-    return any(
-        isinstance(parent, ast.If | ast.IfExp)
-        and any(
-            isinstance(part, ast.Constant) and part.value in _RELEASES
-            for part in ast.walk(parent.test)
-        )
-        for parent in launch.module.parents(call)
-    )

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 
 from scaffold.api import Diagnostic, Example, RclpyRule, Report, Severity
 from scaffold.api.programs import Phases, phases_of
@@ -148,7 +148,7 @@ def _is_made_once(file: RclpyFile, phases: Phases, node: ast.expr) -> bool:
     match node:
         case ast.Call(func=ast.Attribute(attr="to_msg", value=time), args=[]):
             return _is_set_once(file, phases, time, _is_now)
-    return _is_set_once(file, phases, node, lambda x: _is_time(file, x) or _is_stamped(file, x))
+    return _is_set_once(file, phases, node, lambda x: _is_time(file, x))
 
 
 def _is_set_once(
@@ -163,30 +163,7 @@ def _is_set_once(
     )
 
 
-def _is_stamped(file: RclpyFile, node: ast.expr) -> bool:
-    """Return whether it is a header that is created with the time and never changed."""
-    if not isinstance(node, ast.Call) or file.module.qualified_name(node.func) != _HEADER:
-        return False
-    return not _later(file, node) and any(
-        word.arg == "stamp" and _is_time(file, word.value) for word in node.keywords
-    )
-
-
 _HEADER = "std_msgs.msg.Header"
-
-
-def _later(file: RclpyFile, made: ast.Call) -> Sequence[ast.Attribute]:
-    """Return the places that set the stamp of an attribute of ``self``."""
-    parent = file.module.parent(made)
-    target = parent.targets[0] if isinstance(parent, ast.Assign) else None
-    if not isinstance(target, ast.Attribute):
-        return []
-    text = file.module.text(target)
-    return [
-        store.node
-        for store in file.evaluator.stores("stamp")
-        if file.module.text(store.node.value) == text
-    ]
 
 
 def _set_in_constructor(file: RclpyFile, phases: Phases, attribute: str) -> bool:

@@ -196,21 +196,11 @@ def _taken_inside(file: RclpyFile, held: _Held) -> Iterator[ast.AST]:
 
 
 def _is_taken_by_call(file: RclpyFile, node: ast.AST, lock: ast.expr) -> bool:
-    """Return whether a call or property runs a function that acquires a lock, even indirectly."""
-    function = None
-    if isinstance(node, ast.Call):
-        function = file.callback(node.func).function
-    elif isinstance(node, ast.Attribute) and isinstance(node.ctx, ast.Load):
-        function = file.callback(node).function
-        if not isinstance(function, ast.FunctionDef) or not _is_property(function):
-            return False
+    """Return whether a call runs a function that acquires a lock, even indirectly."""
+    function = file.callback(node.func).function if isinstance(node, ast.Call) else None
     if not isinstance(function, ast.FunctionDef):
         return False
     return any(_acquires(file, inner, lock) for inner in file.reached(function))
-
-
-def _is_property(function: ast.FunctionDef) -> bool:
-    return any(isinstance(x, ast.Name) and x.id == "property" for x in function.decorator_list)
 
 
 def _acquires(file: RclpyFile, function: FunctionNode | ast.Lambda, lock: ast.expr) -> bool:

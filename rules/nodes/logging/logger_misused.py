@@ -179,8 +179,6 @@ class LoggerMisused(RclpyRule):
             return True
         if isinstance(node, ast.Call):
             return file.module.qualified_name(node.func) in {"len", "int", "float", "sum", "list"}
-        if isinstance(node, ast.Attribute) and _is_number(file, node):
-            return True
         value = file.evaluator.evaluate(node)
         return value is not UNKNOWN and isinstance(value, int | float | list | tuple | dict)
 
@@ -228,11 +226,7 @@ def _adds_number(file: RclpyFile, node: ast.BinOp) -> bool:
     if not isinstance(node.op, ast.Add):
         return False
     left = file.evaluator.evaluate(node.left)
-    right = file.evaluator.evaluate(node.right)
-    is_number = type(right) in {int, float} or (
-        isinstance(node.right, ast.Attribute) and _is_number(file, node.right)
-    )
-    return isinstance(left, str) and is_number
+    return isinstance(left, str) and type(file.evaluator.evaluate(node.right)) in {int, float}
 
 
 def _levels(file: RclpyFile) -> Iterator[tuple[ast.Call, ast.expr]]:
@@ -257,21 +251,3 @@ def _is_logger(file: RclpyFile, node: ast.expr) -> bool:
         case ast.Call(func=ast.Name() as function):
             return file.module.qualified_name(function) == "rclpy.logging.get_logger"
     return False
-
-
-def _is_number(file: RclpyFile, node: ast.Attribute) -> bool:
-    """Return whether all values assigned to an attribute of ``self`` are numbers."""
-    class_ = file.module.enclosing_class(node)
-    if class_ is None or not isinstance(node.value, ast.Name) or node.value.id != "self":
-        return False
-    values: list[ast.expr] = []
-    for statement in file.module.below(class_, ast.Assign, ast.AugAssign, ast.Attribute):
-        match statement:
-            case ast.Assign(targets=[ast.Attribute(value=ast.Name(id="self"), attr=name)]):
-                values += [statement.value] if name == node.attr else []
-            case ast.AugAssign(target=ast.Attribute(value=ast.Name(id="self"), attr=name)):
-                values += [statement.value] if name == node.attr else []
-            case ast.Attribute(value=ast.Name(id="self"), ctx=ast.Del()):
-                return False
-    evaluated = [file.evaluator.evaluate(value) for value in values]
-    return bool(evaluated) and all(type(value) in {int, float} for value in evaluated)

@@ -31,7 +31,7 @@ def _wrong_result(file: RclpyFile, value: ast.expr | None) -> str:
     if fields is not None:
         is_refusal = "successful" not in fields
         return f"a SetParametersResult without successful=True: {_REFUSED}" if is_refusal else ""
-    value = _one_of_constants(file, value) or file.evaluator.single_value(value)
+    value = file.evaluator.single_value(value)
     full = file.module.qualified_name(value.func if isinstance(value, ast.Call) else value) or ""
     problem = ""
     if isinstance(value, ast.Constant):
@@ -56,13 +56,6 @@ def _returned_by(file: RclpyFile, value: ast.expr) -> ast.Call | None:
 
 def _is_plain(function: object) -> TypeGuard[ast.FunctionDef]:
     return isinstance(function, ast.FunctionDef) and not function.decorator_list
-
-
-def _one_of_constants(file: RclpyFile, value: ast.expr) -> ast.Constant | None:
-    """Return one of the constants of a variable, if it has no other values."""
-    values = [binding.value for binding in file.module.index.bindings_of(value)]
-    constants = [item for item in values if isinstance(item, ast.Constant)]
-    return constants[0] if constants and len(constants) == len(values) else None
 
 
 def _wrong_list(file: RclpyFile, value: ast.expr | None) -> str:

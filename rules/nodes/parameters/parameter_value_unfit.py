@@ -368,8 +368,6 @@ def _parameter_read(file: RclpyFile, node: ast.expr) -> tuple[NodeDefinition | N
         Node and name; ``None`` and ``UNKNOWN`` if the expression is no such call.
     """
     made = file.evaluator.single_value(node)
-    if isinstance(made, ast.Subscript):
-        return _indexed_parameter(file, made)
     if not isinstance(made, ast.Call):
         return None, UNKNOWN
     func = file.method_of(made)
@@ -378,18 +376,3 @@ def _parameter_read(file: RclpyFile, node: ast.expr) -> tuple[NodeDefinition | N
     named = argument_of(made, "name", 0)
     name = file.evaluator.text(named) if named is not None else UNKNOWN
     return file.owner_of(func.value), name
-
-
-def _indexed_parameter(
-    file: RclpyFile, node: ast.Subscript
-) -> tuple[NodeDefinition | None, str | Unknown]:
-    """Return the parameter of ``self.get_parameters(['rate', 'mode'])[0]``."""
-    call = file.evaluator.single_value(node.value)
-    index = file.evaluator.evaluate(node.slice)
-    match call:
-        case ast.Call(func=ast.Attribute(attr="get_parameters", value=receiver), args=[given]):
-            names = file.evaluator.evaluate(given)
-            if isinstance(names, list | tuple) and type(index) is int and index < len(names):
-                name = names[index]
-                return file.owner_of(receiver), name if isinstance(name, str) else UNKNOWN
-    return None, UNKNOWN

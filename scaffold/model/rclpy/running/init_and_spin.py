@@ -74,20 +74,9 @@ def _run_name(evaluator: NodeEvaluator, call: ast.Call) -> str | None:
 
 def _is_executor(evaluator: NodeEvaluator, node: ast.expr) -> bool:
     value = evaluator.single_value(node)
-    if value is node and isinstance(node, ast.Name):
-        value = _context_manager(evaluator, node) or node
     if not isinstance(value, ast.Call):
         return False
     return not _EXECUTORS.isdisjoint(evaluator.module.qualified_names(value.func))
-
-
-def _context_manager(evaluator: NodeEvaluator, node: ast.Name) -> ast.expr | None:
-    """Return the context manager of ``with ... as name``."""
-    for binding in evaluator.module.index.bindings_of(node):
-        parent = evaluator.module.parent(binding.node)
-        if isinstance(parent, ast.withitem):
-            return parent.context_expr
-    return None
 
 
 def _rclpy_call(
