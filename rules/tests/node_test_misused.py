@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Rule
 from scaffold.api.parameters import own_nodes
-from scaffold.api.python import FunctionNode, PythonModule
+from scaffold.api.python import FunctionNode, PythonModule, last_name
 from scaffold.api.tests import (
     Fixture,
     TestFunction,
@@ -243,7 +243,7 @@ def _is_without_init(package: Package, module: PythonModule, test: FunctionNode)
         any(parent in ending for parent in other.parents(node))
         for other in modules
         for node in (*other.walk(ast.Name), *other.walk(ast.Attribute))
-        if "init" in str(getattr(node, "attr", getattr(node, "id", ""))).lower()
+        if "init" in last_name(node).lower()
     )
 
 

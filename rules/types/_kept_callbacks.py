@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api.python import PythonModule, conditions_on, given_argument
+from scaffold.api.python import PythonModule, conditions_on, given_argument, last_name
 from scaffold.api.rclpy import Callback, numbers_taken, rclpy_file
 from scaffold.api.types import TypeFinding
 
@@ -75,7 +75,7 @@ def _passed(finding: TypeFinding, func: ast.expr) -> Iterator[tuple[Callback, st
 def _calls_in(module: PythonModule, name: str) -> Iterator[ast.Call]:
     """Yield the calls of a class in a file."""
     for call in module.walk(ast.Call):
-        if getattr(call.func, "attr", getattr(call.func, "id", "")) == name:
+        if last_name(call.func) == name:
             yield call
 
 

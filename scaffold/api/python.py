@@ -18,6 +18,7 @@ from scaffold.model.python.conditions.guards import (
     is_handled,
     values_asked,
 )
+from scaffold.model.python.conditions.handlers import last_name
 from scaffold.model.python.evaluation.given_arguments import (
     argument_of,
     arguments_for,
@@ -69,6 +70,7 @@ __all__ = [
     "is_none_literal",
     "joined_names",
     "kind_of",
+    "last_name",
     "may_end",
     "may_end_with_items",
     "paths_importing",

@@ -8,6 +8,7 @@ from collections.abc import Set as AbstractSet
 from typing import TypeGuard
 
 from scaffold.model.package import Package
+from scaffold.model.python.conditions.handlers import last_name
 from scaffold.model.python.evaluation.given_arguments import (
     arguments_for,
     given_argument,
@@ -296,8 +297,7 @@ def _is_nothing(value: ast.expr) -> bool:
 
 
 def _is_class(value: ast.expr) -> bool:
-    name = value.attr if isinstance(value, ast.Attribute) else getattr(value, "id", "")
-    return name[:1].isupper()
+    return last_name(value)[:1].isupper()
 
 
 def called_as(module: PythonModule, name: ast.Name) -> str:
@@ -325,7 +325,7 @@ def given_by_modules(
         values = (
             given_argument(function, call, parameter, is_method=called != function.name)
             for call in module.walk(ast.Call)
-            if call.lineno == place.line and _last_name(call.func) == called.rpartition(".")[2]
+            if call.lineno == place.line and last_name(call.func) == called.rpartition(".")[2]
         )
         yield module, next(values, None), place.seen_from(package)
 
@@ -333,13 +333,6 @@ def given_by_modules(
 def is_handed_on(module: PythonModule, value: ast.expr | None) -> bool:
     """Return whether an argument is a parameter of the caller."""
     return isinstance(value, ast.Name) and parameter_of(module, value)[0] is not None
-
-
-def _last_name(function: ast.expr) -> str:
-    match function:
-        case ast.Attribute(attr=name) | ast.Name(id=name):
-            return name
-    return ""
 
 
 def other_parameters(module: PythonModule, name: ast.Name) -> frozenset[str]:

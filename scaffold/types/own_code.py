@@ -11,6 +11,7 @@ import re
 from collections.abc import Iterable, Iterator, Sequence
 
 from scaffold import lazy_re
+from scaffold.model.python.conditions.handlers import last_name
 from scaffold.model.python.module import is_in_tests
 from scaffold.types.sources import Source
 from scaffold.types.stubs.marks import MARK
@@ -168,7 +169,7 @@ def _called_at(data: bytes, item: TyDiagnostic) -> str:
         and at < (node.end_lineno or 0, node.end_col_offset or 0)
     ]
     func = max(calls, key=lambda call: (call.lineno, call.col_offset)).func if calls else None
-    return func.attr if isinstance(func, ast.Attribute) else getattr(func, "id", "")
+    return last_name(func) if func is not None else ""
 
 
 def own_name(item: TyDiagnostic) -> bytes:

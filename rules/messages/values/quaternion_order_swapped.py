@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 
 from scaffold.api import Diagnostic, Example, MessageRule, Report, Severity
 from scaffold.api.messages import MessageTypes
-from scaffold.api.python import PythonModule
+from scaffold.api.python import PythonModule, last_name
 
 _GIVES = {
     "tf_transformations.quaternion_from_euler": "xyzw",
@@ -177,9 +177,7 @@ def _order_of_parts(types: MessageTypes, node: ast.expr) -> str:
 
 def _order_of_names(items: Sequence[ast.expr]) -> str:
     """Return the last letters of names if they are the components of a quaternion."""
-    names = [
-        item.attr if isinstance(item, ast.Attribute) else getattr(item, "id", "") for item in items
-    ]
+    names = [last_name(item) for item in items]
     letters = "".join(name[-1:] for name in names).lower()
     is_plain = len({name[:-1] for name in names}) == 1
     return letters if letters in _ORDERS and is_plain else ""

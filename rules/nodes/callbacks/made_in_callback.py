@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Effect, Example, RclpyRule, Report, Severity
 from scaffold.api.programs import in_callbacks
-from scaffold.api.python import FunctionNode, conditions_on
+from scaffold.api.python import FunctionNode, conditions_on, last_name
 from scaffold.api.rclpy import RclpyFile, Service
 
 _MADE = {
@@ -106,10 +106,10 @@ class MadeInCallback(RclpyRule):
             if isinstance(executed.entity, Service) or not isinstance(function, FunctionNode):
                 continue
             calls = file.calls_in(function)
-            if any(_name(call).startswith(_ENDS) for call in calls):
+            if any(last_name(call.func).startswith(_ENDS) for call in calls):
                 continue
             for call in calls:
-                created = _MADE.get(_name(call))
+                created = _MADE.get(last_name(call.func))
                 if created is None or not _is_repeated(file, function, call):
                     continue
                 if not _is_of_ros(file, call) or _is_stored_by_key(file, call):
@@ -131,7 +131,7 @@ _TIMER = "a timer"
 
 def _is_repeated(file: RclpyFile, function: FunctionNode, call: ast.Call) -> bool:
     """Return whether an object is created in each call of a callback."""
-    if _MADE[_name(call)] == _TIMER:
+    if _MADE[last_name(call.func)] == _TIMER:
         return _adds_up(file, function, call)
     return not file.is_conditional(call) and not conditions_on(file.module, call)
 
@@ -153,11 +153,6 @@ def _adds_up(file: RclpyFile, function: FunctionNode, call: ast.Call) -> bool:
     }
     loops = any(isinstance(x, ast.For | ast.While | ast.Try) for x in file.module.parents(call))
     return names <= given and not loops
-
-
-def _name(call: ast.Call) -> str:
-    func = call.func
-    return func.attr if isinstance(func, ast.Attribute) else getattr(func, "id", "")
 
 
 def _is_of_ros(file: RclpyFile, call: ast.Call) -> bool:

@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 
 from scaffold.api import Diagnostic, Example, Package, RclpyRule, Report, Severity
-from scaffold.api.python import is_guarded_by
+from scaffold.api.python import is_guarded_by, last_name
 from scaffold.api.rclpy import RclpyFile, Timer, is_used_elsewhere, numbers_taken
 
 _SPINS = frozenset({"rclpy.spin", "rclpy.spin_once", "rclpy.spin_until_future_complete"})
@@ -244,7 +244,7 @@ def _is_ended(file: RclpyFile, timer: Timer) -> bool:
     ends = [end.value for end in index.attributes("cancel")]
     calls = map(file.module.parent, index.attributes("destroy_timer"))
     ends += [call.args[0] for call in calls if isinstance(call, ast.Call) and call.args]
-    return any(getattr(end, "attr", getattr(end, "id", "")) == name for end in ends)
+    return any(last_name(end) == name for end in ends)
 
 
 def _is_single(file: RclpyFile, node: ast.expr) -> bool:

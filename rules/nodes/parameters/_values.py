@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from scaffold.api import fact
-from scaffold.api.python import is_none_literal
+from scaffold.api.python import is_none_literal, last_name
 from scaffold.api.rclpy import FIELDS, PARAMETER, class_of
 
 if TYPE_CHECKING:
@@ -102,8 +102,7 @@ def _is_passed_as_object(package: Package, file: RclpyFile, use: ast.expr) -> bo
     call = file.module.parent(use)
     if not isinstance(call, ast.Call) or use not in call.args:
         return False
-    name = getattr(call.func, "attr", None) or getattr(call.func, "id", None)
-    return name in _functions_of_objects(package)
+    return last_name(call.func) in _functions_of_objects(package)
 
 
 @fact

@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Effect, Example, RclpyRule, Report, Severity
-from scaffold.api.python import argument_of
+from scaffold.api.python import argument_of, last_name
 from scaffold.api.rclpy import RclpyCall, RclpyFile, class_of
 
 from ._executors import Shutdowns, used_of_executor
@@ -353,10 +353,7 @@ def _added_class(file: RclpyFile, call: ast.Call) -> str:
 
 
 def _has_many_threads(call: ast.Call) -> bool:
-    match call.func:
-        case ast.Name(id=name) | ast.Attribute(attr=name):
-            return name.endswith("MultiThreadedExecutor")
-    return False
+    return last_name(call.func).endswith("MultiThreadedExecutor")
 
 
 def _has_one_thread(file: RclpyFile, call: ast.Call) -> bool:

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Effect, Example, RclpyRule, Report, Severity
 from scaffold.api.programs import spins_in_one_thread
-from scaffold.api.python import FunctionNode
+from scaffold.api.python import FunctionNode, last_name
 from scaffold.api.rclpy import GOAL_HANDLE, LOG_METHODS, ActionServer, RclpyFile, class_of
 
 _WAITING = frozenset({"sleep", "wait", "sleep_for", "sleep_until"})
@@ -300,9 +300,7 @@ def _waits(file: RclpyFile, server: ActionServer) -> bool:
     """Return whether the work on a goal takes time: it waits in a loop."""
     for function in _execution(file, server):
         for call in file.calls_in(function):
-            func = call.func
-            name = func.attr if isinstance(func, ast.Attribute) else getattr(func, "id", "")
-            if name in _WAITING and any(
+            if last_name(call.func) in _WAITING and any(
                 isinstance(parent, ast.For | ast.While) for parent in file.module.parents(call)
             ):
                 return True

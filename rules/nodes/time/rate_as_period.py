@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterator, Mapping
 
 from scaffold.api import Diagnostic, Effect, Example, RclpyRule, Report, Severity
-from scaffold.api.python import argument_of
+from scaffold.api.python import argument_of, last_name
 from scaffold.api.rclpy import RclpyFile
 
 _RATES = frozenset({"rate", "frequency", "freq", "hz", "fps"})
@@ -134,7 +134,7 @@ class RateAsPeriod(RclpyRule):
 
     def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
         for call in file.module.walk(ast.Call):
-            name = _last_name(call.func)
+            name = last_name(call.func)
             if name in {"create_rate", "Duration"}:
                 yield from self._check_other_units(file, call, name)
             given = _seconds(file, call, name) if name in _SECONDS else None
@@ -202,14 +202,6 @@ class RateAsPeriod(RclpyRule):
             yield self.report(file.module.location(given), message)
 
 
-def _last_name(function: ast.expr) -> str:
-    """Return the last part of the name of a called function; empty for other expressions."""
-    match function:
-        case ast.Attribute(attr=name) | ast.Name(id=name):
-            return name
-    return ""
-
-
 _MIN_RATE = 1.5
 """The minimum value of a rate; lower ones may be seconds."""
 
@@ -229,7 +221,7 @@ _THOUSAND = 1000
 
 def _is_in_seconds(file: RclpyFile, given: ast.expr) -> bool:
     """Return whether the file mentions anywhere that the value is in seconds."""
-    name = given.attr if isinstance(given, ast.Attribute) else getattr(given, "id", "")
+    name = last_name(given)
     pattern = rf"\b{re.escape(name)}\b[^\n]*(?:(?<!per )\bsec|\}} ?s\b)"
     return bool(name) and re.search(pattern, file.module.source.text) is not None
 

@@ -40,7 +40,6 @@ _FINDERS = frozenset({"importlib.util.find_spec", "pkgutil.find_loader", IMPORT_
 """Functions that test whether a module exists."""
 _MAX_POSITIONAL = 3
 """The number of positional arguments from which a call may give any of them."""
-_CONSTANT = lazy_re.compile(r"\b[A-Z_][A-Z0-9_]*")
 
 
 class ChangedUse(NamedTuple):
@@ -299,8 +298,6 @@ def is_asked_for(module: PythonModule, node: ast.AST, name: str, replacement: st
         for part in open_parts(module, condition.test):
             if asks(module, part) or asked.is_behind(part):
                 return True
-            if not condition.is_of_leaving and asked.is_for_import(part):
-                return True
         if asks_which_release(module, condition, name.partition(".")[0]):
             return True
     return any(_is_unsure_case(module, parent, child) for parent, child in _ancestors(module, node))
@@ -356,11 +353,6 @@ class _Asked(NamedTuple):
             for value in values_asked(self.module, test)
         )
 
-    def is_for_import(self, test: ast.expr) -> bool:
-        """Return whether a condition tests whether an import from the package succeeded."""
-        flags = filter(_is_flag, _CONSTANT.findall(self.module.text(test)))
-        return any(map(self._is_of_import, flags))
-
     def _is_word_asked_for(self, test: ast.expr) -> bool:
         for node in ast.walk(test):
             match node:
@@ -386,27 +378,3 @@ class _Asked(NamedTuple):
         """Return whether an expression is a module or a class of the package of the name."""
         roots = {name.partition(".")[0] for name in self.module.qualified_names(holder)}
         return roots == {self.name.partition(".")[0]}
-
-    def _is_of_import(self, flag: str) -> bool:
-        """Return whether a flag records that an import from the package succeeded."""
-        setting = [node for node in self.module.walk(ast.Try) if flag in _assigned(node)]
-        return not setting or any(
-            item.root == self.name.partition(".")[0]
-            for node in setting
-            for item in self.module.imports
-            if node.lineno <= item.location.line <= (node.end_lineno or 0)
-        )
-
-
-def _is_flag(name: str) -> bool:
-    """Return whether a constant is named like flags of successful imports."""
-    return name.endswith("_AVAILABLE") or name.lstrip("_").startswith(("HAS_", "HAVE_"))
-
-
-def _assigned(node: ast.Try) -> set[str]:
-    """Return the names that a ``try`` binds."""
-    return {
-        name.id
-        for name in ast.walk(node)
-        if isinstance(name, ast.Name) and isinstance(name.ctx, ast.Store)
-    }

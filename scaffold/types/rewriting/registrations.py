@@ -9,6 +9,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Collection, Iterator, Mapping, Sequence
 
+from scaffold.model.python.conditions.handlers import last_name
 from scaffold.record import NamedTuple
 
 _MAX_ROWS = 60
@@ -59,7 +60,7 @@ def registrations(text: str, functions: Collection[str]) -> Iterator[Registratio
             for target in node.targets:
                 values.setdefault(_key(place, target), []).append(node.value)
         elif isinstance(node, ast.Call):
-            function = getattr(node.func, "attr", getattr(node.func, "id", ""))
+            function = last_name(node.func)
             if function in functions:
                 calls.append((node, function, place))
     for call, function, place in calls:

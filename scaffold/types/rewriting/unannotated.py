@@ -14,6 +14,7 @@ import tokenize
 from collections.abc import Iterator
 
 from scaffold import lazy_re
+from scaffold.model.python.conditions.handlers import last_name
 from scaffold.model.python.scopes import ScopeIndex
 from scaffold.model.python.syntax_tree import MAX_DEPTH
 from scaffold.types.rewriting.callbacks import STATUS
@@ -87,22 +88,17 @@ def _handed_over(index: ScopeIndex) -> set[str]:
     others: set[str] = set()
     called: set[str] = set()
     for call in index.all_of(ast.Call):
-        taker = _name(call.func)
+        taker = last_name(call.func)
         called.add(taker)
         is_plain = isinstance(call.func, ast.Name) and taker.islower()
-        given = {_name(value) for value in (*call.args, *(word.value for word in call.keywords))}
+        given = {
+            last_name(value) for value in (*call.args, *(word.value for word in call.keywords))
+        }
         if taker in _REGISTERING:
             registered |= given
         elif not is_plain:
             others |= given
     return registered | (others - called)
-
-
-def _name(node: ast.expr) -> str:
-    match node:
-        case ast.Attribute(attr=name) | ast.Name(id=name):
-            return name
-    return ""
 
 
 def _referred_to(index: ScopeIndex) -> set[str]:
@@ -140,7 +136,7 @@ def _is_set_by_constructor(index: ScopeIndex, variable: ast.AnnAssign) -> bool:
     if variable.value is not None or not isinstance(class_, ast.ClassDef):
         return False
     decorators = [it.func if isinstance(it, ast.Call) else it for it in class_.decorator_list]
-    names = {*map(_name, decorators), *map(_name, class_.bases)}
+    names = {*map(last_name, decorators), *map(last_name, class_.bases)}
     if names.isdisjoint({"dataclass", "NamedTuple"}):
         return False
     return not any(
@@ -156,7 +152,7 @@ def _constructor_arguments(
     fields = [line.target for line in class_.body if isinstance(line, ast.AnnAssign)]
     name, position = ast.unparse(field.target), fields.index(field.target)
     for call in index.all_of(ast.Call):
-        if _name(call.func) == class_.name:
+        if last_name(call.func) == class_.name:
             yield from call.args[position : position + 1]
             yield from (keyword.value for keyword in call.keywords if keyword.arg == name)
 

@@ -12,6 +12,7 @@ from scaffold.model.facts import fact
 from scaffold.model.launch.evaluation.evaluator import LaunchEvaluator, share_path
 from scaffold.model.launch.python_file import LaunchFile, SharePath
 from scaffold.model.package import mentions
+from scaffold.model.python.conditions.handlers import last_name
 from scaffold.model.python.evaluation.given_arguments import argument_of, given_argument
 from scaffold.model.python.evaluation.values import UNKNOWN
 from scaffold.model.rclpy.file import rclpy_file
@@ -201,7 +202,7 @@ def _owner(call: ast.Call) -> Iterator[ast.expr]:
 
 def _is_read(call: ast.Call) -> bool:
     """Return whether a call reads the file passed to it."""
-    name = getattr(call.func, "attr", getattr(call.func, "id", ""))
+    name = last_name(call.func)
     if name != "open":
         return _READING.fullmatch(name) is not None
     mode = argument_of(call, "mode", 1)

@@ -163,7 +163,7 @@ def _is_written(launch: LaunchFile, node: ast.expr) -> bool:
             case ast.Call(args=[ast.Name(id=name), *_]) if (
                 name in names and launch.module.qualified_name(call.func) in _OF_MADE_FILES
             ):
-                return not _is_demanded(launch, call)
+                return True
     return False
 
 
@@ -181,12 +181,6 @@ def _is_for_output(parameters: ast.Dict, path: ast.expr) -> bool:
         for key, value in zip(parameters.keys, parameters.values, strict=True)
         if value is path
     )
-
-
-def _is_demanded(launch: LaunchFile, call: ast.Call) -> bool:
-    """Return whether a launch file raises an error if a tested file does not exist."""
-    parents = [parent for parent in launch.module.parents(call) if isinstance(parent, ast.If)]
-    return any(isinstance(node, ast.Raise) for parent in parents[:1] for node in ast.walk(parent))
 
 
 def missing_in(package: Package, named: NamedPath) -> str:

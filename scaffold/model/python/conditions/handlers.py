@@ -60,6 +60,14 @@ def _calls(node: ast.expr, names: frozenset[str]) -> bool:
     return isinstance(node, ast.Call) and not names.isdisjoint(last_names(node.func))
 
 
+def last_name(node: ast.AST) -> str:
+    """Return the last part of a name: ``'error'`` for ``socket.error``; empty if it is none."""
+    match node:
+        case ast.Attribute(attr=name) | ast.Name(id=name):
+            return name
+    return ""
+
+
 def last_names(node: ast.expr) -> set[str]:
     """Return the last parts of the names in an expression: ``{'error'}`` for ``socket.error``."""
     result: set[str] = set()

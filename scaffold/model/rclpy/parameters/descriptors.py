@@ -6,6 +6,7 @@ import ast
 import math
 from typing import TYPE_CHECKING
 
+from scaffold.model.python.conditions.handlers import last_name
 from scaffold.model.python.evaluation.values import is_none_literal
 from scaffold.record import NamedTuple
 
@@ -199,8 +200,7 @@ def _record_use(
 
 def _leaves_unchanged(call: ast.Call) -> bool:
     """Return whether a call does not change the fields of its arguments."""
-    name = call.func.attr if isinstance(call.func, ast.Attribute) else ""
-    name = call.func.id if isinstance(call.func, ast.Name) else name
+    name = last_name(call.func)
     return name in _KEEPING or name[:1].isupper()
 
 
