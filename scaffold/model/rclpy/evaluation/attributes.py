@@ -6,14 +6,13 @@ import ast
 from collections.abc import Callable, Iterator
 from collections.abc import Set as AbstractSet
 from contextlib import suppress
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING
 
 from scaffold.model.facts import fact
 from scaffold.model.rclpy.api import known_names
 from scaffold.model.rclpy.evaluation.named_attributes import set_by_name
 from scaffold.source import ViewError
 
-_Name = TypeVar("_Name", str, tuple[str, str])
 _LIFECYCLE = "rclpy.lifecycle.node.LifecycleNode"
 
 if TYPE_CHECKING:
@@ -126,32 +125,35 @@ def is_overridden(package: Package, method: FunctionNode, class_: ast.ClassDef) 
 
 def is_set_by_subclass(package: Package, class_: str, attributes: AbstractSet[str]) -> bool:
     """Return whether a subclass in the workspace sets one of the attributes on ``self``."""
-    pairs = frozenset[tuple[str, str]]().union(
-        *(_attributes_of_subclasses(other) for other in package.workspace)
-    )
-    bases = {class_}
-    while True:
-        below = {name for base, name in pairs if base in bases}
+    bases, pending = {class_}, [class_]
+    while pending:
+        base = pending.pop()
+        below = {name for other in package.workspace for name in _of_subclasses(other, base)}
         if not below.isdisjoint(f".{name}" for name in attributes):
             return True
-        if below <= bases:
-            return False
+        pending += [name for name in below - bases if not name.startswith(".")]
         bases |= below
+    return False
 
 
 @fact
-def _attributes_of_subclasses(package: Package) -> frozenset[tuple[str, str]]:
-    return _of_all_files(package, _attributes_of_subclasses_in)
+def _of_subclasses(package: Package, base: str) -> frozenset[str]:
+    """Return the names of direct subclasses, and ``.name`` of each attribute that they set."""
+    result: set[str] = set()
+    for path in package.python_files:
+        if base.encode() in package.data(path):  # most files need not be parsed
+            with suppress(ViewError):
+                result |= _of_subclasses_in(package, path, base)
+    return frozenset(result)
 
 
 @fact
-def _attributes_of_subclasses_in(package: Package, path: str) -> frozenset[tuple[str, str]]:
-    """Return pairs of a base and the name of a subclass, or ``.name`` of what that sets."""
+def _of_subclasses_in(package: Package, path: str, base: str) -> frozenset[str]:
     module = package.module(path)
     return frozenset(
-        (base, name)
+        name
         for class_ in module.walk(ast.ClassDef)
-        for base in _base_names(class_)
+        if base in _base_names(class_)
         for name in (class_.name, *_set_on_self(module, class_))
     )
 
@@ -197,9 +199,9 @@ def given_from_outside(package: Package) -> frozenset[str]:
 
 
 def _of_all_files(
-    package: Package, names: Callable[[Package, str], frozenset[_Name]]
-) -> frozenset[_Name]:
-    result: set[_Name] = set()
+    package: Package, names: Callable[[Package, str], frozenset[str]]
+) -> frozenset[str]:
+    result: set[str] = set()
     for path in package.python_files:
         with suppress(ViewError):
             result |= names(package, path)
