@@ -271,6 +271,11 @@ class EntryPointUnusable(Rule):
                 severity=Severity.WARNING,
             ),
         ),
+        Example(
+            "a misspelled function",
+            {**_FILES, "setup.py": _SETUP.format("        'node = talker.node:mian',\n")},
+            "setup.py:5:9: `ros2 run` of 'node' fails: talker/node.py has no 'mian'; it has main()",
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:

@@ -105,6 +105,15 @@ class SetupValueRefused(Rule):
             },
             "pyproject.toml:4:1: [project] has no name: setuptools stops the build",
         ),
+        Example(
+            "an attribute of a module that does not exist",
+            {
+                "setup.py": "from setuptools import setup\n\nsetup()\n",
+                "setup.cfg": _CFG.replace("talker.__", "talker.about.__"),
+            },
+            "setup.cfg:3:11: no module talker.about: setuptools finds no version and the build "
+            "stops",
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:

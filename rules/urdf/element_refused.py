@@ -267,6 +267,11 @@ class ElementRefused(Rule):
             "b.urdf:5:28: size is '1 1', but must be 3 numbers with spaces between: urdfdom "
             "rejects the whole file",
         ),
+        Example(
+            "a word for a number",
+            {"robot.urdf": _ROBOT_VALUES.format('sphere radius="small"', "fixed", "0 0 0")},
+            "5:33: radius is 'small', but must be a number: urdfdom rejects the whole file",
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:

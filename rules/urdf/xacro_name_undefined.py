@@ -230,6 +230,12 @@ class XacroNameUndefined(Rule):
                 "def generate_launch_description():\n    xacro.process_file('robot.urdf')\n",
             },
         ),
+        Example(
+            "misspelled parameter of a macro",
+            {"robot.xacro": _ROBOT_CALLS.format('nmae="a"', _ORIGIN)},
+            "10:4: macro 'wheel' needs 'name': xacro stops with 'Undefined parameters'",
+            "10:16: macro 'wheel' has no parameter 'nmae': xacro stops; did you mean 'name'?",
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:

@@ -173,6 +173,17 @@ class LaunchFunctionMissing(LaunchRule):
                 severity=Severity.WARNING,
             ),
         ),
+        Example(
+            "a tuple, and the class itself",
+            {
+                "launch/a.launch.py": _LAUNCH_RESULT + "    return node, node\n",
+                "launch/b.launch.py": _LAUNCH_RESULT + "    return LaunchDescription\n",
+            },
+            "launch/a.launch.py:7:5: generate_launch_description returns a tuple, not a "
+            "LaunchDescription",
+            "launch/b.launch.py:7:5: generate_launch_description returns the class, not a "
+            "LaunchDescription",
+        ),
     )
 
     def check_in(self, package: Package, launch: LaunchFile) -> Iterator[Diagnostic]:

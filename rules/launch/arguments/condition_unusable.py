@@ -175,6 +175,12 @@ class ConditionUnusable(LaunchRule):
             "launch/b.launch.py:12:86: AndSubstitution takes substitutions, not the condition "
             "LaunchConfigurationEquals; use EqualsSubstitution",
         ),
+        Example(
+            "`or` between two substitutions",
+            {"launch/a.launch.py": _LAUNCH.format("true", "use or PythonExpression(['1'])")},
+            "12:65: `and/or` tests the LaunchConfiguration object, not its value; use "
+            "AndSubstitution, OrSubstitution",
+        ),
     )
 
     def check_file(self, launch: LaunchFile) -> Iterator[Diagnostic]:

@@ -306,6 +306,12 @@ class MessageUsedAsValue(MessageRule):
             "wrong.py:15:12: std_msgs/msg/Bool is always true, whatever it holds; use its field "
             "'data'",
         ),
+        Example(
+            "a message in a function of math",
+            {"listener.py": "import math\n" + _NODE.format("msg.data", "math.sqrt(msg)")},
+            "16:16: std_msgs/msg/Float32MultiArray is not a number: TypeError; use one of its "
+            "fields",
+        ),
     )
 
     def check_file(self, types: MessageTypes) -> Iterator[Diagnostic]:

@@ -134,6 +134,16 @@ class TransitionResult(RclpyRule):
             "5:9: Talker is a plain Node: rclpy never calls 'on_configure', and there are no "
             "transitions; inherit from rclpy.lifecycle.LifecycleNode",
         ),
+        Example(
+            "nothing on one path",
+            {
+                "talker.py": _NODE.format(
+                    "on_activate(self, state)", f"if self.pub:\n            {_RIGHT}"
+                )
+            },
+            "10:9: on_activate() returns nothing on one path, not a TransitionCallbackReturn: "
+            "AttributeError at the transition",
+        ),
     )
 
     def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:

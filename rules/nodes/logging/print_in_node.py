@@ -43,6 +43,12 @@ class PrintInNode(RclpyRule):
             "6:9: Talker prints: the output is not on /rosout; use get_logger()",
         ),
         Example("a command line tool", {"talker.py": "import argparse\n" + _NODE.format("print")}),
+        Example(
+            "several prints",
+            {"talker.py": _NODE.format("print") + "        print('tock')\n"},
+            "6:9: Talker prints (2 times, first here): the output is not on /rosout; use "
+            "get_logger()",
+        ),
     )
 
     def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:

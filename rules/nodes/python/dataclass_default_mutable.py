@@ -91,6 +91,12 @@ class DataclassDefaultMutable(PythonRule):
             "a value of the class itself",
             {"track.py": _TRACK.format("", "all: ClassVar[list] = []")},
         ),
+        Example(
+            "an array",
+            {"track.py": "import numpy as np\n" + _TRACK.format("", "row: object = np.zeros(3)")},
+            "15:19: a numpy array cannot be the default of a field: ValueError at import; write "
+            "field(default_factory=lambda: ...)",
+        ),
     )
 
     def check_file(self, module: PythonModule) -> Iterator[Diagnostic]:

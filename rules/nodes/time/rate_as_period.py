@@ -130,6 +130,20 @@ class RateAsPeriod(RclpyRule):
             "a period that is named rate",
             {"talker.py": _NODE.format("rate").replace("'rate', 20.0", "'rate', 0.05")},
         ),
+        Example(
+            "a rate without a known value",
+            {
+                "talker.py": _NODE.replace("self.declare_parameter('rate', 20.0).value", "read()")
+                .replace("rate =", "frequency =")
+                .format("frequency")
+            },
+            Report(
+                "9:40",
+                "a rate is passed as the period: one call every that many seconds; "
+                "write 1.0 / rate",
+                severity=Severity.WARNING,
+            ),
+        ),
     )
 
     def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:

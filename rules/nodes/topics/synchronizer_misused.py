@@ -110,6 +110,17 @@ class SynchronizerMisused(MessageRule):
             {"viewer.py": _NODE.format("Image", "10, slop=0.0", _REGISTER)},
             "12:84: a slop of 0 matches nothing: the callback never runs",
         ),
+        Example(
+            "a type without a header, matched by equal stamps",
+            {
+                "viewer.py": _NODE.format("String", "10", _REGISTER).replace(
+                    "ApproximateTimeSynchronizer", "TimeSynchronizer"
+                )
+            },
+            "11:39: std_msgs/msg/String has no header, so no stamp: AttributeError at the first "
+            "message; use a type with a header, or ApproximateTimeSynchronizer with "
+            "allow_headerless=True",
+        ),
     )
 
     def check_in(self, package: Package, types: MessageTypes) -> Iterator[Diagnostic]:
