@@ -27,3 +27,26 @@ def test_installed_link_to_a_directory(
     assert [item["message"].split(",")[0] for item in findings] == [
         "installs the directory launch/"
     ]
+
+
+def test_import_of_a_module_in_a_linked_directory(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "package.xml").write_text("<package format='3'><name>maps</name></package>\n")
+    (tmp_path / "setup.py").write_text(
+        "from setuptools import setup\n\nsetup(name='maps', packages=['maps', 'maps.sites'])\n"
+    )
+    (tmp_path / "maps").mkdir()
+    (tmp_path / "maps" / "__init__.py").touch()
+    (tmp_path / "maps" / "node.py").write_text(
+        "from .sites.office import plan\nfrom .sites.garden import tree\n"
+    )
+    (tmp_path / "shared").mkdir()
+    (tmp_path / "shared" / "office.py").write_text("plan = None\n")
+    (tmp_path / "maps" / "sites").symlink_to("../shared")
+    main(["check", "--select", "IM041", "--format", "json"])
+    findings = json.loads(capsys.readouterr().out)["diagnostics"]
+    assert [item["message"] for item in findings] == [
+        "the package has no module 'maps.sites.garden': ModuleNotFoundError"
+    ]

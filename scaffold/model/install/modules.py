@@ -94,7 +94,7 @@ def may_be_made(package: Package, name: str) -> bool:
     base = name.replace(".", "/")
     if package.has_directory(base) or package.glob(f"{base}.*") or is_untracked(package, base):
         return True
-    if _is_put_into_package(package, name):
+    if _is_put_into_package(package, name) or _is_behind_link(package, base):
         return True
     cmake = package.source("CMakeLists.txt").text if package.has("CMakeLists.txt") else ""
     project = _PROJECT.search(cmake)
@@ -109,6 +109,14 @@ def may_be_made(package: Package, name: str) -> bool:
         if package.has(path)
     ]
     return any(last in text or proto in text for text in texts)
+
+
+def _is_behind_link(package: Package, base: str) -> bool:
+    """Return whether a module exists, but below a link to a directory: those are not listed."""
+    place = os.path.join(package.place or "", base)
+    return package.place is not None and any(
+        package.outside.exists(place + end) for end in ("", ".py")
+    )
 
 
 def _is_put_into_package(package: Package, name: str) -> bool:
