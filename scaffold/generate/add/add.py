@@ -112,7 +112,7 @@ def add(target: Target, wanted: Wanted) -> Added:
         _refuse_taken(package, made)
         new = _new_files(target, old, made)
         new = {path: data for path, data in new.items() if path not in extended.files}
-        others, by_hand = _other_files(target, old, wanted, made)
+        others, by_hand = _other_files(target, old, made)
     left = repository.left_to_owners(
         target.place, package.name, made.rendered.files, lambda path: _content(target, path)
     )
@@ -209,19 +209,20 @@ def _content(target: Target, path: str) -> bytes | None:
 
 
 def _other_files(
-    target: Target, old: Provenance | None, wanted: Wanted, made: Piece
+    target: Target, old: Provenance | None, made: Piece
 ) -> tuple[dict[str, bytes], tuple[ByHand, ...]]:
-    """Return the other files that change: regenerated where possible, else edited."""
-    whole = regenerate.as_new(target, old, made) if old else None
-    if whole is not None:
-        regenerated = {path: text.encode() for path, text in whole.items()}
-        return regenerated | _launched(target.package, made.addition, regenerated), ()
-    edited = edit(target.package, made.addition)
-    files = {**edited.files, **_launched(target.package, made.addition, ())}
-    if old is not None:
-        piece = rendered_part.make(target, old, wanted, old.date)
-        files |= regenerate.noted(target.package, old, piece)
-    return files, edited.by_hand
+    """Return the other files that change: rendered again where possible, else edited."""
+    package, addition = target.package, made.addition
+    rerendered = regenerate.with_piece(target, old, made) if old else None
+    if rerendered is None:
+        edited = edit(package, addition)
+        return {**edited.files, **_launched(package, addition, ())}, edited.by_hand
+    files = {**rerendered.files, **_launched(package, addition, rerendered.files)}
+    if not rerendered.edited:
+        return files, ()
+    edited = edit(package, addition)
+    files |= {path: edited.files[path] for path in rerendered.edited & edited.files.keys()}
+    return files, tuple(item for item in edited.by_hand if item.path in rerendered.edited)
 
 
 def _launched(package: Package, addition: Addition, done: Container[str]) -> dict[str, bytes]:

@@ -4,17 +4,18 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, NamedTuple
 
+from scaffold.errors import InputError
 from scaffold.generate import parts
 from scaffold.generate.add.rendered_part import EXTRAS, Piece, Target
 from scaffold.generate.draft import Draft, draft
-from scaffold.generate.edit.edit import edit
+from scaffold.generate.edit.edit import EDITED
 from scaffold.generate.questions.defaults import DISTRO
 from scaffold.generate.questions.questions import Given
-from scaffold.generate.repository import inside
 from scaffold.generate.templates.template import BASE, Role
 from scaffold.generate.update import branches, provenance, update
+from scaffold.generate.update.merge import merge
 from scaffold.generate.update.provenance import ATTRIBUTES, NAME, Provenance
 from scaffold.model.package import Package
 from scaffold.writing.transaction import BASES
@@ -65,11 +66,20 @@ def _joined(target: Target, old: Provenance) -> Provenance:
     return branches.joined(old, drafted)
 
 
-def as_new(target: Target, old: Provenance, piece: Piece) -> dict[str, str] | None:
-    """Return the files that would differ if the package had been made with a piece.
+class Rerendered(NamedTuple):
+    """The files of a generated package, rendered again with a piece."""
 
-    ``None`` where one of them has been changed since, where the templates have, or where the piece
-    is there already: then the files have to be edited.
+    files: dict[str, bytes]
+    """The files to write, and the record."""
+    edited: set[str]
+    """The files that the user has edited, which need the edits of the piece."""
+
+
+def with_piece(target: Target, old: Provenance, piece: Piece) -> Rerendered | None:
+    """Render a package again with a piece; ``None`` if it has the piece already.
+
+    The record becomes that of a package made with the piece. A later update then has nothing to
+    add, except in files where the new lines conflict with those of the user.
 
     Args:
         target: The package as it is.
@@ -77,13 +87,14 @@ def as_new(target: Target, old: Provenance, piece: Piece) -> dict[str, str] | No
         piece: What is added.
 
     Raises:
-        InputError: the part does not fit the package.
+        InputError: the part does not fit the package, or what the templates gave for a file is
+            lost.
     """
     answers = _with_piece(old, piece)
     if answers == old.answers:
         return None
     given = update.recorded(old, target.templates, target.package.directory, [])
-    before = _draft_of(target, given, old)
+    before = _draft_of(target, given, old).rendered.files
     new = {name: value for name, value in answers.items() if old.answers.get(name) != value}
     given |= {name: Given(value, NAME) for name, value in new.items()}
     following = _following(target, given, old)
@@ -91,41 +102,68 @@ def as_new(target: Target, old: Provenance, piece: Piece) -> dict[str, str] | No
         del given[name]
     after = _draft_of(target, given, old)
     answers |= {name: after.answers[name] for name in following}
-    files, wanted = before.rendered.files, after.rendered.files
-    old = old.completed({path: text.encode() for path, text in files.items()})
-    changed = {path: text for path, text in wanted.items() if files.get(path) != text}
-    in_step = files == old.rendered and not old.lost and files.keys() <= wanted.keys()
-    package = target.package
-    if not in_step or not all(_is_as(package, path, files.get(path)) for path in changed):
-        return None
-    return {**changed, **_recorded(package, old, old.with_files(answers, wanted))}
+    old = old.completed({path: text.encode() for path, text in before.items()})
+    update.refuse_lost(old, target.package.directory, old.lost)
+    result = Rerendered({}, set())
+    bases = dict(old.rendered)
+    for path, text in after.rendered.files.items():
+        if text != before.get(path):
+            change = _Change(path, before.get(path, "").encode(), text.encode())
+            bases |= _rerender(target.package, bases.get(path), change, piece, result)
+    record = _recorded(target.package, old, old.with_files(answers, bases))
+    result.files.update({path: text.encode() for path, text in record.items()})
+    return result
+
+
+def _rerender(
+    package: Package, base: str | None, change: _Change, piece: Piece, result: Rerendered
+) -> Mapping[str, str]:
+    """Apply a change to a file of a package, and return it applied to its recorded text."""
+    path = change.path
+    exists = package.has(path)
+    if base is None:
+        if not exists and not _is_elsewhere(path, piece):
+            result.files[path] = change.after
+        return {path: change.after.decode()}
+    merged = change.applied(base.encode())
+    yours = package.tree.read(path) if exists else b""
+    applied = merged if yours == base.encode() else change.applied(yours)
+    if exists and path in EDITED and yours != base.encode():
+        result.edited.add(path)
+    elif exists and applied is not None:
+        result.files[path] = applied
+    elif exists and path != piece.addition.launch:
+        return {}
+    return {path: merged.decode()} if merged is not None else {}
+
+
+class _Change(NamedTuple):
+    """What a piece changes in a rendered file."""
+
+    path: str
+    before: bytes
+    after: bytes
+
+    def applied(self, content: bytes) -> bytes | None:
+        """Return another version of the file with the change; ``None`` if they conflict."""
+        if content == self.before:
+            return self.after
+        try:
+            merged = merge(content, self.before, self.after)
+        except InputError:  # there is no git
+            return None
+        return None if merged.conflicts else merged.content
+
+
+def _is_elsewhere(path: str, piece: Piece) -> bool:
+    """Return whether a package has a directory of its own for such a file of a piece."""
+    names = {own.rpartition("/")[2] for own in piece.rendered.files}
+    return path not in piece.rendered.files and path.rpartition("/")[2] in names
 
 
 def is_noted(old: Provenance, piece: Piece) -> bool:
     """Return whether the record of a package has a piece."""
     return _with_piece(old, piece) == old.answers
-
-
-def noted(package: Package, old: Provenance, piece: Piece) -> dict[str, bytes]:
-    """Return the record of an edited package, with a piece added.
-
-    Args:
-        package: The package as it is.
-        old: How the package was made.
-        piece: What is added, as of the day that the package was made.
-
-    Raises:
-        InputError: what the templates gave for a file is lost.
-    """
-    answers = _with_piece(old, piece)
-    if answers == old.answers:
-        return {}
-    update.refuse_lost(old, package.directory, old.lost)
-    base = Package.of({**inside(old.rendered), NAME: ""})
-    files = {**piece.rendered.files, **old.rendered}
-    files |= {path: data.decode() for path, data in edit(base, piece.addition).files.items()}
-    written = _recorded(package, old, old.with_files(answers, files))
-    return {path: text.encode() for path, text in written.items()}
 
 
 def _recorded(package: Package, old: Provenance, new: Provenance) -> dict[str, str]:
@@ -171,10 +209,3 @@ def _following(target: Target, given: Mapping[str, Given], old: Provenance) -> l
     asked[parts.ADD] = Given(old.answers.get(parts.ADD, []), NAME)
     answers = _draft_of(target, asked, old).answers
     return [name for name in names if answers[name] == old.answers[name]]
-
-
-def _is_as(package: Package, path: str, text: str | None) -> bool:
-    """Return whether a generated file is unedited; ``None`` if it was not generated."""
-    if text is None or not package.has(path):
-        return text is None and not package.has(path)
-    return package.tree.read(path) == text.encode()

@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Iterable, Mapping, Sequence
-from datetime import date
 from typing import Any, NamedTuple
 
 from scaffold.errors import InputError
@@ -92,14 +91,13 @@ class Piece(NamedTuple):
         return self.addition.compiled.name if self.addition.compiled is not None else None
 
 
-def make(target: Target, old: Provenance | None, wanted: Wanted, day: date | None = None) -> Piece:
+def make(target: Target, old: Provenance | None, wanted: Wanted) -> Piece:
     """Render what is added to a package.
 
     Args:
         target: The package.
         old: How it was created, if it was generated.
         wanted: What is added.
-        day: The date for its files; today by default.
 
     Raises:
         InputError: it does not fit the package, or an answer is not acceptable.
@@ -107,9 +105,9 @@ def make(target: Target, old: Provenance | None, wanted: Wanted, day: date | Non
     """
     layout = layout_of(target.package)
     if wanted.template.role is Role.EXTRA:
-        return _extra(target, old, wanted, layout, day)
+        return _extra(target, old, wanted, layout)
     part = {parts.KIND: wanted.template.name, "name": wanted.name}
-    composed = _compose(target, {**wanted.given, parts.ADD: Given([part], "NAME")}, day)
+    composed = _compose(target, {**wanted.given, parts.ADD: Given([part], "NAME")})
     composed.context["is_added"] = True
     scopes = _with_roles(composed, PARTS)
     rendered = _rendered(target, composed, scopes, layout)
@@ -162,9 +160,7 @@ def _launch_file(package: Package, given: str) -> str:
     return path
 
 
-def _extra(
-    target: Target, old: Provenance | None, wanted: Wanted, layout: Layout, day: date | None
-) -> Piece:
+def _extra(target: Target, old: Provenance | None, wanted: Wanted, layout: Layout) -> Piece:
     """Render an extra for the nodes that the package has, ours and those of others."""
     package, template = target.package, wanted.template
     recorded = update.recorded(old, target.templates, package.directory, []) if old else {}
@@ -172,7 +168,7 @@ def _extra(
         parts.ADD: recorded.get(parts.ADD, Given([], "KIND")),
         EXTRAS: Given([template.name], "KIND"),
     }
-    composed = _compose(target, {**recorded, **wanted.given, **chosen}, day)
+    composed = _compose(target, {**recorded, **wanted.given, **chosen})
     context = composed.context
     existing = existing_nodes.find(package, context["nodes"], context["programs"])
     context["nodes"] = existing.nodes
@@ -207,7 +203,7 @@ def _interfaces(package: Package) -> list[dict[str, str]]:
     ]
 
 
-def _compose(target: Target, given: Mapping[str, Given], day: date | None) -> Composed:
+def _compose(target: Target, given: Mapping[str, Given]) -> Composed:
     """Answer all questions, using the answers implied by the package."""
     package = target.package
     decided = existing_answers.answers(package, licenses.names(target.roots))
@@ -220,7 +216,6 @@ def _compose(target: Target, given: Mapping[str, Given], day: date | None) -> Co
         target.templates,
         answers,
         target.user,
-        day=day,
         existing=Existing(fixed, messages, list(remarks.uses(package))),
         place=target.place,
     )

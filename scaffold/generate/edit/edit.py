@@ -24,6 +24,8 @@ from scaffold.source import ParseError, Source, ViewError
 
 README = "README.md"
 CHANGELOG = "CHANGELOG.rst"
+EDITED = frozenset({MANIFEST, CMAKE_LISTS, SETUP_PY, SETUP_CFG, README, CHANGELOG})
+"""The files that may be edited."""
 
 
 class Edited(NamedTuple):

@@ -181,17 +181,39 @@ def _is_apart(source: Source, number: int) -> bool:
     return number < len(source.lines) and not source.lines[number].strip()
 
 
+def _shared(module: PythonModule, key: str, value: ast.expr) -> str:
+    """Return the part of an argument of a node that applies to another node; empty if none does."""
+    match key, value:
+        case "parameters", ast.List(elts=items):
+            shared = [module.text(item) for item in items if _is_clock_setting(item)]
+            return f"[{', '.join(shared)}]" if shared else ""
+        case "arguments", ast.List(
+            elts=[ast.Constant("--ros-args"), ast.Constant("--log-level"), _]
+        ):
+            return module.text(value)
+        case (("parameters" | "arguments"), _):
+            return ""
+    return module.text(value)
+
+
+def _is_clock_setting(item: ast.expr) -> bool:
+    """Return whether a dictionary of parameters sets only ``use_sim_time``."""
+    return isinstance(item, ast.Dict) and all(
+        isinstance(key, ast.Constant) and key.value == "use_sim_time" for key in item.keys
+    )
+
+
 def _node(launch: LaunchFile, like: LaunchCall, program: Program) -> str | Block:
-    """Return a node formatted like another one, with its package, namespace and output."""
+    """Return a node formatted like another one, with what applies to all nodes of the file."""
     module = launch.module
     package = module.text(like.given["package"])
     texts = [module.text(node) for node in like.given.values()]
     quote = next((text[0] for text in texts if text[0] in {"'", '"'}), "'")
     words = [f"package={package}", f"executable={quote}{program.name}{quote}"]
     words += [
-        f"{key}={module.text(like.given[key])}"
-        for key in ("namespace", "output")
-        if key in like.given
+        f"{key}={text}"
+        for key in ("namespace", "parameters", "arguments", "output")
+        if key in like.given and (text := _shared(module, key, like.given[key]))
     ]
     name = module.text(like.call.func)
     if "\n" in module.text(like.call):

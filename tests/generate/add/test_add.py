@@ -182,7 +182,28 @@ def test_new_then_add_equals_new_with_both_for_other_kinds(
         assert after == expected
     assert add(single / "demo", kind, name) == 0
     assert read(single / "demo") == after
+    assert main(["update", str(single / "demo"), "--diff"]) == 0
     assert main(["check", str(single / "demo")]) == 0
+
+
+@pytest.mark.parametrize("flags", [(), ("--launch", "launch/demo.launch.py")])
+@pytest.mark.parametrize("edited", ["package.xml", "launch/demo.launch.py", "README.md"])
+def test_update_after_add_to_an_edited_package_has_nothing_to_do(
+    edited: str, flags: tuple[str, ...], tmp_path: Path
+) -> None:
+    words = ["new", "demo", *PERSON, "--add", "publisher:talker"]
+    assert main([*words, "--destination-directory", str(tmp_path)]) == 0
+    demo = tmp_path / "demo"
+    assert add(demo, "launch") == 0
+    path = demo / edited
+    changed = path.read_text().replace("output='screen'", "output='both'")
+    path.write_text(changed.replace("Demo", "My demo").replace("</package>", "</package><!-- -->"))
+    assert add(demo, "subscriber", "listener", *flags) == 0
+    after = read(demo)
+    assert main(["update", str(demo)]) == 0
+    assert read(demo) == after
+    launch = (demo / "launch" / "demo.launch.py").read_text()
+    assert launch.count("{'use_sim_time':") == launch.count("'--log-level',") == 2
 
 
 def test_part_that_does_not_fit_the_package_is_rejected(

@@ -790,6 +790,20 @@ def test_node_is_formatted_like_the_others_in_a_launch_file() -> None:
     )
 
 
+def test_settings_of_all_nodes_are_copied_in_a_launch_file() -> None:
+    level = "arguments=['--ros-args', '--log-level', level]"
+    shared = f"parameters=[{{'use_sim_time': clock}}], {level}"
+    own = f"parameters=['a.yaml', {{'use_sim_time': clock}}, {{'gain': 2.0}}], {level}, name='a'"
+    text = LAUNCH.replace("output='screen'", own)
+    assert added(source("x", text), launch_edit(text).source) == (
+        f"        Node(package='demo', executable='talker', {shared}),\n"
+    )
+    text = LAUNCH.replace("output='screen'", "parameters=['a.yaml'], arguments=['--fast']")
+    assert added(source("x", text), launch_edit(text).source) == (
+        "        Node(package='demo', executable='talker'),\n"
+    )
+
+
 def test_node_is_written_on_several_lines_like_the_others() -> None:
     text = LAUNCH.replace(
         "Node(package='demo', executable='a', output='screen'),",
