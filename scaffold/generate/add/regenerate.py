@@ -97,7 +97,7 @@ def with_piece(target: Target, old: Provenance, piece: Piece) -> Rerendered | No
     before = _draft_of(target, given, old).rendered.files
     new = {name: value for name, value in answers.items() if old.answers.get(name) != value}
     given |= {name: Given(value, NAME) for name, value in new.items()}
-    following = _following(target, given, old)
+    following = [] if _is_edited(target.package, old) else _following(target, given, old)
     for name in following:
         del given[name]
     after = _draft_of(target, given, old)
@@ -153,6 +153,12 @@ class _Change(NamedTuple):
         except InputError:  # there is no git
             return None
         return None if merged.conflicts else merged.content
+
+
+def _is_edited(package: Package, old: Provenance) -> bool:
+    """Return whether the user has edited a file that repeats answers, such as the description."""
+    bases = {path: old.rendered[path].encode() for path in EDITED & old.rendered.keys()}
+    return any(package.has(path) and package.tree.read(path) != bases[path] for path in bases)
 
 
 def _is_elsewhere(path: str, piece: Piece) -> bool:
