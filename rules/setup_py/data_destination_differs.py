@@ -118,6 +118,16 @@ class DataDestinationDiffers(Rule):
             },
             "setup.py:6:9: missing comma after this: 'tuple' object is not callable",
         ),
+        Example(
+            "files added to the entries, of which there are none",
+            {
+                **_FILES,
+                "setup.py": "from glob import glob\n"
+                + _SETUP.format("'share/talker/launch'", _GLOB).replace(
+                    "    ],\n", "    ] + glob('share/talker/config/**'),\n"
+                ),
+            },
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:

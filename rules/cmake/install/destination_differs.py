@@ -191,6 +191,10 @@ class DestinationDiffers(Rule):
             ),
             distro="humble",
         ),
+        Example(
+            "a directory with two slashes",
+            {"CMakeLists.txt": _LISTS_TARGET.format("lib//${PROJECT_NAME}"), "talk.cpp": ""},
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:

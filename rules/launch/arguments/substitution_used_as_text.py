@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, LaunchRule
 from scaffold.api.launch import LaunchFile
+from scaffold.api.python import all_conditions
 
 from ._substitutions import CONDITION, text_uses, truth_tests
 
@@ -124,6 +125,15 @@ class SubstitutionUsedAsText(LaunchRule):
             {"launch/a.launch.py": _LAUNCH_TRUTH.format("use == True", "false")},
             "8:18: this is a string, which never equals True",
         ),
+        Example(
+            "an argument that may be a substitution or a string",
+            {
+                "launch/a.launch.py": "from launch.substitutions import LaunchConfiguration\n\n\n"
+                "def directory(name=LaunchConfiguration('name')):\n"
+                "    if isinstance(name, str):\n        return name + '/talk'\n"
+                "    return [name, '/talk']\n"
+            },
+        ),
     )
 
     def check_file(self, launch: LaunchFile) -> Iterator[Diagnostic]:
@@ -132,7 +142,7 @@ class SubstitutionUsedAsText(LaunchRule):
 
     def _check_text(self, launch: LaunchFile) -> Iterator[Diagnostic]:
         for node, kind, use in text_uses(launch):
-            if use in _SHOWN and _is_printed(launch, node):
+            if (use in _SHOWN and _is_printed(launch, node)) or _is_told_apart(launch, node):
                 continue
             message = f"{kind} has no value yet {use}: it is evaluated when the launch runs"
             if use == CONDITION:
@@ -152,6 +162,13 @@ class SubstitutionUsedAsText(LaunchRule):
             if other and _performed(launch, comparison.left) is not None:
                 message = f"this is a string, which never equals {other}"
                 yield self.report(launch.location(comparison), message)
+
+
+def _is_told_apart(launch: LaunchFile, node: ast.expr) -> bool:
+    """Return whether a condition tests the type of the value."""
+    test = f"isinstance({launch.module.text(node)},"
+    conditions = all_conditions(launch.module, node)
+    return any(test in launch.module.text(condition.test) for condition in conditions)
 
 
 def _is_printed(launch: LaunchFile, node: ast.expr) -> bool:

@@ -397,6 +397,18 @@ class SharePathMissing(Rule):
             "launch/c.launch.py:12:26: share/talker/config/other.json does not exist: setup.py of "
             "talker does not install config/other.json",
         ),
+        Example(
+            "the first of several files that exists",
+            {
+                **_FILES,
+                "launch/a.launch.py": _LAUNCH.format("'config', 'talker.yaml'").replace(
+                    "    return",
+                    "    for path in (\n        os.path.join(share, 'config', 'first.yaml'),\n"
+                    "        os.path.join(share, 'config', 'second.yaml'),\n    ):\n"
+                    "        if os.path.isfile(path):\n            print(path)\n    return",
+                ),
+            },
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:

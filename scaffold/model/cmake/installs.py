@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping, Sequence
 
 from scaffold.model.cmake.parser import Argument, Command
@@ -153,7 +154,7 @@ class InstallReader:
             return None
         text = argument.text.removeprefix(_PREFIX)
         value = text if argument.bracket else self._variables.evaluate(text, command, bindings)
-        return None if value is None else shown(value)
+        return None if value is None else re.sub("/{2,}", "/", shown(value))
 
 
 def _patterns(command: Command) -> tuple[list[str], list[str]]:

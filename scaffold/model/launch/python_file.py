@@ -225,13 +225,24 @@ class LaunchFile:
     def is_optional(self, node: ast.AST) -> bool:
         """Return whether an expression may fail, or is evaluated only under a Python condition.
 
-        Or never, after a ``return``.
+        Or never, after a ``return``, or as one of several paths of which a loop takes one that
+        exists.
         """
         kinds = (ast.If, ast.IfExp, ast.Try, ast.match_case)
         return any(
-            isinstance(parent, kinds) or parent in self.module.passed_over
+            isinstance(parent, kinds)
+            or parent in self.module.passed_over
+            or (isinstance(parent, ast.For) and self._tests_paths(parent))
             for parent in self.module.parents(node)
         )
+
+    def _tests_paths(self, loop: ast.For) -> bool:
+        """Return whether a loop over paths tests which of them exist."""
+        tests = " ".join(
+            self.module.text(item.test) for item in ast.walk(loop) if isinstance(item, ast.If)
+        )
+        is_written = isinstance(loop.iter, ast.Tuple | ast.List) and len(loop.iter.elts) > 1
+        return is_written and any(name in tests for name in ("exists(", "isfile(", "is_file("))
 
     @cached_property
     def share_paths(self) -> Sequence[SharePath]:

@@ -92,7 +92,7 @@ def _evaluated(value: object, node: ast.expr, at: Location) -> DataFile:
         node=node,
         destination_location=at,
         source_locations=(at,) * len(sources),
-        malformed=None if is_pair or isinstance(value, Unknown) else problem,
+        malformed=None if is_pair or isinstance(value, Unknown | Glob) else problem,
     )
 
 
