@@ -126,12 +126,11 @@ class SubstitutionUsedAsText(LaunchRule):
             "8:18: this is a string, which never equals True",
         ),
         Example(
-            "an argument that may be a substitution or a string",
+            "a sum for a string only",
             {
-                "launch/a.launch.py": "from launch.substitutions import LaunchConfiguration\n\n\n"
-                "def directory(name=LaunchConfiguration('name')):\n"
-                "    if isinstance(name, str):\n        return name + '/talk'\n"
-                "    return [name, '/talk']\n"
+                "launch/a.launch.py": _LAUNCH.format(
+                    "name + '/a' if isinstance(name, str) else name", "name"
+                )
             },
         ),
     )
@@ -166,9 +165,9 @@ class SubstitutionUsedAsText(LaunchRule):
 
 def _is_told_apart(launch: LaunchFile, node: ast.expr) -> bool:
     """Return whether a condition tests the type of the value."""
-    test = f"isinstance({launch.module.text(node)},"
-    conditions = all_conditions(launch.module, node)
-    return any(test in launch.module.text(condition.test) for condition in conditions)
+    tests = [launch.module.text(item.test) for item in all_conditions(launch.module, node)]
+    names = {name.id for name in ast.walk(node) if isinstance(name, ast.Name)}
+    return any(f"isinstance({name}," in test for name in names for test in tests)
 
 
 def _is_printed(launch: LaunchFile, node: ast.expr) -> bool:
