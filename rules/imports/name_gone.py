@@ -100,6 +100,43 @@ class NameGone(PythonRule):
             "np.float64",
         ),
         Example(
+            "removed names of each package",
+            {
+                "old.py": "import cv2\nimport numpy as np\nimport scipy\nfrom PIL import Image\n"
+                "from scipy import misc\n\n\n"
+                "def old(values):\n"
+                "    yield values.astype(np.int), values.astype(np.bool)\n"
+                "    yield np.asscalar(values), np.alen(values), np.rank(values)\n"
+                "    yield Image.ANTIALIAS, Image.LINEAR, Image.CUBIC\n"
+                "    yield misc.imread, misc.imresize, scipy.interp\n"
+                "    yield cv2.cv.CV_CAP_ANY, cv2.SIFT, np.astype(values, float)\n",
+            },
+            "9:25: numpy.int was removed since NumPy 1.24: AttributeError; use int or np.int64",
+            "9:48: numpy.bool was removed since NumPy 1.24: AttributeError; use bool or np.bool_",
+            "10:11: numpy.asscalar was removed since NumPy 1.23: AttributeError; use the method "
+            ".item()",
+            "10:32: numpy.alen was removed since NumPy 1.23: AttributeError; use len()",
+            "10:49: numpy.rank was removed since NumPy 1.18: AttributeError; use np.ndim()",
+            "11:11: PIL.Image.ANTIALIAS was removed since Pillow 10: AttributeError; use "
+            "Image.LANCZOS",
+            "11:28: PIL.Image.LINEAR was removed since Pillow 10: AttributeError; use "
+            "Image.BILINEAR",
+            "11:42: PIL.Image.CUBIC was removed since Pillow 10: AttributeError; use Image.BICUBIC",
+            "12:11: scipy.misc.imread was removed since SciPy 1.2: AttributeError; use "
+            "imageio.imread()",
+            "12:24: scipy.misc.imresize was removed since SciPy 1.3: AttributeError; use "
+            "PIL.Image.resize()",
+            "12:39: scipy.interp was removed since SciPy 1.4: AttributeError; use np.interp()",
+            "13:11: cv2.cv was removed since OpenCV 3: AttributeError; use the names of cv2 itself",
+            "13:30: cv2.SIFT was removed since OpenCV 3: AttributeError; use cv2.SIFT_create()",
+            Report(
+                "13:40",
+                "numpy.astype is new in NumPy 2, but Jazzy has 1.26: AttributeError; "
+                "use the method .astype()",
+                severity=Severity.WARNING,
+            ),
+        ),
+        Example(
             "a name of NumPy 2",
             {
                 "area.py": _NODE.format("np.trapezoid(values)"),

@@ -36,6 +36,15 @@ class TestCaseMisused(TestRule):
     code = "TS045"
     name = "test-case-misused"
     examples = (
+        Example(
+            "constructor of a TestCase",
+            {
+                "test/test_a.py": "import unittest\n\n\nclass TestA(unittest.TestCase):\n"
+                "    def __init__(self):\n        self.value = 1\n\n"
+                "    def test_value(self):\n        self.assertEqual(self.value, 1)\n"
+            },
+            "5:9: unittest passes the name of a test to __init__; use setUp instead",
+        ),
         Example("valid methods", {"test/test_text.py": _TEST.format(_CASE, "setUp", "")}),
         Example(
             "setUpClass as a function without arguments",

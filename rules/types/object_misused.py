@@ -106,6 +106,23 @@ class ObjectMisused(TypeRule):
                 "            print(name, x, y)\n"
             },
         ),
+        Example(
+            "message awaited, client entered and message raised",
+            {
+                "ask.py": "from rclpy.node import Node\nfrom std_msgs.msg import String\n"
+                "from std_srvs.srv import Trigger\n\n\n"
+                "class Ask(Node):\n"
+                "    async def ask(self):\n"
+                "        client = self.create_client(Trigger, 'start')\n"
+                "        response = await client.call(Trigger.Request())\n"
+                "        with client as opened:\n"
+                "            print(response, opened)\n"
+                "        raise String(data='failed')\n"
+            },
+            "9:26: a std_srvs.srv.Trigger.Response cannot be awaited: TypeError",
+            "10:14: an rclpy.client.Client cannot be used in `with`: TypeError",
+            "12:15: a std_msgs.msg.String cannot be raised: TypeError",
+        ),
         Example("access to a field", {"height.py": _NODE.format("point.z")}),
         Example(
             "parameters converted by a function of another package",

@@ -101,6 +101,28 @@ class OperatorUnsupported(TypeRule):
             ".any(), .all() or .size",
         ),
         Example(
+            "parameters, and the times of messages, in computations",
+            {
+                "late.py": "from builtin_interfaces.msg import Duration\n"
+                "from rcl_interfaces.msg import ParameterValue\nfrom rclpy.node import Node\n"
+                "from std_msgs.msg import Header\n\n\n"
+                "class Late(Node):\n"
+                "    def tick(self):\n"
+                "        now = self.get_clock().now()\n"
+                "        if now > Header().stamp + 1.0 or Duration(sec=1) > 0.5:\n"
+                "            return self.get_parameter('rate') * 2\n"
+                "        return ParameterValue(double_value=1.0) / 2.0\n"
+            },
+            "10:18: '+' does not work on a builtin_interfaces.msg.Time and a float: TypeError; "
+            "convert it with rclpy.time.Time.from_msg(...)",
+            "10:42: '>' does not work on a builtin_interfaces.msg.Duration and a float: "
+            "TypeError; convert it with rclpy.duration.Duration.from_msg(...)",
+            "11:20: '*' does not work on an rclpy.parameter.Parameter and an int: TypeError; "
+            "append .value",
+            "12:16: '/' does not work on an rcl_interfaces.msg.ParameterValue and a float: "
+            "TypeError; use get_parameter(...).value",
+        ),
+        Example(
             "number next to a Time in a dictionary",
             {
                 "goals.py": "from rclpy.node import Node\n\n\n"

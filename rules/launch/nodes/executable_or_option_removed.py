@@ -111,6 +111,25 @@ class ExecutableOrOptionRemoved(Rule):
             "-name",
         ),
         Example(
+            "all options of spawn_entity.py",
+            {
+                "launch/a.launch.py": _CREATE.format(
+                    "-robot_namespace', 'a', '-spawn_service_timeout', '5', '-timeout', '9',"
+                    "\n                        '-unpause', '-b', '-entity"
+                )
+            },
+            "8:56: -robot_namespace is an option of spawn_entity.py: ros_gz_sim create ignores "
+            "it; set the namespace in the description",
+            "8:81: -spawn_service_timeout is an option of spawn_entity.py: ros_gz_sim create "
+            "ignores it; omit it",
+            "8:112: -timeout is an option of spawn_entity.py: ros_gz_sim create ignores it; omit "
+            "it",
+            "9:25: -unpause is an option of spawn_entity.py: ros_gz_sim create ignores it; omit it",
+            "9:37: -b is an option of spawn_entity.py: ros_gz_sim create ignores it; omit it",
+            "9:43: -entity is an option of spawn_entity.py: ros_gz_sim create ignores it; use "
+            "-name",
+        ),
+        Example(
             "an option that still exists",
             {"launch/a.launch.py": _LAUNCH.format("'--exclude', '/tf'")},
             distro="humble",

@@ -299,6 +299,118 @@ class UnitDiffers(MessageRule):
             ),
         ),
         Example(
+            "values whose names say their unit",
+            {
+                "board.py": "import math\n\nfrom geometry_msgs.msg import Twist\n"
+                "from sensor_msgs.msg import (\n    BatteryState, FluidPressure, Imu, "
+                "MagneticField, NavSatFix, Range,\n    RelativeHumidity, Temperature,\n)\n\n\n"
+                "def read(board):\n"
+                "    imu, field, twist = Imu(), MagneticField(), Twist()\n"
+                "    imu.angular_velocity.z = board.wheel_rpm\n"
+                "    imu.linear_acceleration.x = board.x_g\n"
+                "    imu.linear_acceleration.y = board.y_mg\n"
+                "    field.magnetic_field.x = board.x_ut\n"
+                "    field.magnetic_field.y = board.y_gauss\n"
+                "    twist.linear.x = board.speed_mm_per_s\n"
+                "    twist.linear.y = board.speed_cm_per_s\n"
+                "    twist.linear.z = board.speed_knots\n"
+                "    return (\n        imu, field, twist,\n"
+                "        NavSatFix(latitude=math.radians(board.latitude)),\n"
+                "        Range(range=board.distance_cm, max_range=board.limit_km),\n"
+                "        FluidPressure(fluid_pressure=board.water_kpa),\n"
+                "        FluidPressure(fluid_pressure=board.water_bar),\n"
+                "        Temperature(temperature=board.air_fahrenheit),\n"
+                "        BatteryState(percentage=board.charge_percent, voltage=board.cell_mv),\n"
+                "        RelativeHumidity(relative_humidity=board.humidity_pct),\n    )\n",
+            },
+            Report(
+                "12:30",
+                "angular_velocity.z is in radians per second, but this is in "
+                "revolutions per minute; multiply by 2 * math.pi / 60",
+                severity=Severity.WARNING,
+            ),
+            Report(
+                "13:33",
+                "linear_acceleration.x is in m/s², but this is in g; multiply by 9.80665",
+                severity=Severity.WARNING,
+            ),
+            Report(
+                "14:33",
+                "linear_acceleration.y is in m/s², but this is in milli-g; multiply by 0.00980665",
+                severity=Severity.WARNING,
+            ),
+            Report(
+                "15:30",
+                "magnetic_field.x is in teslas, but this is in microteslas; multiply by 1e-6",
+                severity=Severity.WARNING,
+            ),
+            Report(
+                "16:30",
+                "magnetic_field.y is in teslas, but this is in gauss; multiply by 1e-4",
+                severity=Severity.WARNING,
+            ),
+            Report(
+                "17:22",
+                "linear.x is in meters per second, but this is in millimeters per "
+                "second; divide by 1000",
+                severity=Severity.WARNING,
+            ),
+            Report(
+                "18:22",
+                "linear.y is in meters per second, but this is in centimeters per "
+                "second; divide by 100",
+                severity=Severity.WARNING,
+            ),
+            Report(
+                "19:22",
+                "linear.z is in meters per second, but this is in knots; multiply by 0.514444",
+                severity=Severity.WARNING,
+            ),
+            "22:28: latitude is in degrees, but this is in radians; use math.degrees()",
+            Report(
+                "23:21",
+                "range is in meters, but this is in centimeters; divide by 100",
+                severity=Severity.WARNING,
+            ),
+            Report(
+                "23:50",
+                "max_range is in meters, but this is in kilometers; multiply by 1000",
+                severity=Severity.WARNING,
+            ),
+            Report(
+                "24:38",
+                "fluid_pressure is in pascals, but this is in kilopascals; multiply by 1000",
+                severity=Severity.WARNING,
+            ),
+            Report(
+                "25:38",
+                "fluid_pressure is in pascals, but this is in bar; multiply by 100000",
+                severity=Severity.WARNING,
+            ),
+            Report(
+                "26:33",
+                "temperature is in degrees Celsius, but this is in degrees Fahrenheit; "
+                "subtract 32 and divide by 1.8",
+                severity=Severity.WARNING,
+            ),
+            Report(
+                "27:33",
+                "percentage is in fractions from 0 to 1, but this is in percent; divide by 100",
+                severity=Severity.WARNING,
+            ),
+            Report(
+                "27:63",
+                "voltage is in volts, but this is in millivolts; divide by 1000",
+                severity=Severity.WARNING,
+            ),
+            Report(
+                "28:44",
+                "relative_humidity is in fractions from 0 to 1, but this is in "
+                "percent; divide by 100",
+                severity=Severity.WARNING,
+            ),
+        ),
+        Example(
             "names of parameters, and a parameter that is converted elsewhere",
             {
                 "where.py": "import math\n\nfrom geometry_msgs.msg import Point, Quaternion\n"

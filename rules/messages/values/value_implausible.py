@@ -93,6 +93,31 @@ class ValueImplausible(MessageRule):
             },
             "8:40: the first argument of quaternion_from_euler() is roll; write (0, 0, yaw)",
         ),
+        Example(
+            "values out of range",
+            {
+                "fix.py": "from builtin_interfaces.msg import Duration\n"
+                "from geometry_msgs.msg import Quaternion\n"
+                "from sensor_msgs.msg import NavSatFix\n\n\n"
+                "def fix():\n"
+                "    where = NavSatFix(latitude=4807.038, longitude=1131.0)\n"
+                "    return where, Duration(nanosec=1500000000), Quaternion(z=90.0, w=1.0)\n",
+            },
+            Report(
+                "7:32",
+                "latitude is in degrees from -90 to 90, not 4807.038",
+                severity=Severity.WARNING,
+            ),
+            Report(
+                "7:52",
+                "longitude is in degrees from -180 to 180, not 1131",
+                severity=Severity.WARNING,
+            ),
+            Report(
+                "8:36", "nanosec is less than a second, not 1500000000", severity=Severity.WARNING
+            ),
+            Report("8:62", "z is between -1 and 1, not 90", severity=Severity.WARNING),
+        ),
         Example("plausible values", {"talker.py": _NODE.format(*_GOOD)}),
         Example(
             "constants of another field",
@@ -450,7 +475,7 @@ def _problem(types: MessageTypes, owner: str, name: str, node: ast.expr) -> str:
     for number in _numbers(types, node) if key in _RANGES else ():
         low, high, meaning = _RANGES[key]
         if not low <= number <= high:
-            return f"{name} is {meaning}, not {number:g}"
+            return f"{name} is {meaning}, not {number:.10g}"
     for source, result in _results(types, node) if key in _SHARES else ():
         if _factors(source, result).count(_PERCENT) == 1 and isinstance(result, ast.BinOp):
             return f"{name} is a fraction from 0 to 1, not a percentage; remove the factor 100"

@@ -61,6 +61,30 @@ class MadeInCallback(RclpyRule):
             "immediately are lost; create it in the constructor",
         ),
         Example(
+            "a broadcaster and an action client each time",
+            {
+                "seek.py": "from geometry_msgs.msg import TransformStamped\n"
+                "from nav2_msgs.action import NavigateToPose\n"
+                "from rclpy.action import ActionClient\nfrom rclpy.node import Node\n"
+                "from tf2_ros import TransformBroadcaster\n\n\n"
+                "class Seek(Node):\n"
+                "    def __init__(self):\n        super().__init__('seek')\n"
+                "        self.timer = self.create_timer(1.0, self.tick)\n\n"
+                "    def tick(self):\n"
+                "        TransformBroadcaster(self).sendTransform(TransformStamped())\n"
+                "        client = ActionClient(self, NavigateToPose, 'navigate_to_pose')\n"
+                "        client.send_goal_async(NavigateToPose.Goal())\n"
+            },
+            "14:9: callback 'tick' creates a broadcaster on each call: transforms sent "
+            "immediately are lost; create it in the constructor",
+            Report(
+                "15:18",
+                "callback 'tick' creates an action client on each call: the node keeps "
+                "them all; create it in the constructor",
+                severity=Severity.WARNING,
+            ),
+        ),
+        Example(
             "each time, and stored",
             {"talker.py": _NODE.format("").replace("        publisher", "        self.publisher")},
             Report(
@@ -121,8 +145,8 @@ class MadeInCallback(RclpyRule):
                     f"the constructor"
                 )
                 _, variable = file.stored_in(call)
-                is_lost = variable and created in _USES
-                severity = None if is_lost else Severity.WARNING
+                is_local = variable or isinstance(file.module.parent(call), ast.Attribute)
+                severity = None if is_local and created in _USES else Severity.WARNING
                 yield self.report(file.module.location(call), message, severity=severity)
 
 

@@ -57,6 +57,16 @@ class ClocksMixed(RclpyRule):
             "13:20: an rclpy Time and a number cannot be subtracted: TypeError; initialize it "
             "with self.get_clock().now()",
         ),
+        Example(
+            "a steady clock",
+            {
+                "driver.py": _NODE.format(
+                    "Clock(clock_type=ClockType.STEADY_TIME).now()", ""
+                ).replace("import ClockType", "import Clock, ClockType")
+            },
+            "13:20: times of the ROS clock and of a steady clock cannot be subtracted: TypeError; "
+            "use Time(clock_type=ClockType.ROS_TIME) or the clock of the node",
+        ),
         Example("the same clock", {"driver.py": _NODE.format("self.get_clock().now()", "")}),
         Example(
             "a time of that clock",

@@ -47,6 +47,52 @@ class LicenseDiffers(Rule):
             "package.xml:3:3: package.xml declares 'MIT', but LICENSE contains the Apache License "
             "2.0; declare the license of the file",
         ),
+        Example(
+            "the MIT License in LICENSE",
+            {
+                "LICENSE": "Permission is hereby granted, free of charge\n"
+                'The software is provided "as is"\n',
+                "package.xml": _MANIFEST.format("Apache-2.0"),
+            },
+            "package.xml:3:3: package.xml declares 'Apache-2.0', but LICENSE contains the MIT "
+            "License; declare the license of the file",
+        ),
+        Example(
+            "a BSD license in LICENSE",
+            {
+                "LICENSE": "Redistribution and use in source and binary forms\n",
+                "package.xml": _MANIFEST.format("MIT"),
+            },
+            "package.xml:3:3: package.xml declares 'MIT', but LICENSE contains a BSD license; "
+            "declare the license of the file",
+        ),
+        Example(
+            "the GPL in LICENSE",
+            {
+                "LICENSE": "GNU GENERAL PUBLIC LICENSE\n",
+                "package.xml": _MANIFEST.format("BSD-3-Clause"),
+            },
+            "package.xml:3:3: package.xml declares 'BSD-3-Clause', but LICENSE contains the GNU "
+            "GPL; declare the license of the file",
+        ),
+        Example(
+            "the LGPL in LICENSE",
+            {
+                "LICENSE": "GNU LESSER GENERAL PUBLIC LICENSE\n... GNU General Public License.\n",
+                "package.xml": _MANIFEST.format("MIT"),
+            },
+            "package.xml:3:3: package.xml declares 'MIT', but LICENSE contains the GNU LGPL; "
+            "declare the license of the file",
+        ),
+        Example(
+            "the Mozilla Public License in LICENSE",
+            {
+                "LICENSE": "Mozilla Public License Version 2.0\n",
+                "package.xml": _MANIFEST.format("MIT"),
+            },
+            "package.xml:3:3: package.xml declares 'MIT', but LICENSE contains the Mozilla Public "
+            "License; declare the license of the file",
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
