@@ -112,6 +112,19 @@ class ParameterUndeclared(Rule):
             },
         ),
         Example(
+            "declared by a subclass that has the node as an attribute",
+            {
+                "talker/__init__.py": "",
+                "talker/base.py": "import rclpy\n\n\nclass Base:\n    def __init__(self):\n"
+                "        self.node = rclpy.create_node('talker')\n"
+                "        self.node.declare_parameter('rate', 1.0)\n",
+                "talker/talker.py": "from .base import Base\n\n\nclass Talker(Base):\n"
+                "    def __init__(self):\n        super().__init__()\n"
+                "        self.high = self.node.declare_parameter('high', 4).value\n",
+                "a.yaml": _FILE.format("high: 4"),
+            },
+        ),
+        Example(
             "in a file that the node loads itself",
             {
                 "talker.py": "import yaml\n"

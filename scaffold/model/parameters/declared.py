@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING
 
 from scaffold.model.facts import fact
 from scaffold.model.programs.known_nodes import KnownNode, known_nodes
 from scaffold.model.python.evaluation.values import UNKNOWN
+from scaffold.model.rclpy.evaluation.attributes import is_used_elsewhere
 from scaffold.model.rclpy.file import rclpy_file
 from scaffold.model.rclpy.files import rclpy_files, rclpy_paths
 from scaffold.model.rclpy.nodes import NodeClass, NodeDefinition
@@ -93,7 +94,7 @@ def _declared_at(package: Package, path: str, number: int) -> Declared:
             types[name] = kind if name not in types or types[name] == kind else None
             if name not in places:
                 places[name] = _place(parameter, package, divides=name in divide)
-        complete = complete and not current.declares_automatically and not escapes(current)
+        complete = complete and not current.declares_automatically and not escapes(current, package)
         complete = complete and all(item.owner is not None for item in current.file.parameters)
         complete = complete and not (isinstance(current, NodeClass) and current.is_made_later)
         current = current.base if isinstance(current, NodeClass) else None
@@ -234,17 +235,24 @@ def _fixed_type(parameter: Parameter, *, may_be_dynamic: bool) -> str | None:
     return parameter.type
 
 
-def escapes(owner: NodeDefinition) -> bool:
-    """Return whether the node is passed to code that may declare more."""
-    if not isinstance(owner, NodeClass):
-        return _is_handed_on(owner, owner.file.module.tree, owner.name)
-    others = owner.node.bases[: owner.base_index] + owner.node.bases[owner.base_index + 1 :]
-    return bool(others) or _is_handed_on(owner, owner.node, "self")
+def escapes(owner: NodeDefinition, package: Package) -> bool:
+    """Return whether the node is passed to code, or used by files, that may declare more."""
+    index = owner.file.module.index
+    if isinstance(owner, NodeClass):
+        others = owner.node.bases[: owner.base_index] + owner.node.bases[owner.base_index + 1 :]
+        return bool(others) or _is_handed_on(owner, owner.node, "self", index.names("self"))
+    kept = [use for use in index.attributes(owner.name) if isinstance(use.ctx, ast.Load)]
+    uses = [*index.names(owner.name), *kept]
+    return _is_handed_on(owner, owner.file.module.tree, owner.name, uses) or (
+        bool(kept) and is_used_elsewhere(home_of(owner, package), owner.file, owner.name)
+    )
 
 
-def _is_handed_on(owner: NodeDefinition, scope: ast.AST, name: str) -> bool:
+def _is_handed_on(
+    owner: NodeDefinition, scope: ast.AST, name: str, uses: Iterable[ast.expr]
+) -> bool:
     module = owner.file.module
-    for use in module.index.names(name):
+    for use in uses:
         parent = module.parent(use)
         if _is_kept_elsewhere(parent, name) and module.is_inside(use, scope):
             return True

@@ -63,7 +63,7 @@ def _names_at(
     """Return the names, each with the parameter whose default it is; ``None`` if one is unknown."""
     current: NodeDefinition | None = rclpy_file(package, path).nodes[number]
     while current is not None:
-        if escapes(current) or current.is_lifecycle:
+        if escapes(current, package) or current.is_lifecycle:
             return None
         current = current.base if isinstance(current, NodeClass) else None
     names: list[tuple[str, str | None]] = []
