@@ -42,6 +42,7 @@ class FloatComparedExactly(TestRule):
                 "talker/turn.py": _CODE,
                 "test/test_a.py": _TEST.format("w == pytest.approx(0.0, abs=1e-9)"),
                 "test/test_b.py": _TEST.format("speed() == 0.3 and z > 0.5"),
+                "test/test_c.py": _TEST.format("math.cos(0) == 1.0 and rotation(0.0)[1] == 1.0"),
             },
         ),
         Example(
@@ -94,12 +95,24 @@ def _is_computed(package: Package, module: PythonModule, node: ast.expr, depth: 
             bindings = lookup[1] if lookup else ()
             values = [item.value or _unpacked(module, item.node) for item in bindings]
             parts = (values[0],) if len(values) == 1 else ()
-        case ast.Call(func=function):
+        case ast.Call(func=function, args=arguments):
+            if arguments and all(map(_is_zero, arguments)):
+                return False
             rounds = _rounds(module.qualified_name(function))
             return rounds or _has_rounding(package, module, function)
     return depth < _DEPTH and any(
         part is not None and _is_computed(package, module, part, depth + 1) for part in parts
     )
+
+
+def _is_zero(node: ast.expr) -> bool:
+    """Return whether a value is 0 or empty, for which the functions are exact."""
+    match node:
+        case ast.Constant(value=value):
+            return not value
+        case ast.List(elts=items) | ast.Tuple(elts=items):
+            return all(map(_is_zero, items))
+    return False
 
 
 def _unpacked(module: PythonModule, node: ast.AST) -> ast.expr | None:

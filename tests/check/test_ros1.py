@@ -90,6 +90,11 @@ def test_ros1_package_outside_of_the_workspace_of_ros2(
         (tmp_path / place / "package.xml").write_text(manifest)
     main(["check", "--select", "SC007", "."])
     assert " warning SC007 " in capsys.readouterr().out
+    (tmp_path / "Assets" / "old" / "package.xml").write_text(
+        MANIFEST.format(CATKIN, "").replace("old", "talker")
+    )
+    main(["check", "--select", "SC007", "."])
+    assert " warning SC007 " in capsys.readouterr().out
     (tmp_path / "robot_ws").rename(tmp_path / "robot")
     (tmp_path / "robot" / "src").rename(tmp_path / "robot" / "packages")
     main(["check", "--select", "SC007", "."])

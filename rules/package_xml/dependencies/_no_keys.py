@@ -40,6 +40,8 @@ def _problem(name: str) -> str:
     problem = ""
     if key:
         problem = f"{name!r} is a Debian package; its rosdep key is {key!r}"
+    elif stray := re.search(r"[<>=~!](?!.*\d)", name):
+        problem = f"{name!r} contains {stray[0]!r}: rosdep stops; remove it"
     elif re.search(r"[<>=~!]", name):
         problem = (
             f"{name!r} contains a version, which rosdep treats as part of the name; use "

@@ -62,6 +62,11 @@ class DependencyWithoutKey(Rule):
             "version_gte='...'",
         ),
         Example(
+            "a stray character",
+            {"package.xml": _MANIFEST.format("rclpy&gt;")},
+            "3:16: 'rclpy>' contains '>': rosdep stops; remove it",
+        ),
+        Example(
             "a Debian package",
             {"package.xml": _MANIFEST.format("ros-jazzy-std-msgs")},
             "3:16: 'ros-jazzy-std-msgs' is a Debian package; its rosdep key is 'std_msgs'",

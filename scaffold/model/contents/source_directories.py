@@ -13,7 +13,9 @@ if TYPE_CHECKING:
 
 def is_in_no_workspace(package: Package) -> bool:
     """Return whether all packages of ROS 2 are in a directory ``src`` that does not contain one."""
-    others = [other for other in package.workspace if not _is_for_catkin(other)]
+    workspace = package.workspace
+    packages = (*workspace, *workspace.namesakes(package))
+    others = [other for other in packages if not _is_for_catkin(other)]
     return bool(others) and all(_is_below_another_source(other, package) for other in others)
 
 
