@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 from collections.abc import Iterator
 
 from scaffold.api import (
@@ -200,7 +201,7 @@ class MarkerOrManifestMissing(Rule):
 
     def _fix(self, package: Package) -> Fix | None:
         data = package.setup_py.data_files
-        if not data:
+        if not data or not isinstance(data[0].node, ast.Tuple):
             return None
         source = package.source("setup.py")
         at = data[0].location

@@ -6,13 +6,30 @@ import ast
 from collections.abc import Iterator
 from fnmatch import fnmatchcase
 
-from scaffold.api import Diagnostic, Effect, Example, Package, Rule
+from scaffold.api import Diagnostic, Effect, Example, Location, Package, Rule
 from scaffold.api.python import Glob, PythonModule
 from scaffold.api.setup_py import matches
 
 _SETUP = (
     "from glob import glob\n\nfrom setuptools import setup\n\n"
     "setup(\n    name='talker',\n    data_files=[\n{}    ],\n)\n"
+)
+_SETUP_COLLECTED = (
+    "import os\nfrom pathlib import Path\n\nfrom setuptools import setup\n\nNAME = 'talker'\n\n\n"
+    "def tree(top):\n    found = {}\n"
+    "    for root, _, names in os.walk(top):\n        for name in names:\n"
+    "            found.setdefault(f'share/{NAME}/{root}', []).append(os.path.join(root, name))\n"
+    "    return list(found.items())\n\n\n"
+    "def share(*directories):\n"
+    "    files = [(f'share/{NAME}', ['LICENSE'])]\n    for directory in directories:\n"
+    "        if os.path.isdir(directory):\n"
+    "            names = [f'{directory}/{name}' for name in os.listdir(directory)]\n"
+    "            files.append((f'share/{NAME}/{directory}', names))\n    return files\n\n\n"
+    "data_files = [(f'share/{NAME}', ['package.xml'])]\n"
+    "data_files.extend(share('launch', 'worlds'))\n"
+    "for path in Path('maps').rglob('*.pgm'):\n"
+    "    data_files.append((f'share/{NAME}/{path.parent}', [str(path)]))\n"
+    "data_files += tree('maps')\n\nsetup(name=NAME, data_files=data_files)\n"
 )
 _CAUSE = "data_files"
 """Files were renamed or moved, and setup.py was not."""
@@ -91,6 +108,33 @@ class SetupFileMissing(Rule):
             "launch/talk.launch.py?",
         ),
         Example(
+            "files that functions and loops collect",
+            {
+                "setup.py": _SETUP_COLLECTED,
+                "package.xml": "<package/>\n",
+                "maps/hall/map.yaml": "",
+                "maps/hall/map.pgm": "",
+                "maps/README.md": "",
+                "launch/talk.launch.py": "",
+                "LICENSE": "",
+            },
+        ),
+        Example(
+            "a function that names a missing file, and a loop over names without their directory",
+            {
+                "setup.py": _SETUP_COLLECTED.replace("'LICENSE'", "'LICENCE'").replace(
+                    "[f'{directory}/{name}' for", "[name for"
+                ),
+                "package.xml": "<package/>\n",
+                "maps/hall/map.yaml": "",
+                "launch/talk.launch.py": "",
+                "LICENSE": "",
+            },
+            "setup.py:18:14: data_files names LICENCE, which is missing",
+            "setup.py:22:26: data_files names talk.launch.py, which is missing; did you mean "
+            "launch/talk.launch.py?",
+        ),
+        Example(
             "a file that is read",
             {"setup.py": _SETUP_READ.format(_READ), "README.md": "# talker\n"},
         ),
@@ -134,8 +178,8 @@ class SetupFileMissing(Rule):
                 "launch/talk.launch.py": "",
                 "maps/map.yaml": "",
             },
-            "setup.py:10:33: os.listdir() returns names without launch/: the build stops; use "
-            "glob('launch/*')",
+            "setup.py:10:33: data_files names talk.launch.py, which is missing; did you mean "
+            "launch/talk.launch.py?",
             "setup.py:11:31: the pattern maps/** matches the directory maps/ itself, which cannot "
             "be copied: the build stops; write maps/*",
         ),
@@ -149,14 +193,16 @@ class SetupFileMissing(Rule):
     def check(self, package: Package) -> Iterator[Diagnostic]:
         yield from self._check_data(package)
         yield from self._check_read(package)
-        yield from self._check_listed(package)
 
     def _check_data(self, package: Package) -> Iterator[Diagnostic]:
         marker = f"resource/{package.name}"
+        reported: set[Location] = set()
         for data in package.setup_py.data_files:
             if data.conditional:
                 continue
             for source, at in zip(data.sources, data.source_locations, strict=True):
+                if at in reported:
+                    continue
                 if isinstance(source, Glob):
                     if message := self._nothing_matches(package, source):
                         spoiled = Effect.SPOILS_INSTALL
@@ -168,7 +214,10 @@ class SetupFileMissing(Rule):
                     if "resource/" in path or package.has(path) or path.startswith(("/", "../")):
                         continue
                     problem = "a directory" if package.has_directory(path) else "missing"
-                    message = f"data_files names {source}, which is {problem}"
+                    files = [file for file in package.files if file.endswith(f"/{path}")]
+                    hint = f"; did you mean {files[0]}?" if len(files) == 1 else ""
+                    message = f"data_files names {source}, which is {problem}{hint}"
+                    reported.add(at)
                     yield self.report(at, message, cause=_CAUSE)
 
     def _nothing_matches(self, package: Package, pattern: Glob) -> str | None:
@@ -212,21 +261,6 @@ class SetupFileMissing(Rule):
             if isinstance(name, str) and scripts and not _exists(package, name):
                 message = f"scripts names {name}, which does not exist: the build stops"
                 yield self.report(scripts, message)
-
-    def _check_listed(self, package: Package) -> Iterator[Diagnostic]:
-        """Report data files that are names without their directory."""
-        module = package.setup_py.module
-        for data in package.setup_py.data_files:
-            match data.node:
-                case ast.Tuple(elts=[_, ast.Call(args=[ast.Constant(value=str(name))]) as call]):
-                    is_list = module.qualified_name(call.func) == "os.listdir"
-                    if is_list and name.strip("./"):
-                        directory = name.rstrip("/")
-                        message = (
-                            f"os.listdir() returns names without {directory}/: the build stops; "
-                            f"use glob('{directory}/*')"
-                        )
-                        yield self.report(module.location(call), message)
 
 
 def _opened(module: PythonModule, call: ast.Call) -> ast.expr | None:

@@ -18,10 +18,11 @@ from scaffold.model.install.declared_pytest import (
     lacks_pytest,
     setup_cfg,
 )
-from scaffold.model.install.package_data import installed_data, matches, package_data
+from scaffold.model.install.package_data import installed_data, package_data
 from scaffold.model.setup_py import edit as setup_edit
 from scaffold.model.setup_py.data_files import DataFile
 from scaffold.model.setup_py.entry_points import EntryPoint
+from scaffold.model.setup_py.globs import matches
 from scaffold.model.setup_py.metadata import (
     is_requirement,
     is_specifier,

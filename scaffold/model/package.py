@@ -141,7 +141,7 @@ class Package(PackageFiles):
         def parse() -> SetupPy:
             from scaffold.model.setup_py.setup_py import SetupPy
 
-            return SetupPy(self.module(SETUP_PY))
+            return SetupPy(self.module(SETUP_PY), self)
 
         self._note(SETUP_PY)
         return self._view("setup_py", parse)

@@ -44,7 +44,7 @@ class ArraysOfTwoLengths(MessageRule):
         Example("arrays of the same length, or empty", {"a.py": _NODE.format("[0.0, 1.0]", "[]")}),
         Example(
             "list multiplied by a number",
-            {"a.py": _NODE.format("[0.0] * 3", "[*range(3)]")},
+            {"a.py": _NODE.format("[0.0] * 3", "[*read(3)]")},
             "7:20: position has 3 values for 2 names: the message is ignored; give one for each",
         ),
         Example(

@@ -8,12 +8,12 @@ from fnmatch import fnmatchcase
 
 from scaffold.edits import Edit
 from scaffold.generate.edit.addition import Addition, ByHand, Outcome, Program, inside, spliced
-from scaffold.model.install.package_data import matches
 from scaffold.model.python.evaluation.values import UNKNOWN, Glob
 from scaffold.model.python.module import PythonModule
 from scaffold.model.setup_py import edit as setup_edit
 from scaffold.model.setup_py import edit as setup_keywords
 from scaffold.model.setup_py.data_files import DataFile
+from scaffold.model.setup_py.globs import matches
 from scaffold.model.setup_py.setup_py import FindPackages, SetupPy
 from scaffold.source import Source
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from scaffold.model.install.package_data import matches
 from scaffold.model.python.evaluation.values import Glob
+from scaffold.model.setup_py.globs import matches
 from scaffold.source import ViewError
 
 if TYPE_CHECKING:

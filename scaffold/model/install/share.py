@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING
 
 from scaffold.model.contents.ament_cmake import has_unknown_commands
 from scaffold.model.discovery.gitignore import is_untracked
-from scaffold.model.install.package_data import matches
 from scaffold.model.python.evaluation.values import Glob
 from scaffold.model.remembered import remembered
+from scaffold.model.setup_py.globs import matches
 from scaffold.record import NamedTuple
 from scaffold.source import ViewError
 

@@ -31,8 +31,10 @@ class DataFile(NamedTuple):
 
 def data_file(module: PythonModule, evaluator: Evaluator, element: Element) -> DataFile:
     """Return an item of the list as an entry, which may be malformed."""
-    node, at = element.node, module.location(element.node)
-    if isinstance(node, ast.Tuple | ast.List) and len(node.elts) == 2:  # noqa: PLR2004  a pair
+    node, at = element.node, module.location(element.origin or element.node)
+    if element.origin is not None:
+        entry = _evaluated(element.value, node, at)
+    elif isinstance(node, ast.Tuple | ast.List) and len(node.elts) == 2:  # noqa: PLR2004  a pair
         entry = _written(module, evaluator, node)
     elif lacks_comma(evaluator, node):
         entry = _evaluated((), node, at)._replace(malformed="a comma is missing before the files")

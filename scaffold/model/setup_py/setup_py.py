@@ -6,14 +6,19 @@ import ast
 from collections.abc import Mapping, Sequence
 from fnmatch import fnmatchcase
 from functools import cached_property
+from typing import TYPE_CHECKING
 
-from scaffold.model.python.evaluation.evaluator import Evaluator
-from scaffold.model.python.evaluation.values import UNKNOWN, Unknown
+from scaffold.model.python.evaluation.evaluator import Elements
+from scaffold.model.python.evaluation.values import UNKNOWN, Glob, Unknown
 from scaffold.model.python.module import PythonModule
 from scaffold.model.setup_py.data_files import DataFile, data_file, lacks_comma
 from scaffold.model.setup_py.entry_points import EntryPoint, EntryPointReader
+from scaffold.model.setup_py.evaluator import SetupEvaluator
 from scaffold.record import NamedTuple
 from scaffold.source import Location
+
+if TYPE_CHECKING:
+    from scaffold.model.package_files import PackageFiles
 
 _SETUP_FUNCTIONS = frozenset({"setuptools.setup", "distutils.core.setup", "setuptools.core.setup"})
 _FIND_PACKAGES = frozenset(
@@ -55,9 +60,9 @@ class FindPackages(NamedTuple):
 class SetupPy:
     """A setup.py, analyzed without running it; the call of setup() may be missing."""
 
-    def __init__(self, module: PythonModule) -> None:
+    def __init__(self, module: PythonModule, files: PackageFiles | None = None) -> None:
         self.module = module
-        self.evaluator = Evaluator(module)
+        self.evaluator = SetupEvaluator(module, files)
 
     # -- the call
 
@@ -84,7 +89,7 @@ class SetupPy:
             if word.arg is None:
                 result.update(self._unpacked(word.value))
                 continue
-            value = self.evaluator.evaluate(word.value)
+            value = self.evaluator.value(word.value)
             at = self.module.location(word.value)
             result[word.arg] = Keyword(word.arg, value, word.value, at)
         return result
@@ -113,7 +118,7 @@ class SetupPy:
             name = self.evaluator.evaluate(key)
             if isinstance(name, str):
                 at = self.module.location(value)
-                result[name] = Keyword(name, self.evaluator.evaluate(value), value, at)
+                result[name] = Keyword(name, self.evaluator.value(value), value, at)
         return result
 
     def _dict_of(self, node: ast.expr) -> ast.Dict | None:
@@ -210,12 +215,9 @@ class SetupPy:
     @cached_property
     def data_files(self) -> Sequence[DataFile]:
         """The known entries of data_files; see ``data_files_complete``."""
-        word = self.keyword("data_files")
-        if word is None:
-            return ()
         return [
             data_file(self.module, self.evaluator, element)
-            for element in self.evaluator.elements(word.node).items
+            for element in self._data_elements.items
             if element.value is not UNKNOWN
             or isinstance(element.node, ast.Tuple | ast.List)
             or lacks_comma(self.evaluator, element.node)
@@ -224,16 +226,25 @@ class SetupPy:
     @cached_property
     def data_files_complete(self) -> bool:
         """Whether ``data_files`` are complete, each with all its sources."""
-        word = self.keyword("data_files")
-        if word is None:
+        if self.keyword("data_files") is None:
             return not self.has_unknown_keywords
-        elements = self.evaluator.elements(word.node)
-        items_are_known = elements.complete and all(
-            item.value is not UNKNOWN for item in elements.items
-        )
-        return items_are_known and all(
+        items, is_complete = self._data_elements
+        is_complete = is_complete and all(item.value is not UNKNOWN for item in items)
+        return is_complete and all(
             entry.complete and entry.destination is not UNKNOWN for entry in self.data_files
         )
+
+    @cached_property
+    def _data_elements(self) -> Elements:
+        """The items of data_files, except patterns in place of a pair that match nothing."""
+        word = self.keyword("data_files")
+        if word is None:
+            return Elements((), complete=True)
+        items, is_complete = self.evaluator.elements(word.node)
+        kept = (
+            x for x in items if not isinstance(x.value, Glob) or self.evaluator.paths(x.value) != []
+        )
+        return Elements(tuple(kept), is_complete)
 
     # -- entry points
 

@@ -3,13 +3,22 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from functools import partial
+from itertools import islice
 from typing import TYPE_CHECKING
 
+from scaffold.model.python.evaluation.execution import (
+    Execution,
+    ExhaustedError,
+    LostError,
+    changed,
+    unpacked,
+)
 from scaffold.model.python.evaluation.given_arguments import given_argument
 from scaffold.model.python.evaluation.list_changes import (
+    CHANGING,
     changes_of,
     is_straight,
     list_literal,
@@ -22,14 +31,18 @@ from scaffold.model.python.evaluation.operations import (
     method_result,
     subscript,
 )
-from scaffold.model.python.evaluation.returns import only_result
+from scaffold.model.python.evaluation.returns import has_result, plain_function
 from scaffold.model.python.evaluation.values import (
     FUNCTIONS,
+    MAX_LENGTH,
     NAMED_VALUES,
     UNKNOWN,
     Glob,
+    Lazy,
     Unknown,
+    copied,
     held_small,
+    is_hashable,
     is_known,
     same,
 )
@@ -47,6 +60,8 @@ class Element(NamedTuple):
     value: object
     conditional: bool = False
     """Whether it is added under a condition or in a loop."""
+    origin: ast.expr | None = None
+    """The expression in a function that made it, where its names have other values."""
 
 
 class Elements(NamedTuple):
@@ -67,6 +82,8 @@ MOST_STEPS = 300_000
 """The number of expressions visited in a file, after which each value gets only FEW_STEPS."""
 FEW_STEPS = 100
 
+
+Comprehension = ast.ListComp | ast.SetComp | ast.GeneratorExp | ast.DictComp
 
 _NO_NOTES = frozenset[str]()
 """Shared, as most values have none, and Python makes a new empty set each time."""
@@ -89,6 +106,10 @@ class Evaluator:
         self._running: set[ast.AST] = set()
         self._memo: dict[ast.AST, tuple[object, frozenset[str]]] = {}
         self._local: dict[tuple[ast.AST, str], object] = {}
+        self._frames = 0
+        """The number of functions being executed."""
+        self._origins: dict[int, tuple[object, ast.expr]] = {}
+        """The pairs and lists that they made, by identity, and the expressions."""
         self._notes = _NO_NOTES
         self._methods: Mapping[type[ast.expr], Callable[..., object]] = {
             ast.Name: self._name,
@@ -97,7 +118,9 @@ class Evaluator:
             ast.Subscript: self.subscript,
             **{kind: partial(value_of, self.evaluate) for kind, value_of in OPERATIONS.items()},
             ast.ListComp: self._comprehension,
+            ast.SetComp: self._comprehension,
             ast.GeneratorExp: self._comprehension,
+            ast.DictComp: self._comprehension,
             ast.Call: self._call,
         }
 
@@ -145,6 +168,8 @@ class Evaluator:
             self._notes = outer | notes if outer and notes else outer or notes
         if not self._local and not self._is_cut:
             self._memo[node] = value, notes
+        elif self._frames and isinstance(node, ast.Tuple | ast.List):
+            self._origins[id(value)] = value, node
         if self._depth == 0:
             self._is_cut = False
         return value
@@ -242,8 +267,13 @@ class Evaluator:
             case _:
                 value = self.evaluate(node)
                 if isinstance(value, list | tuple):
-                    items.extend(Element(node, item) for item in value)
+                    items.extend(self.element(node, item) for item in value)
                 yield isinstance(value, list | tuple)
+
+    def element(self, node: ast.expr, value: object) -> Element:
+        """Return an item of a list that is the value of an expression."""
+        _, origin = self._origins.get(id(value), (None, None))
+        return Element(node, value, origin=origin)
 
     def _collect_named(self, node: ast.Name, items: list[Element], depth: int) -> Iterator[bool]:
         literal = list_literal(self.module, node)
@@ -251,9 +281,11 @@ class Evaluator:
             return
         yield from self._collect(literal, items, depth + 1)
         statement = statement_of(self.module, literal)
+        scope = self.module.index.scope_of(node)
         for change in changes_of(self.module, node):
             straight = is_straight(self.module, statement, change)
-            if straight and change.lineno > node.lineno:
+            is_later = change.lineno > node.lineno
+            if straight and is_later and scope is self.module.index.scope_of(change):
                 continue
             before = len(items)
             yield from self._collect_change(change, items, depth)
@@ -315,26 +347,71 @@ class Evaluator:
         value = self._imported(node)
         return self.attribute(node) if value is UNKNOWN else value
 
-    def _comprehension(self, node: ast.ListComp | ast.GeneratorExp) -> object:
-        if len(node.generators) != 1 or node.generators[0].is_async:
+    def _comprehension(self, node: Comprehension) -> object:
+        results: list[object] = []
+        if not self._generate(node, node.generators, results):
             return UNKNOWN
-        generator = node.generators[0]
-        values = self.evaluate(generator.iter)
-        if not isinstance(values, list | tuple) or not isinstance(generator.target, ast.Name):
-            return UNKNOWN
-        result: list[object] = []
+        if not isinstance(node, ast.DictComp):
+            return results
+        pairs = [item for item in results if isinstance(item, tuple) and is_hashable(item[0])]
+        return dict(pairs) if len(pairs) == len(results) else UNKNOWN
+
+    def _generate(
+        self, node: Comprehension, left: Sequence[ast.comprehension], results: list[object]
+    ) -> bool:
+        """Append the items that the remaining loops make; return whether they are known."""
+        if not left:
+            if isinstance(node, ast.DictComp):
+                results.append((self.evaluate(node.key), self.evaluate(node.value)))
+            else:
+                results.append(self.evaluate(node.elt))
+            return results[-1] is not UNKNOWN and len(results) <= MAX_LENGTH
+        loop = left[0]
+        values = self.evaluate(loop.iter)
+        if isinstance(values, dict | Lazy):
+            values = [*islice(values, MAX_LENGTH)]
+        if not isinstance(values, list | tuple):
+            return False
         for value in values:
-            with self._bound(node, {generator.target.id: value}):
-                tests = [self.evaluate(test) for test in generator.ifs]
-                item = self.evaluate(node.elt)
-            if isinstance(item, Glob):
-                filtered = item.filtered or bool(tests)
-                result.append(Glob(item.pattern, recursive=item.recursive, filtered=filtered))
-            elif not all(map(is_known, tests)) or item is UNKNOWN:
-                return UNKNOWN
-            elif all(tests):
-                result.append(item)
-        return result
+            paths = self.paths(value) if isinstance(value, Glob) else None
+            if isinstance(value, Glob) and (paths is None or not loop.ifs):
+                kept = self._kept_pattern(node, loop, value)
+                if kept is not None:
+                    results.append(kept)
+                    continue
+            for item in [value] if paths is None else paths:
+                if not self._generate_for(node, left, item, results):
+                    return False
+        return True
+
+    def _generate_for(
+        self,
+        node: Comprehension,
+        left: Sequence[ast.comprehension],
+        item: object,
+        results: list[object],
+    ) -> bool:
+        loop, *inner = left
+        self._steps += 1
+        if self._steps > self._most:
+            self._is_cut = True
+            return False
+        with self._bound(node, _names_in(loop.target, item)):
+            tests = [self.truth_of(self.evaluate(test)) for test in loop.ifs]
+            return None not in tests and (not all(tests) or self._generate(node, inner, results))
+
+    def _kept_pattern(
+        self, node: Comprehension, loop: ast.comprehension, pattern: Glob
+    ) -> Glob | None:
+        """Return the pattern, if the items are the paths that match it, or some of them."""
+        if isinstance(node, ast.DictComp) or loop is not node.generators[-1]:
+            return None
+        with self._bound(node, _names_in(loop.target, pattern)):
+            item = self.evaluate(node.elt)
+        if not isinstance(item, Glob):
+            return None
+        filtered = item.filtered or bool(loop.ifs)
+        return Glob(item.pattern, recursive=item.recursive, filtered=filtered, is_path=item.is_path)
 
     @contextmanager
     def _bound(self, scope: ast.AST, values: Mapping[str, object]) -> Iterator[None]:
@@ -350,33 +427,147 @@ class Evaluator:
 
     def _call(self, node: ast.Call) -> object:
         name = self.module.qualified_name(node.func)
-        if (
-            name is not None
-            and name in FUNCTIONS
-            and not any(isinstance(arg, ast.Starred) for arg in node.args)
-        ):
-            args = [self.evaluate(arg) for arg in node.args]
+        if name is not None and name in FUNCTIONS:
+            args = self._given(node)
             keywords = {word.arg or "**": self.evaluate(word.value) for word in node.keywords}
-            return FUNCTIONS[name](args, keywords)
+            return UNKNOWN if args is None else FUNCTIONS[name](args, keywords)
         if name == "os.path.join":
             return joined_path(self.evaluate, node)
         if isinstance(node.func, ast.Attribute) and name is None:
             value = method_result(self.evaluate, node, node.func)
             if value is not UNKNOWN:
                 return value
+        if self._frames and isinstance(node.func, ast.Attribute) and node.func.attr in CHANGING:
+            holder = self.evaluate(node.func.value)
+            if isinstance(holder, list | dict):
+                given = [self.evaluate(arg) for arg in node.args]
+                given += [UNKNOWN for word in node.keywords if word.arg != "key"]
+                return changed(self, holder, node.func.attr, given)
         value = self.call(node)
-        return self._result(node) if value is UNKNOWN else value
+        if value is UNKNOWN:
+            value = self._result(node)
+        if value is UNKNOWN and self._frames and name != "print":
+            for arg in (*node.args, *(word.value for word in node.keywords)):
+                self.forget(self.held(arg))
+        return value
 
     def _result(self, node: ast.Call) -> object:
-        """Return the value of a call of a function of the file that returns one expression."""
-        result = only_result(self.module, node.func)
-        if result is None:
+        """Return the value of a call of a function of the file."""
+        function = plain_function(self.module, node.func)
+        if function is None or not (self._frames or has_result(function)):
             return UNKNOWN
-        function, returned = result
-        parameters = (*function.args.posonlyargs, *function.args.args, *function.args.kwonlyargs)
+        signature = function.args
+        parameters = (*signature.posonlyargs, *signature.args, *signature.kwonlyargs)
         given = {
             item.arg: self.evaluate(given_argument(function, node, item, is_method=False))
             for item in parameters
         }
-        with self._bound(function, given):
-            return self.evaluate(returned)
+        if signature.vararg is not None:
+            further = self._given(node, len(signature.posonlyargs + signature.args))
+            given[signature.vararg.arg] = UNKNOWN if further is None else further
+        if not self._frames:  # values that are kept must not change
+            given = {name: copied(value) for name, value in given.items()}
+        outer = self._local
+        with self._bound(function, {"": None, **given}), self._executing():
+            execution = Execution(self)
+            try:
+                return execution.result_of(function)
+            except (LostError, ExhaustedError):
+                execution.forget_changes(function)
+                return UNKNOWN
+            finally:
+                outer.update({key: self._local[key] for key in outer})
+
+    def value_after(self, blocks: Iterable[Sequence[ast.stmt]], node: ast.expr) -> object:
+        """Return the value of an expression of the module after the execution of blocks."""
+        self._start()
+        self._depth += 1
+        execution = Execution(self)
+        try:
+            with self._bound(self.module.tree, {"": None}), self._executing():
+                for block in blocks:
+                    execution.run(block)
+                return self.evaluate(node)
+        except (LostError, ExhaustedError):
+            return UNKNOWN
+        finally:
+            self._depth -= 1
+            self._is_cut = False
+
+    def _given(self, node: ast.Call, start: int = 0) -> Sequence[object] | None:
+        """Return the arguments of a call from a place on; ``None`` if their number is unknown."""
+        if any(isinstance(arg, ast.Starred) for arg in node.args[:start]):
+            return None
+        values = OPERATIONS[ast.Tuple](self.evaluate, ast.Tuple(node.args[start:], ast.Load()))
+        return values if isinstance(values, tuple) else None
+
+    @contextmanager
+    def _executing(self) -> Iterator[None]:
+        self._frames += 1
+        try:
+            yield
+        finally:
+            self._frames -= 1
+
+    # -- for statements that are executed
+
+    def items_of(self, value: object) -> Iterable[object] | None:
+        """Return what a loop over a value runs through; ``None`` if unknown."""
+        if isinstance(value, dict):
+            return [*value]
+        if not isinstance(value, list | tuple):
+            return value if isinstance(value, Lazy) else None
+        items: list[object] = []
+        for item in value:
+            paths = self.paths(item) if isinstance(item, Glob) else [item]
+            if paths is None:
+                return None
+            items.extend(paths)
+        return items
+
+    def truth_of(self, value: object) -> bool | None:
+        """Return whether a value is true; ``None`` if unknown."""
+        if is_known(value):
+            return bool(value)
+        items = self.items_of(value) if isinstance(value, list) else None
+        return None if items is None or UNKNOWN in items else bool(items)
+
+    def assign(self, name: ast.Name, value: object) -> None:
+        """Set the value of a name in the function being executed."""
+        lookup = self.module.index.lookup(name.id, name)
+        if lookup is not None:
+            self._local[lookup[0], name.id] = value
+
+    def held(self, node: ast.expr) -> object:
+        """Return the value that was assigned to a name."""
+        lookup = self.module.index.lookup(node.id, node) if isinstance(node, ast.Name) else None
+        return self._local.get((lookup[0], lookup[1][0].name), UNKNOWN) if lookup else UNKNOWN
+
+    def forget(self, value: object) -> None:
+        """Make the content of a list or dictionary unknown."""
+        if isinstance(value, list):
+            value.append(UNKNOWN)
+        elif isinstance(value, dict):
+            value.update(dict.fromkeys(value, UNKNOWN))
+            value[_UNKNOWN_KEY] = UNKNOWN
+
+    def count_step(self) -> None:
+        """Count a statement that is executed; raises ExhaustedError."""
+        self._steps += 1
+        if self._steps > self._most:
+            self._is_cut = True
+            raise ExhaustedError
+
+    def paths(self, pattern: Glob) -> Sequence[object] | None:
+        """Return the paths that match a pattern; ``None`` if the files are not known."""
+        del pattern
+        return None
+
+
+_UNKNOWN_KEY = object()
+"""A key of a dictionary that stands for others, which are unknown."""
+
+
+def _names_in(target: ast.expr, value: object) -> dict[str, object]:
+    """Return the values of the names in the target of a loop."""
+    return {part.id: item for part, item in unpacked(target, value) if isinstance(part, ast.Name)}

@@ -9,10 +9,11 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from scaffold.model.python.syntax_tree import SyntaxTree
 
-_CHANGING = frozenset(
+CHANGING = frozenset(
     {"append", "extend", "insert", "remove", "pop", "clear", "sort", "reverse"}
     | {"update", "setdefault", "add", "discard", "popitem"}
 )
+"""The methods that change a list, set or dictionary."""
 
 
 def list_literal(module: SyntaxTree, node: ast.Name) -> ast.expr | None:
@@ -37,10 +38,27 @@ def changes_of(module: SyntaxTree, node: ast.Name) -> Sequence[ast.Name]:
 
 def _is_change(module: SyntaxTree, name: ast.Name) -> bool:
     parent = module.parent(name)
+    if isinstance(parent, ast.Call) and name in parent.args:
+        return _is_changed_by(module, parent, parent.args.index(name))
+    return _is_direct_change(module, name)
+
+
+def _is_changed_by(module: SyntaxTree, call: ast.Call, place: int) -> bool:
+    """Return whether a function of the file changes the list that it is given."""
+    function = module.index.only_node(call.func)
+    if not isinstance(function, ast.FunctionDef) or place >= len(function.args.args):
+        return False
+    parameter = function.args.args[place].arg
+    names = (name for name in module.below(function, ast.Name) if name.id == parameter)
+    return any(_is_direct_change(module, name) for name in names)
+
+
+def _is_direct_change(module: SyntaxTree, name: ast.Name) -> bool:
+    parent = module.parent(name)
     match parent:
         case ast.AugAssign(target=target):
             return target is name
-        case ast.Attribute(attr=attr) if attr in _CHANGING:
+        case ast.Attribute(attr=attr) if attr in CHANGING:
             above = module.parent(parent)
             return isinstance(above, ast.Call) and above.func is parent
         case ast.Subscript(value=value, ctx=ast.Store() | ast.Del()):

@@ -12,6 +12,7 @@ from scaffold.model.python.evaluation.values import (
     PathValue,
     binary,
     format_text,
+    is_hashable,
     is_known,
     join_paths,
     path_method,
@@ -81,7 +82,10 @@ def comparison(evaluate: Evaluate, node: ast.Compare) -> object:
     compare = COMPARISONS.get(type(node.ops[0]))
     if len(node.ops) > 1 or compare is None or not is_known(left) or not is_known(right):
         return UNKNOWN
-    return compare(left, right)
+    try:
+        return compare(left, right)
+    except TypeError:  # of `in`
+        return UNKNOWN
 
 
 def _conditional(evaluate: Evaluate, node: ast.IfExp) -> object:
@@ -163,12 +167,19 @@ def method_result(evaluate: Evaluate, node: ast.Call, func: ast.Attribute) -> ob
             return text_method(holder, func.attr, args, keywords)
         case PathValue() | Glob():
             return path_method(holder, func.attr, args, keywords)
-        case dict() if func.attr == "get" and args and isinstance(args[0], str):
+        case dict() if func.attr == "get" and args and is_hashable(args[0]):
             return holder.get(*args[:2])
+        case dict() if func.attr in _PARTS and not args:
+            return _PARTS[func.attr](holder)
         case _:
             return UNKNOWN
 
 
+_PARTS: Mapping[str, Callable[[dict[object, object]], list[object]]] = {
+    "keys": list,
+    "values": lambda holder: [*holder.values()],
+    "items": lambda holder: [*holder.items()],
+}
 OPERATIONS: Mapping[type[ast.expr], Callable[..., object]] = {
     ast.JoinedStr: _f_string,
     ast.BinOp: _binary,

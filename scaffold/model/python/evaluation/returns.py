@@ -20,23 +20,17 @@ def returned(function: FunctionNode) -> Sequence[ast.Return]:
     return [node for node in _own_nodes(function) if isinstance(node, ast.Return)]
 
 
-def only_result(module: SyntaxTree, func: ast.expr) -> tuple[ast.FunctionDef, ast.expr] | None:
-    """Return the function of the file that an expression refers to, and its only return value.
-
-    ``None`` for others: what branches, loops, is decorated or gives a parameter another value.
-    """
+def plain_function(module: SyntaxTree, func: ast.expr) -> ast.FunctionDef | None:
+    """Return the function of the file that an expression refers to, if nothing decorates it."""
     function = module.index.only_node(func)
     if not isinstance(function, ast.FunctionDef) or function.decorator_list:
         return None
-    *before, last = function.body
-    if not isinstance(last, ast.Return) or last.value is None:
-        return None
-    arguments = function.args
-    names = {item.arg for item in (*arguments.posonlyargs, *arguments.args, *arguments.kwonlyargs)}
-    is_plain = all(isinstance(item, ast.Assign | ast.AnnAssign | ast.Expr) for item in before)
-    if not is_plain or any(_sets(node, name) for node in ast.walk(function) for name in names):
-        return None
-    return function, last.value
+    return function
+
+
+def has_result(function: FunctionNode) -> bool:
+    """Return whether a call of the function may return anything other than ``None``."""
+    return is_generator(function) or any(node.value for node in returned(function))
 
 
 def value_set_before(function: FunctionNode, statement: ast.Return) -> ast.expr | None:

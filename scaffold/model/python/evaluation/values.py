@@ -6,8 +6,9 @@ import ast
 import math
 import operator
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from enum import Enum
+from itertools import islice
 from typing import Final
 
 
@@ -32,14 +33,27 @@ UNKNOWN: Final = Unknown.UNKNOWN
 class Glob:
     """A placeholder in a list for the paths that match a pattern."""
 
-    __slots__ = ("filtered", "pattern", "recursive")
+    __slots__ = ("filtered", "is_path", "pattern", "recursive")
 
-    def __init__(self, pattern: str, *, recursive: bool = False, filtered: bool = False) -> None:
+    def __init__(
+        self,
+        pattern: str,
+        *,
+        recursive: bool = False,
+        filtered: bool = False,
+        is_path: bool = False,
+    ) -> None:
         self.pattern = pattern
         self.recursive = recursive
         """Whether ``**`` matches any directories."""
         self.filtered = filtered
         """Whether a condition selects some of the paths."""
+        self.is_path = is_path
+        """Whether they are objects of pathlib."""
+
+    def as_text(self) -> Glob:
+        """Return a placeholder for the same paths as strings."""
+        return Glob(self.pattern, recursive=self.recursive, filtered=self.filtered)
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Glob) and repr(self) == repr(other)
@@ -72,6 +86,18 @@ class PathValue:
         return f"PathValue({self.text!r})"
 
 
+class Lazy:
+    """Items that are made while a loop runs, which may change what follows: ``os.walk``."""
+
+    __slots__ = ("_make",)
+
+    def __init__(self, make: Callable[[], Iterator[object]]) -> None:
+        self._make = make
+
+    def __iter__(self) -> Iterator[object]:
+        return self._make()
+
+
 MAX_LENGTH = 20_000
 """The maximum number of characters or items; longer values are unknown."""
 MAX_NUMBER = 10**18
@@ -94,8 +120,12 @@ COMPARISONS: Mapping[type[ast.cmpop], Callable[[object, object], bool]] = {
     ast.NotEq: operator.ne,
     ast.Is: operator.is_,
     ast.IsNot: operator.is_not,
+    ast.In: lambda left, right: left in right,  # type: ignore[operator]  # a TypeError is caught
+    ast.NotIn: lambda left, right: left not in right,  # type: ignore[operator]  # the same
 }
-_TEXT_METHODS: Mapping[str, Callable[..., str]] = {
+_TEXT_METHODS: Mapping[str, Callable[..., object]] = {
+    "startswith": str.startswith,
+    "endswith": str.endswith,
     "lower": str.lower,
     "upper": str.upper,
     "title": str.title,
@@ -134,6 +164,22 @@ def is_known(value: object) -> bool:
     return True
 
 
+def is_hashable(value: object) -> bool:
+    """Return whether a value is a known key of a dictionary."""
+    return isinstance(value, str | int | float | PathValue)
+
+
+def copied(value: object) -> object:
+    """Return a copy of a value, whose lists and dictionaries can be changed."""
+    if isinstance(value, list):
+        return [copied(item) for item in value]
+    if isinstance(value, tuple):
+        return tuple(copied(item) for item in value)
+    if isinstance(value, dict):
+        return {key: copied(item) for key, item in value.items()}
+    return value
+
+
 def kind_of(value: object) -> str:
     """Describe the type of a value: ``a str``, ``an int``, ``None``."""
     name = type(value).__name__
@@ -160,8 +206,8 @@ def binary(kind: type[ast.operator], left: object, right: object) -> object:
         return _arithmetic(kind, left, right)
     if kind is ast.Mod and isinstance(left, str):
         return _percent(left, right)
-    if kind is ast.Div and isinstance(left, PathValue) and isinstance(right, str):
-        return PathValue(join_paths([left.text, right]))
+    if kind is ast.Div and (isinstance(left, PathValue) or isinstance(right, PathValue)):
+        return _path((left, right), {})
     if kind is ast.Add:
         return _concatenated(left, right)
     if kind is ast.Mult and isinstance(left, str | list) and type(right) is int:
@@ -239,7 +285,7 @@ def text_method(
         separator = str(args[0]) if args else None
         return UNKNOWN if separator == "" or args[1:] else text.split(separator)
     function = _TEXT_METHODS.get(method)
-    if function is None or keywords or not all(isinstance(arg, str) for arg in args):
+    if function is None or keywords or not all(isinstance(arg, str | tuple) for arg in args):
         return UNKNOWN
     try:
         return function(text, *args)
@@ -252,15 +298,16 @@ def path_method(
 ) -> object:
     """Return the result of a path method; globs pass through."""
     if method in {"as_posix", "__str__"} and not args:
-        return path if isinstance(path, Glob) else path.text
+        return path.as_text() if isinstance(path, Glob) else path.text
     if isinstance(path, PathValue) and not keywords and all(isinstance(arg, str) for arg in args):
         texts = [str(arg) for arg in args]
         if method == "joinpath":
             return PathValue(join_paths([path.text, *texts]))
         if method == "glob" and len(texts) == 1:
-            return [Glob(join_paths([path.text, texts[0]]), recursive=True)]
+            return [Glob(join_paths([path.text, texts[0]]), recursive=True, is_path=True)]
         if method == "rglob" and len(texts) == 1:
-            return [Glob(join_paths([path.text, "**", texts[0]]), recursive=True)]
+            pattern = join_paths([path.text, "**", texts[0]])
+            return [Glob(pattern, recursive=True, is_path=True)]
     return UNKNOWN
 
 
@@ -284,7 +331,8 @@ def _path(args: Sequence[object], keywords: Mapping[str, object]) -> object:
 
 def _converted(args: Sequence[object], keywords: Mapping[str, object], kind: type) -> object:
     if keywords or len(args) > 1 or not all(map(is_known, args)):
-        return args[0] if kind is str and args and isinstance(args[0], Glob) else UNKNOWN
+        pattern = args[0] if kind is str and args else UNKNOWN
+        return pattern.as_text() if isinstance(pattern, Glob) else UNKNOWN
     value = args[0] if args else kind()
     if kind is str and isinstance(value, PathValue):
         return value.text
@@ -300,7 +348,61 @@ def _list_result(args: Sequence[object], keywords: Mapping[str, object]) -> obje
     """``list``, ``tuple``, ``sorted`` and ``set`` are treated alike."""
     del keywords
     values = args[0] if args else []
-    return list(values) if isinstance(values, list | tuple) else UNKNOWN
+    if not isinstance(values, list | tuple | dict | Lazy):
+        return UNKNOWN
+    return list(islice(values, MAX_LENGTH))
+
+
+def _set(args: Sequence[object], keywords: Mapping[str, object]) -> object:
+    values = _list_result(args, keywords)
+    if not isinstance(values, list) or not all(map(is_hashable, values)):
+        return UNKNOWN
+    return [*dict.fromkeys(values)]
+
+
+def _pairs(args: Sequence[object], keywords: Mapping[str, object]) -> object:
+    """``zip``, if the number of items is known."""
+    if keywords or not all(isinstance(arg, list | tuple) and is_countable(arg) for arg in args):
+        return UNKNOWN
+    return list(zip(*args, strict=False))
+
+
+def _numbered(args: Sequence[object], keywords: Mapping[str, object]) -> object:
+    values, start = args[0] if args else UNKNOWN, [*args[1:], *keywords.values()]
+    if not isinstance(values, list | tuple) or not is_countable(values) or start:
+        return UNKNOWN
+    return [*enumerate(values)]
+
+
+def _range(args: Sequence[object], keywords: Mapping[str, object]) -> object:
+    numbers = [arg for arg in args if type(arg) is int]
+    if keywords or not 0 < len(numbers) == len(args) <= len(("start", "stop", "step")):
+        return UNKNOWN
+    if len(numbers) > len(("start", "stop")) and numbers[-1] == 0:
+        return UNKNOWN
+    return [*islice(range(*numbers), MAX_LENGTH + 1)]
+
+
+def _sum(args: Sequence[object], keywords: Mapping[str, object]) -> object:
+    """``sum(lists, [])``."""
+    values = args[0] if args else UNKNOWN
+    if keywords or list(args[1:]) != [[]] or not isinstance(values, list | tuple):
+        return UNKNOWN
+    lists = [item for item in values if isinstance(item, list)]
+    return [item for part in lists for item in part] if len(lists) == len(values) else UNKNOWN
+
+
+def _chained(args: Sequence[object], keywords: Mapping[str, object]) -> object:
+    """``itertools.chain(...)``."""
+    lists = [item for item in args if isinstance(item, list | tuple)]
+    if keywords or len(lists) < len(args):
+        return UNKNOWN
+    return [item for part in lists for item in part]
+
+
+def is_countable(values: Sequence[object]) -> bool:
+    """Return whether the number of items is known: none stands for several paths."""
+    return not any(isinstance(item, Glob) for item in values)
 
 
 def _length(args: Sequence[object], keywords: Mapping[str, object]) -> object:
@@ -334,6 +436,13 @@ FUNCTIONS: Mapping[str, _Function] = {
     "list": _list_result,
     "tuple": _list_result,
     "sorted": _list_result,
+    "set": _set,
+    "zip": _pairs,
+    "enumerate": _numbered,
+    "range": _range,
+    "sum": _sum,
+    "itertools.chain": _chained,
+    "itertools.chain.from_iterable": lambda args, keywords: _sum((*args, []), keywords),
     "len": _length,
     "abs": lambda args, _: _numeric(args, abs),
     "round": lambda args, _: _numeric(args, round),

@@ -103,7 +103,7 @@ def test_strings_and_paths(text: str, expected: object) -> None:
         ("p = ['a']\np.append('b')\np += ['c']\np.extend(['d'])\nx = p", ["a", "b", "c", "d"]),
         ("x = [i + '/a' for i in ['p', 'q']]", ["p/a", "q/a"]),
         ("x = [i for i in ['p', 'q'] if i != 'p']", ["q"]),
-        ("x = ['/'.join((a, b)) for a in ['p'] for b in ['q']]", UNKNOWN),
+        ("x = ['/'.join((a, b)) for a in ['p'] for b in ['q']]", ["p/q"]),
         ("x = list(('a', 'b'))", ["a", "b"]),
     ],
 )
