@@ -41,6 +41,8 @@ from scaffold.model.python.module import is_in_tests
 from scaffold.source import Location
 
 _Problem = tuple[Location, str] | tuple[Location, str, Fix | None]
+_NAME_FOR_COLCON = r"[a-zA-Z0-9][a-zA-Z0-9_-]*"
+"""What catkin_pkg accepts, some of it with a warning."""
 _IN_EXPORT = frozenset({"architecture_independent", "build_type", "deprecated", "metapackage"})
 
 _OF_FAST_DDS = ("<dds> after ", "<profiles> after ")
@@ -272,10 +274,16 @@ def _texts(_: Package, structure: Structure) -> Iterator[_Problem]:
 def _names(package: Package, code: str) -> Iterator[Diagnostic]:
     for element, name in _structure(package).values("name"):
         if not fits(NAME, name):
-            is_plain = fits(NAME, name.replace("-", "_")) and not package.glob("msg/*.msg")
-            severity = Severity.WARNING if is_plain else Severity.ERROR
+            severity = Severity.ERROR if _is_refused(package, name) else Severity.WARNING
             message = f"the name {name!r} {_explain_name(name)}"
             yield diagnostic(code, element.text_location, message, severity=severity)
+
+
+def _is_refused(package: Package, name: str) -> bool:
+    """Return whether colcon, the generators of interfaces or a test reject a malformed name."""
+    if not fits(_NAME_FOR_COLCON, name) or linter_use(package, "xmllint").runs:
+        return True
+    return any(package.glob(f"{kind}/*.{kind}") for kind in ("msg", "srv", "action"))
 
 
 def _explain_name(name: str) -> str:

@@ -403,6 +403,7 @@ CASES: Mapping[str, tuple[Example, ...]] = {
             Report(
                 "package.xml:2:9",
                 "the name 'Talker-two' has - in it: only a to z, 0 to 9 and _ are allowed",
+                severity=Severity.WARNING,
             ),
         ),
         Example(
@@ -428,7 +429,31 @@ CASES: Mapping[str, tuple[Example, ...]] = {
             Report(
                 "package.xml:2:9",
                 "the name 'talker__two' has an underscore at its end or two in a row",
+                severity=Severity.WARNING,
             ),
+        ),
+        Example(
+            "a space, which colcon refuses",
+            {"package.xml": "<package>\n  <name>talker two</name>\n</package>\n"},
+            Report(
+                "package.xml:2:9",
+                "the name 'talker two' has a space in it: only a to z, 0 to 9 and _ are allowed",
+            ),
+        ),
+        Example(
+            "a capital in a package whose tests run ament_xmllint",
+            {
+                "package.xml": "<package>\n  <name>Talker</name>\n"
+                "  <test_depend>ament_xmllint</test_depend>\n</package>\n",
+                "CMakeLists.txt": "project(Talker)\nif(BUILD_TESTING)\n"
+                "  find_package(ament_cmake_xmllint REQUIRED)\n  ament_xmllint()\nendif()\n",
+            },
+            Report("package.xml:2:9", "the name 'Talker' has capitals in it: write 'talker'"),
+        ),
+        Example(
+            "a capital in a package with services",
+            {"package.xml": "<package><name>Beats</name></package>\n", "srv/Beat.srv": "---\n"},
+            Report("package.xml:1:16", "the name 'Beats' has capitals in it: write 'beats'"),
         ),
     ),
     "PX068": (

@@ -186,18 +186,19 @@ is mostly the rest of an element or of a comment.
         XMLLINT,
         Severity.ERROR,
         other_severities={
-            Severity.WARNING: "only dashes are wrong, and the package has no messages"
+            Severity.WARNING: "colcon accepts the name, the package has no interfaces, and none of "
+            "its tests runs ament_xmllint"
         },
         message=("the name 'Talker-two' has - in it: only a to z, 0 to 9 and _ are allowed"),
         documentation="""\
-**Why.** ``ament_xmllint`` fails under ``colcon test``. Names with a capital cannot be released,
-and interfaces of such a package cannot be generated. A dash alone is a warning: packages of
-such a name have been released.
+**Why.** colcon refuses names with other characters, interfaces are only generated for well-formed
+names, and ``ament_xmllint`` fails under ``colcon test``. Names with a capital cannot be released.
 
 **Fix.** Use lower-case letters, digits and single underscores between them, a letter first.
 No automatic fix: the name is in other files, too.
 
-**Source.** REP 144; REP 149, ``<name>``; the schemas.
+**Source.** REP 144; REP 149, ``<name>``; the schemas; ``catkin_pkg/package.py``;
+``rosidl_adapter/parser.py``.
 """,
     ),
     AmentCode(
