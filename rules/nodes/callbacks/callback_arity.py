@@ -6,6 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, RclpyRule
+from scaffold.api.python import UNKNOWN, conditions_on
 from scaffold.api.rclpy import (
     ActionServer,
     Callback,
@@ -194,6 +195,15 @@ class CallbackArity(RclpyRule):
             "11:34: callback 'end' takes 3 arguments, but a future passes itself: TypeError",
         ),
         Example(
+            "a function in a table that the call of the table is not for",
+            {
+                "listener.py": _NODE_OF_TABLE.format(
+                    "if msg.data == 'stop':\n            self.stop(True)\n        else:\n"
+                    "            self.commands[msg.data]()"
+                ).replace("now=False", "now")
+            },
+        ),
+        Example(
             "chosen by a condition, or from a table",
             {
                 "listener.py": _NODE.format(", message")
@@ -371,9 +381,22 @@ def _called_from_tables(
             continue
         if any(call.keywords for call in calls):
             continue
-        counts = tuple({len(call.args) for call in calls})
-        passes = f"line {calls[0].lineno} passes {counts[0] or 'none'}: TypeError"
-        yield from (((counts, passes), file.callback(value)) for value in table.values)
+        for key, value in zip(table.keys, table.values, strict=True):
+            reaching = [call for call in calls if not _asks_for(file, call, key)]
+            if reaching:
+                counts = tuple({len(call.args) for call in reaching})
+                passes = f"line {reaching[0].lineno} passes {counts[0] or 'none'}: TypeError"
+                yield (counts, passes), file.callback(value)
+
+
+def _asks_for(file: RclpyFile, call: ast.Call, key: ast.expr | None) -> bool:
+    """Return whether a condition on a call asks for a key, which may be called elsewhere."""
+    wanted = file.evaluator.evaluate(key) if key is not None else UNKNOWN
+    return any(
+        isinstance(node, ast.Constant) and node.value == wanted
+        for test in conditions_on(file.module, call)
+        for node in ast.walk(test)
+    )
 
 
 def _argument_counts(entity: Entity) -> tuple[tuple[int, ...], str] | None:

@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, RclpyRule, Report, Severity
-from scaffold.api.python import UNKNOWN, is_handled, is_known
+from scaffold.api.python import UNKNOWN, all_conditions, is_handled, is_known
 from scaffold.api.rclpy import LOG_METHODS, RclpyFile, is_of_rclpy, log_calls
 
 _NODE = (
@@ -110,6 +110,27 @@ class LoggerMisused(RclpyRule):
             },
         ),
         Example(
+            "a method that depends on a condition, reached once",
+            {
+                "talker.py": _NODE_SEVERITY.format(
+                    "        if self.done:\n            return\n        self.done = True\n"
+                    + _CHOICE
+                )
+                + "\n    def __init__(self):\n        self.done = False\n"
+            },
+        ),
+        Example(
+            "a method that depends on a condition, with a flag that is cleared",
+            {
+                "talker.py": _NODE_SEVERITY.format(
+                    "        if self.done:\n            return\n        self.done = True\n"
+                    + _CHOICE
+                )
+                + "\n    def start(self):\n        self.done = False\n"
+            },
+            "9:15: log statement with two severities: ValueError; write a separate call for each",
+        ),
+        Example(
             "a method that depends on a condition",
             {"talker.py": _NODE_SEVERITY.format(_CHOICE)},
             "6:15: log statement with two severities: ValueError; write a separate call for each",
@@ -188,7 +209,7 @@ class LoggerMisused(RclpyRule):
             if module.enclosing_function(node) is None:
                 continue  # chosen once, for the whole run
             chosen = {self._severity(branch) for branch in (node.body, node.orelse)}
-            if None not in chosen and len(chosen) > 1:
+            if None not in chosen and len(chosen) > 1 and not _is_reached_once(file, node):
                 message = (
                     "log statement with two severities: ValueError; write a separate call for each"
                 )
@@ -220,6 +241,25 @@ class LoggerMisused(RclpyRule):
                     f"LoggingSeverity.DEBUG or another level"
                 )
                 yield self.report(file.module.location(level), message)
+
+
+def _is_reached_once(file: RclpyFile, node: ast.AST) -> bool:
+    """Return whether a flag, set for good, lets a node run once: ``if self.done: return``."""
+    function = file.module.enclosing_function(node)
+    for condition in all_conditions(file.module, node):
+        test, blocking = condition.test, not condition.needed
+        if isinstance(test, ast.UnaryOp) and isinstance(test.op, ast.Not):
+            test, blocking = test.operand, not blocking
+        stores = file.evaluator.stores(test.attr) if isinstance(test, ast.Attribute) else ()
+        later = [
+            (file.function_of(store.node), store.value and file.evaluator.evaluate(store.value))
+            for store in stores
+            if getattr(file.function_of(store.node), "name", "") != "__init__"
+        ]
+        is_set = (function, blocking) in later
+        if is_set and all(value is blocking for _, value in later):
+            return True
+    return False
 
 
 def _adds_number(file: RclpyFile, node: ast.BinOp) -> bool:
