@@ -61,7 +61,8 @@ class RemappingWithoutEffect(Rule):
     name = "remapping-without-effect"
     effect = Effect.WRONG_BEHAVIOR
     other_severities = {
-        Severity.WARNING: "the node already has the new name, as a full name in its code"
+        Severity.WARNING: "no name of the node is similar, as if the remapping was left over; or "
+        "the node already has the new name, as a full name in its code"
     }
     examples = (
         Example(
@@ -86,8 +87,12 @@ class RemappingWithoutEffect(Rule):
         Example(
             "an unknown topic",
             {**_FILES, "launch/a.launch.py": _LAUNCH.format("", "chat_in")},
-            "launch/a.launch.py:8:27: 'talk' has no topic, service or action 'chat_in': nothing "
-            "is remapped; it has chatter, ~/input",
+            Report(
+                "launch/a.launch.py:8:27",
+                "'talk' has no topic, service or action 'chat_in': nothing is "
+                "remapped; it has chatter, ~/input",
+                severity=Severity.WARNING,
+            ),
         ),
         Example(
             "a misspelled topic",
@@ -138,10 +143,18 @@ class RemappingWithoutEffect(Rule):
                 "launch/c.launch.xml": '<launch><node pkg="demo" exec="talk">'
                 '<param from="a.yaml"/><remap from="chat_in" to="b"/></node></launch>\n',
             },
-            "launch/a.launch.xml:1:81: 'talk' has no topic, service or action 'chat_in': nothing "
-            "is remapped; it has chatter, ~/input",
-            "launch/b.launch.yaml:6:13: 'talk' has no topic, service or action 'chat_in': nothing "
-            "is remapped; it has chatter, ~/input",
+            Report(
+                "launch/a.launch.xml:1:81",
+                "'talk' has no topic, service or action 'chat_in': nothing is "
+                "remapped; it has chatter, ~/input",
+                severity=Severity.WARNING,
+            ),
+            Report(
+                "launch/b.launch.yaml:6:13",
+                "'talk' has no topic, service or action 'chat_in': nothing is "
+                "remapped; it has chatter, ~/input",
+                severity=Severity.WARNING,
+            ),
         ),
         Example(
             "a topic from a parameter that is set",
@@ -178,7 +191,8 @@ class RemappingWithoutEffect(Rule):
                 problem = _problem(package, node, names or set(), (source, target))
                 if problem:
                     is_kept = _is_absolute_in(names or set(), target)
-                    severity = Severity.WARNING if is_kept else None
+                    is_stale = problem.endswith(_listed(names or set(), source))
+                    severity = Severity.WARNING if is_kept or is_stale else None
                     cause = f"names of {node.program}"
                     yield self.report(location, problem, severity=severity, cause=cause)
 
@@ -217,6 +231,10 @@ def _hint(package: Package, source: str, names: set[str]) -> str:
     closest = closest_name(package, source, names, 0.6)
     if closest:
         return f"did you mean {closest!r}?"
+    return _listed(names, source)
+
+
+def _listed(names: set[str], source: str) -> str:
     return f"it has {listed_names(names, source)}"
 
 

@@ -25,6 +25,8 @@ _FRAMES = ("target_frame", "source_frame")
 _TRANSFORM = "geometry_msgs/msg/TransformStamped"
 _MARKERS = "visualization_msgs/"
 """What RViz shows; it removes the slash."""
+_IMAGES = ("sensor_msgs/msg/CameraInfo", "sensor_msgs/msg/CompressedImage", "sensor_msgs/msg/Image")
+"""What mostly is processed and shown without a transform."""
 _POSES = ("nav_msgs/", "geometry_msgs/")
 """What mostly RViz shows; AMCL removes the slash of its initial pose, too."""
 _MOVING = ("nav2_", "goal_pose", "moveit", "move_group")
@@ -72,8 +74,8 @@ class FrameWithSlash(MessageRule):
     """A frame name starts with a slash.
 
     A warning in transforms, where tf2 removes the slash, in markers, poses, paths and maps, where
-    RViz and AMCL remove it, unless they are for Nav2 or MoveIt, and in messages of packages outside
-    ROS, whose frames may never be looked up.
+    RViz and AMCL remove it, unless they are for Nav2 or MoveIt, and in images, camera information
+    and messages of packages outside ROS, whose frames may never be looked up.
 
     **Why.** Every lookup of the frame fails: ``Invalid argument "/base_link" passed to
     lookupTransform ... frame_ids cannot start with a '/'``.
@@ -86,8 +88,8 @@ class FrameWithSlash(MessageRule):
     code = "MS007"
     name = "frame-with-slash"
     other_severities = {
-        Severity.WARNING: "it is in a transform, in a marker, pose or path for RViz, or in a "
-        "message of a package outside ROS"
+        Severity.WARNING: "it is in a transform, in an image, in a marker, pose or path for "
+        "RViz, or in a message of a package outside ROS"
     }
     examples = (
         Example("frames without a slash", {"node.py": _CODE.format("'map'", "'base'", "'map'")}),
@@ -162,6 +164,31 @@ class FrameWithSlash(MessageRule):
             fixed={"node.py": _MARKER.format("world")},
         ),
         Example(
+            "slash in the frames of an image and of its camera",
+            {
+                "node.py": "from cv_bridge import CvBridge\n"
+                "from sensor_msgs.msg import CameraInfo\n\n\n"
+                "def make(pixels):\n"
+                "    image = CvBridge().cv2_to_imgmsg(pixels, 'bgr8')\n"
+                "    image.header.frame_id = frame = '/camera'\n"
+                "    camera = CameraInfo()\n    camera.header.frame_id = frame\n"
+                "    return image, camera\n"
+            },
+            Report(
+                "7:37",
+                "frame '/camera' starts with '/': tf2 rejects it where the frame is "
+                "looked up; remove the slash",
+                fix="Remove the slash",
+                severity=Severity.WARNING,
+            ),
+            Report(
+                "9:30",
+                "frame '/camera' starts with '/': tf2 rejects it where the frame is "
+                "looked up; remove the slash",
+                severity=Severity.WARNING,
+            ),
+        ),
+        Example(
             "slash in the frame of a pose for RViz, and of one for Nav2",
             {
                 "show.py": _POSE.format("pose"),
@@ -229,7 +256,7 @@ def _may_only_be_shown(types: MessageTypes, message: str) -> bool:
     if message.partition("/")[0] not in ROS_PACKAGES:
         return True
     is_pose = message.startswith(_POSES) and not types.module.mentions(*_MOVING)
-    return is_pose or message.startswith(_MARKERS)
+    return is_pose or message.startswith((_MARKERS, *_IMAGES))
 
 
 def _frames(types: MessageTypes) -> Iterator[tuple[ast.expr, str]]:
