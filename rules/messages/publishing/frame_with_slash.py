@@ -54,6 +54,14 @@ _MARKER = (
     "from visualization_msgs.msg import Marker\n\n\n"
     "def make():\n    marker = Marker()\n    marker.header.frame_id = '{}'\n    return marker\n"
 )
+_CAMERA = (
+    "from cv_bridge import CvBridge\nfrom sensor_msgs.msg import CameraInfo\n\n\n"
+    "def make(pixels):\n"
+    "    image = CvBridge().cv2_to_imgmsg(pixels, 'bgr8')\n"
+    "    image.header.frame_id = frame = '{}'\n"
+    "    camera = CameraInfo()\n    camera.header.frame_id = frame\n"
+    "    return image, camera\n"
+)
 _POSE = (
     "from geometry_msgs.msg import PoseStamped\nfrom rclpy.node import Node\n\n\n"
     "class Planner(Node):\n"
@@ -165,15 +173,7 @@ class FrameWithSlash(MessageRule):
         ),
         Example(
             "slash in the frames of an image and of its camera",
-            {
-                "node.py": "from cv_bridge import CvBridge\n"
-                "from sensor_msgs.msg import CameraInfo\n\n\n"
-                "def make(pixels):\n"
-                "    image = CvBridge().cv2_to_imgmsg(pixels, 'bgr8')\n"
-                "    image.header.frame_id = frame = '/camera'\n"
-                "    camera = CameraInfo()\n    camera.header.frame_id = frame\n"
-                "    return image, camera\n"
-            },
+            {"node.py": _CAMERA.format("/camera")},
             Report(
                 "7:37",
                 "frame '/camera' starts with '/': tf2 rejects it where the frame is "
@@ -187,6 +187,7 @@ class FrameWithSlash(MessageRule):
                 "looked up; remove the slash",
                 severity=Severity.WARNING,
             ),
+            fixed={"node.py": _CAMERA.format("camera")},
         ),
         Example(
             "slash in the frame of a pose for RViz, and of one for Nav2",
