@@ -8,6 +8,7 @@ from scaffold.model.cmake.parser import Argument, Command
 from scaffold.model.cmake.rosidl import Generation
 from scaffold.model.contents.ament_cmake import (
     PACKAGE_COMMANDS,
+    Program,
     has_unknown_commands,
     installs_directory,
     is_built_for_ros1,
@@ -35,6 +36,7 @@ __all__ = [
     "Generation",
     "Install",
     "InstallItem",
+    "Program",
     "generations",
     "has_unknown_commands",
     "installs_directory",

@@ -129,10 +129,11 @@ class Package(PackageFiles):
             lists = CMakeLists.parse(self.source(CMAKE_LISTS))
             for at, message in lists.errors:
                 raise ParseError(at, message)
+            lists.follow(self)
             return lists
 
         self._note(CMAKE_LISTS)
-        return self._view("cmake", parse)
+        return self.remember("cmake", parse)
 
     @property
     def setup_py(self) -> SetupPy:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping, Sequence
 from fnmatch import filter as filter_names
+from fnmatch import fnmatchcase
 from typing import Any, TypeVar
 
 from scaffold.errors import EXHAUSTED, OutOfTimeError, exhausted
@@ -72,6 +73,30 @@ class PackageFiles(FactStore):
             path
             for path in files
             if len(path) >= shortest and path.startswith(head) and path.endswith(tail)
+        ]
+
+    def listed(self, pattern: str, mode: str) -> list[str] | None:
+        """Return what ``file()`` of CMake lists.
+
+        Args:
+            pattern: The pattern.
+            mode: ``GLOB``, which also lists directories, or ``GLOB_RECURSE``.
+
+        Returns:
+            The paths; ``None`` if unknown.
+        """
+        if mode == "GLOB":
+            depth = pattern.count("/")
+            directories = [path for path in self.tree.directories if path.count("/") == depth]
+            return [*self.glob(pattern), *filter_names(directories, pattern)]
+        directory, _, name = pattern.rpartition("/")
+        inside = f"{directory}/" if directory else ""
+        if not {"*", "?", "["}.isdisjoint(directory):
+            return None
+        return [
+            path
+            for path in self.tree.files
+            if path.startswith(inside) and fnmatchcase(path.rpartition("/")[2], name)
         ]
 
     def is_executable(self, path: str) -> bool:

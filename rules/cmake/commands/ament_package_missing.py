@@ -33,6 +33,30 @@ class AmentPackageMissing(Rule):
     examples = (
         Example("called", {"CMakeLists.txt": _LISTS + _CALL}),
         Example(
+            "called by a macro of an included file",
+            {
+                "CMakeLists.txt": f"{_LISTS}include(cmake/finish.cmake)\nfinish()\n",
+                "cmake/finish.cmake": f"macro(finish)\n  {_CALL}endmacro()\n",
+            },
+        ),
+        Example(
+            "not called, also not by a macro of an included file",
+            {
+                "CMakeLists.txt": f"{_LISTS}include(cmake/scripts.cmake)\nscripts(a.py)\n",
+                "cmake/scripts.cmake": "macro(scripts)\n"
+                "  install(PROGRAMS ${ARGN} DESTINATION lib/${PROJECT_NAME})\nendmacro()\n",
+            },
+            Report(
+                "CMakeLists.txt:5:1",
+                "no ament_package() at the end: `ros2 run` and `ros2 launch` do not "
+                "find the package; add it",
+                fix="Add ament_package()",
+            ),
+            fixed={
+                "CMakeLists.txt": f"{_LISTS}include(cmake/scripts.cmake)\nscripts(a.py)\n\n{_CALL}"
+            },
+        ),
+        Example(
             "not called",
             {"CMakeLists.txt": _LISTS},
             Report(
@@ -69,7 +93,7 @@ class AmentPackageMissing(Rule):
         cmake = package.cmake
         if package.build_type == "cmake" or not uses_ament(package):
             return
-        if cmake.find(*PACKAGE_COMMANDS) or has_unknown_commands(package):
+        if cmake.find_run(*PACKAGE_COMMANDS) or has_unknown_commands(package):
             return
         last = cmake.commands[-1]
         end = len(cmake.source.text)

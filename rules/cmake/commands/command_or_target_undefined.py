@@ -174,6 +174,28 @@ class CommandOrTargetUndefined(Rule):
             {"CMakeLists.txt": _CALL.format("catkin_package")},
             "3:1: catkin_package() is a ROS 1 command: CMake stops; use ament_package",
         ),
+        Example(
+            "defined in an included file, which may find packages",
+            {
+                "CMakeLists.txt": _LISTS.format("include(cmake/tests.cmake)\nlook()\n"),
+                "cmake/tests.cmake": "macro(look)\n  find_package(ament_cmake_pytest REQUIRED)\n"
+                "endmacro()\n",
+            },
+        ),
+        Example(
+            "undefined, also in an included file",
+            {
+                "CMakeLists.txt": "project(talker)\nfind_package(ament_cmake REQUIRED)\n"
+                "include(cmake/scripts.cmake)\nadd_script(talk.py)\n"
+                "ament_add_pytest_test(talk test/test_talk.py)\n",
+                "cmake/scripts.cmake": "macro(add_scripts)\n"
+                "  install(PROGRAMS ${ARGN} DESTINATION lib/${PROJECT_NAME})\nendmacro()\n",
+            },
+            "CMakeLists.txt:4:1: unknown command add_script(): CMake stops; did you mean "
+            "add_scripts()?",
+            "CMakeLists.txt:5:1: ament_add_pytest_test() is undefined without "
+            "find_package(ament_cmake_pytest REQUIRED)",
+        ),
         Example("defined", {"CMakeLists.txt": _LISTS_TARGETS.format("talk")}),
         Example(
             "not defined",
@@ -218,14 +240,13 @@ class CommandOrTargetUndefined(Rule):
     def check(self, package: Package) -> Iterator[Diagnostic]:
         yield from self._check_targets(package)
         cmake = package.cmake
-        if cmake.find("include"):
+        if cmake.includes_unknown:
             return
-        own = {call.values[0].lower() for call in cmake.find("macro", "function") if call.values}
-        yield from self._check_providers(package, own)
+        yield from self._check_providers(package)
         if uses_ament(package):
-            yield from self._check_names(cmake, own)
+            yield from self._check_names(cmake)
 
-    def _check_providers(self, package: Package, own: set[str]) -> Iterator[Diagnostic]:
+    def _check_providers(self, package: Package) -> Iterator[Diagnostic]:
         """Report the commands of packages that are not found."""
         cmake = package.cmake
         packages = {found_package.name for found_package in cmake.found_packages}
@@ -234,32 +255,32 @@ class CommandOrTargetUndefined(Rule):
             tests = package.manifest.test_names
         if cmake.finds_automatically or cmake.finds_tests_automatically:
             return
-        if any("$" in call.values[0] for call in cmake.find("find_package") if call.values):
+        if cmake.has_unknown_packages:
             return
         brought = packages_found(package)
         if brought is None:
             return
         for name, providers in PROVIDERS.items():
-            if name in own or not (brought | tests).isdisjoint(providers):
+            if name in cmake.defined or not (brought | tests).isdisjoint(providers):
                 continue
             if name == "ament_package" and not packages.issubset(_WITHOUT_CORE):
                 continue
-            for command in cmake.find(name):
+            for command in cmake.find_run(name):
                 message = f"{name}() is undefined without find_package({providers[0]} REQUIRED)"
                 yield self.report(command.name_location, message)
 
-    def _check_names(self, cmake: CMakeLists, own: set[str]) -> Iterator[Diagnostic]:
+    def _check_names(self, cmake: CMakeLists) -> Iterator[Diagnostic]:
         """Report misspelled commands, and those of catkin."""
-        for command in cmake.commands:
+        for command in cmake.run:
             name = command.name
-            if name in BUILT_IN or name in OF_AMENT or name in own:
+            if name in BUILT_IN or name in OF_AMENT or name in cmake.defined:
                 continue
             successor = _OF_ROS1.get(name)
             if successor and command.parent is None:
                 message = f"{name}() is a ROS 1 command: CMake stops; use {successor}"
                 yield self.report(command.name_location, message)
             elif not successor:
-                for closest in _closest(name):
+                for closest in _closest(name, cmake.defined):
                     message = f"unknown command {name}(): CMake stops; did you mean {closest}()?"
                     yield self.report(command.name_location, message)
 
@@ -299,13 +320,13 @@ class CommandOrTargetUndefined(Rule):
                     yield self.report(argument, message)
 
 
-def _closest(name: str) -> list[str]:
+def _closest(name: str, own: frozenset[str]) -> list[str]:
     """Return the command of which a name is a typo, if any."""
     if any(character.isdigit() for character in name):
         return []
     words = sorted(name.split("_"))
     swapped = [command for command in OF_AMENT if sorted(command.split("_")) == words]
-    similar = get_close_matches(name, BUILT_IN | OF_AMENT, 1, 0.9)
+    similar = get_close_matches(name, BUILT_IN | OF_AMENT | own, 1, 0.9)
     return swapped[:1] or [
         command for command in similar if abs(len(command) - len(name)) <= _MAX_LENGTH_DIFFERENCE
     ]

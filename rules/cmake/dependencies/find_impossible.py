@@ -155,7 +155,7 @@ class FindImpossible(Rule):
             return
         fix = None
         if argument.value == name:
-            edit = Edit("CMakeLists.txt", argument.start, argument.end, closest)
+            edit = Edit(argument.path, argument.start, argument.end, closest)
             fix = Fix(f"Replace with {closest}", (edit,))
         yield self.report(at, f"unknown package {name!r}; did you mean {closest!r}?", fix)
 
@@ -168,7 +168,7 @@ class FindImpossible(Rule):
                     continue
                 if closest and not command.has("COMPONENTS") and not command.has(closest[0]):
                     message = f"unknown keyword {word!r}: CMake stops; did you mean {closest[0]}?"
-                    edit = Edit("CMakeLists.txt", argument.start, argument.end, closest[0])
+                    edit = Edit(argument.path, argument.start, argument.end, closest[0])
                     yield self.report(argument, message, Fix(f"Replace with {closest[0]}", (edit,)))
 
     def _check_python(self, package: Package) -> Iterator[Diagnostic]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from scaffold.api.workspace import is_untracked
@@ -19,12 +19,21 @@ _NOT_FILES = frozenset({"DEPENDENCIES", "LIBRARY_NAME", "ADD_LINTER_TESTS", "SKI
 """The keywords of ``rosidl_generate_interfaces`` after its files."""
 
 
-def patterns_without_files(package: Package, call: Generation) -> list[tuple[Argument, str]]:
-    """Return the patterns of the only files of a call if none of them matches a file.
+def interface_patterns_without_files(
+    package: Package, call: Generation
+) -> list[tuple[Argument, str]]:
+    """Return the patterns of the only interfaces of a call if none of them matches a file."""
+    return patterns_without_files(package, call.command.sections(_NOT_FILES)[""][1:])
+
+
+def patterns_without_files(
+    package: Package, given: Sequence[Argument]
+) -> list[tuple[Argument, str]]:
+    """Return the patterns of files in some arguments if none of them matches a file.
 
     Nothing in doubt: other commands change a variable, or files are not tracked by git.
     """
-    cmake, given = package.cmake, call.command.sections(_NOT_FILES)[""][1:]
+    cmake = package.cmake
     found: list[tuple[Argument, str]] = []
     for argument in given:
         reference = _REFERENCE.fullmatch(argument.text)

@@ -16,7 +16,7 @@ from scaffold.api import (
     Severity,
     listed_names,
 )
-from scaffold.api.cmake import CMakeLists, Command, Install
+from scaffold.api.cmake import Argument, CMakeLists, Command, Install
 from scaffold.api.distributions import target
 from scaffold.api.launch import DATA_DIRECTORIES, is_named
 
@@ -30,6 +30,11 @@ _LISTS_ABSOLUTE = "project(talker)\ninstall(DIRECTORY launch DESTINATION {})\n"
 _LISTS_TARGET = (
     "project(talker)\nadd_executable(talk talk.cpp)\n"
     "target_link_libraries(talk rclcpp::rclcpp)\ninstall(TARGETS talk DESTINATION {})\n"
+)
+_LISTS_FUNCTION = (
+    "project(talker)\nfunction(add_node name)\n  add_executable(${{name}} src/${{name}}.cpp)\n"
+    "  ament_target_dependencies(${{name}} rclcpp)\n  install(TARGETS ${{name}} DESTINATION {})\n"
+    "endfunction()\nadd_node(talk)\n"
 )
 _LISTS_PYTHON = "project(talker)\ninstall(DIRECTORY talker DESTINATION {})\n"
 
@@ -156,6 +161,16 @@ class DestinationDiffers(Rule):
                 "install(DIRECTORY launch DESTINATION share/${PROJECT_NAME})\n"
             },
         ),
+        Example(
+            "nodes that a function installs outside of the directory that is searched",
+            {"CMakeLists.txt": _LISTS_FUNCTION.format("bin")},
+            Report(
+                "5:3",
+                "installs talk to bin, but `ros2 run talker` searches lib/talker",
+                fix="Install to lib/${PROJECT_NAME}",
+            ),
+            fixed={"CMakeLists.txt": _LISTS_FUNCTION.format("lib/${PROJECT_NAME}")},
+        ),
         Example("relative", {"CMakeLists.txt": _LISTS_ABSOLUTE.format("share/${PROJECT_NAME}")}),
         Example(
             "absolute only if an option is set",
@@ -214,8 +229,7 @@ class DestinationDiffers(Rule):
             given = install.destination.rstrip("/")
             if given == wanted or not self._is_meant_for_run(package, install, given):
                 continue
-            edit = Edit("CMakeLists.txt", argument.start, argument.end, _RIGHT)
-            fix = Fix(f"Install to {_RIGHT}", (edit,)) if not given.startswith("/") else None
+            fix = _fix(install, argument, _RIGHT) if not given.startswith("/") else None
             message = f"installs to {given}, but `ros2 run {cmake.project_name}` searches {wanted}"
             yield self.report(argument, message, fix)
 
@@ -238,8 +252,7 @@ class DestinationDiffers(Rule):
                 continue
             fix = None
             if install.command.values.count("DESTINATION") == 1:
-                edit = Edit("CMakeLists.txt", argument.start, argument.end, _RIGHT)
-                fix = Fix(f"Install to {_RIGHT}", (edit,))
+                fix = _fix(install, argument, _RIGHT)
             message = (
                 f"installs {listed_names(names, '')} to {given}, but "
                 f"`ros2 run {cmake.project_name}` searches {wanted}"
@@ -295,9 +308,8 @@ class DestinationDiffers(Rule):
                 package, install, placed
             ):
                 continue
-            edit = Edit("CMakeLists.txt", argument.start, argument.end, _WANTED)
             message = f"installs to {given}/, but `ros2 launch` searches {right}/"
-            yield self.report(argument, message, Fix(f"Install to {_WANTED}", (edit,)))
+            yield self.report(argument, message, _fix(install, argument, _WANTED))
 
     def _check_absolute(self, package: Package) -> Iterator[Diagnostic]:
         for install in package.cmake.installs:
@@ -326,6 +338,14 @@ class DestinationDiffers(Rule):
                 yield self.report(argument, message, severity=severity)
 
 
+def _fix(install: Install, argument: Argument, directory: str) -> Fix | None:
+    around = {block.name for block in install.command.blocks}
+    if "$" in argument.raw and not around.isdisjoint({"function", "macro"}):
+        return None  # other calls may pass another directory
+    edit = Edit(argument.path, argument.start, argument.end, directory)
+    return Fix(f"Install to {directory}", (edit,))
+
+
 def _runtime(install: Install) -> str | None:
     """Return the directory of installed executables; ``None`` if unknown."""
     destination = install.destinations.get("RUNTIME", install.destinations.get(""))
@@ -335,18 +355,21 @@ def _runtime(install: Install) -> str | None:
 def _linked_nodes(cmake: CMakeLists) -> set[str | None]:
     """Return the executables that are linked with rclcpp."""
     executables = {
-        cmake.expand(call.arguments[0], call) for call in _calls(cmake, "add_executable")
+        cmake.expand(call.arguments[0], call, turn)
+        for call in _calls(cmake, "add_executable")
+        for turn in cmake.turns(call)
     }
     linked = {
-        cmake.expand(call.arguments[0], call)
+        cmake.expand(call.arguments[0], call, turn)
         for call in _calls(cmake, "ament_target_dependencies", "target_link_libraries")
         if any("rclcpp" in value for value in call.values[1:])
+        for turn in cmake.turns(call)
     }
     return executables & linked - {None}
 
 
 def _calls(cmake: CMakeLists, *names: str) -> Iterator[Command]:
-    return (call for call in cmake.find(*names) if call.arguments)
+    return (call for call in cmake.find_run(*names) if call.arguments)
 
 
 def _holds_data(package: Package, install: Install, placed: Container[str | None]) -> bool:

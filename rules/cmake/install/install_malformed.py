@@ -121,7 +121,7 @@ class InstallMalformed(Rule):
         message, fix = f"unknown install() keyword {kind.value!r}: CMake stops", None
         closest = closest_name(package, kind.value.upper(), _KINDS, 0.7)
         if closest:
-            edit = Edit("CMakeLists.txt", kind.start, kind.end, closest)
+            edit = Edit(kind.path, kind.start, kind.end, closest)
             message = f"{message}; did you mean {closest}?"
             fix = Fix(f"Replace with {closest}", (edit,))
         yield self.report(kind, message, fix)

@@ -20,7 +20,7 @@ from scaffold.api.cmake import Command, Install, InstallItem, generations, is_ma
 from scaffold.api.interfaces import SECTIONS, closest_word
 from scaffold.api.workspace import is_untracked
 
-from ._globs import patterns_without_files
+from ._globs import interface_patterns_without_files
 
 _INSTALL = "project(talker)\ninstall({} DESTINATION share/${{PROJECT_NAME}})\n"
 _ENDINGS = (".cpp", ".cc", ".cxx", ".c", ".py")
@@ -186,6 +186,33 @@ class NamedFileMissing(Rule):
             "did you mean test/test_talk.py?",
         ),
         Example(
+            "tests of a loop and of a macro",
+            {
+                "CMakeLists.txt": "project(talker)\nforeach(name talk listen)\n"
+                "  ament_add_pytest_test(${name} test/test_${name}.py)\nendforeach()\n"
+                "macro(look name)\n  ament_add_pytest_test(${name} test/${name}.py ${ARGN})\n"
+                "endmacro()\nlook(test_talk TIMEOUT 60)\nlook(test_listens)\n",
+                "test/test_talk.py": "",
+            },
+            "CMakeLists.txt:3:33: test file test/test_listen.py does not exist: the test fails; "
+            "did you mean test/test_talk.py?",
+            "CMakeLists.txt:6:33: test file test/test_listens.py does not exist: the test fails; "
+            "did you mean test/test_talk.py?",
+        ),
+        Example(
+            "scripts that a macro of an included file installs",
+            {
+                "CMakeLists.txt": "project(talker)\ninclude(cmake/scripts.cmake)\n"
+                "scripts(scripts/talk.py scripts/listens.py)\n",
+                "cmake/scripts.cmake": "macro(scripts)\n"
+                "  install(PROGRAMS ${ARGN} DESTINATION lib/${PROJECT_NAME})\nendmacro()\n",
+                "scripts/talk.py": "",
+                "scripts/listen.py": "",
+            },
+            "CMakeLists.txt:3:25: installs scripts/listens.py, which does not exist: the build "
+            "stops; did you mean scripts/listen.py?",
+        ),
+        Example(
             "interfaces that exist, or that the build generates",
             {
                 "CMakeLists.txt": _LISTS_INTERFACES
@@ -266,7 +293,10 @@ class NamedFileMissing(Rule):
                 if is_pattern and install.kind in _FILE_KINDS:
                     problem = f"CMake does not expand {item.path}: the build stops; write each file"
                 if problem:
-                    yield self.report(item, problem)
+                    written = package.cmake.where_written(
+                        install.command, item.argument, item.value
+                    )
+                    yield self.report(written, problem)
 
     def _problem(self, package: Package, install: Install, item: InstallItem) -> str | None:
         path = item.path
@@ -342,19 +372,21 @@ class NamedFileMissing(Rule):
 
     def _check_tests(self, package: Package) -> Iterator[Diagnostic]:
         cmake = package.cmake
-        for command in cmake.find(*_TESTING):
+        for command in cmake.find_run(*_TESTING):
             position = 1 if command.name == "ament_add_pytest_test" else 0
             if len(command.arguments) <= position:
                 continue
             argument = command.arguments[position]
-            value = cmake.expand(argument, command)
-            if value is None or value.startswith(("/", "..", "$")) or "<" in value:
-                continue
-            path = cmake.path_of(value)
-            if package.has(path) or package.has_directory(path) or _is_elsewhere(package, path):
-                continue
-            hint = _closest(package, path, package.python_files, 0.7)
-            yield self.report(argument, f"test file {path} does not exist: the test fails{hint}")
+            for turn in cmake.turns(command):
+                value = cmake.expand(argument, command, turn)
+                if value is None or value.startswith(("/", "..", "$")) or "<" in value:
+                    continue
+                path = cmake.path_of(value)
+                if package.has(path) or package.has_directory(path) or _is_elsewhere(package, path):
+                    continue
+                hint = _closest(package, path, package.python_files, 0.7)
+                message = f"test file {path} does not exist: the test fails{hint}"
+                yield self.report(cmake.where_written(command, argument, value), message)
 
     def _check_interfaces(self, package: Package) -> Iterator[Diagnostic]:
         interfaces = [
@@ -362,7 +394,11 @@ class NamedFileMissing(Rule):
         ]
         made = [command.values for command in package.cmake.find("configure_file", "file")]
         for call in generations(package):
-            globbed = [] if package.cmake.find(*_MAKING) else patterns_without_files(package, call)
+            globbed = (
+                []
+                if package.cmake.find(*_MAKING)
+                else interface_patterns_without_files(package, call)
+            )
             for argument, pattern in globbed[:1]:
                 places = {path.rpartition("/")[0] for path in interfaces}
                 hint = f"; they are in {places.pop()}/" if len(places) == 1 else ""

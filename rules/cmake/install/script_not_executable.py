@@ -18,10 +18,14 @@ from scaffold.api import (
     Safety,
     ViewError,
 )
-from scaffold.api.cmake import Install, programs, runs_with_python
+from scaffold.api.cmake import Install, Program, programs, runs_with_python
 from scaffold.api.install import paths_imported_by
 
 _LISTS = "project(talker)\ninstall(PROGRAMS talker/node.py DESTINATION lib/${PROJECT_NAME})\n"
+_LISTS_GLOB = (
+    "project(talker)\nfile(GLOB scripts talker/*.py)\n"
+    "install(PROGRAMS ${scripts} DESTINATION lib/${PROJECT_NAME})\n"
+)
 _NODE = "#!/usr/bin/env python3\n"
 _CAUSE = "not executable"
 _COPIED = ("RENAME", "PERMISSIONS", "CONFIGURATIONS", "COMPONENT")
@@ -88,6 +92,25 @@ class ScriptNotExecutable(Rule):
                 "CMakeLists.txt": _LISTS.replace("DESTINATION", "RENAME node DESTINATION"),
                 "talker/node.py": _NODE,
             },
+        ),
+        Example(
+            "modules that a pattern matches besides the nodes",
+            {
+                "CMakeLists.txt": _LISTS_GLOB,
+                "talker/words.py": "WORDS = ['hello']\n",
+                "talker/plot.py": "import os\n\nif __name__ == '__main__':\n    os.getcwd()\n",
+            },
+        ),
+        Example(
+            "a node that a pattern matches",
+            {"CMakeLists.txt": _LISTS_GLOB, "talker/talk.py": _NODE_KIND},
+            Report(
+                "talker/talk.py:1:1",
+                "installed script is not executable: after `colcon build "
+                "--symlink-install`, `ros2 run` finds no executable",
+                fix="Make talker/talk.py executable",
+            ),
+            fixed={"talker/talk.py": _NODE_KIND},
         ),
         Example(
             "not executable",
@@ -237,7 +260,7 @@ class ScriptNotExecutable(Rule):
         wanted = f"lib/{cmake.project_name}"
         reported: set[str] = set()
         imported = _imported(package)
-        for program in programs(package):
+        for program in _scripts(package):
             path = program.path
             if path in reported or program.destination != wanted or not package.has(path):
                 continue
@@ -308,12 +331,12 @@ class ScriptNotExecutable(Rule):
             return None
         for argument in install.command.arguments:
             if argument.raw == "FILES":
-                edit = Edit("CMakeLists.txt", argument.start, argument.end, "PROGRAMS")
+                edit = Edit(argument.path, argument.start, argument.end, "PROGRAMS")
                 return Fix(f"Replace {install.kind} with PROGRAMS", (edit,), Safety.SAFE)
         return None
 
     def _check_shebang(self, package: Package) -> Iterator[Diagnostic]:
-        paths = {program.path for program in programs(package)}
+        paths = {program.path for program in _scripts(package)}
         imported = _imported(package)
         for path in sorted(paths):
             if not path.endswith(".py") or path.endswith("__init__.py") or not package.has(path):
@@ -393,6 +416,22 @@ def _starts_python(line: str) -> bool:
     if words[:1] == ["/bin/env"]:
         return words[1:] == ["python3"]
     return words[:1] in (["/usr/bin/python3"], ["/usr/bin/python3.12"], ["/bin/python3"])
+
+
+def _scripts(package: Package) -> list[Program]:
+    return [program for program in programs(package) if _is_meant(package, program.path)]
+
+
+def _is_meant(package: Package, path: str) -> bool:
+    """Return whether a script is installed by its name, or is a node that a pattern matches."""
+    stem = path.rpartition("/")[2].removesuffix(".py")
+    commands = package.cmake.run
+    if any(stem in value for command in commands for value in command.values):
+        return True
+    try:
+        return "rclpy" in package.imports(path) and package.module(path).has_main_guard
+    except ViewError:
+        return False
 
 
 def _is_only_imported(package: Package, path: str) -> bool:

@@ -11,6 +11,8 @@ from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, 
 from scaffold.api.cmake import Install, installs_directory
 from scaffold.api.launch import DATA_DIRECTORIES, data_files, is_named, launch_files
 
+from ._globs import patterns_without_files
+
 _LISTS = "project(talker)\nfind_package(ament_cmake REQUIRED)\n{}ament_package()\n"
 _LAUNCH = "def generate_launch_description():\n    pass\n"
 _LISTS_PATTERNS = (
@@ -180,6 +182,28 @@ class ShareDirectoryNotInstalled(Rule):
             },
         ),
         Example(
+            "file(GLOB) with a pattern for another extension",
+            {
+                "CMakeLists.txt": "project(talker)\nfile(GLOB parameters config/*.yml)\n"
+                "install(FILES ${parameters} DESTINATION share/${PROJECT_NAME}/config)\n"
+                "ament_package()\n",
+                **_FILES,
+            },
+            "CMakeLists.txt:2:22: the pattern matches no file in config/, such as "
+            "config/talker.yaml: nothing is installed",
+        ),
+        Example(
+            "file(GLOB) for one of several extensions",
+            {
+                "CMakeLists.txt": "project(talker)\nfile(GLOB first config/*.yml)\n"
+                "file(GLOB second config/*.yaml)\n"
+                "install(FILES ${first} DESTINATION share/${PROJECT_NAME}/config)\n"
+                "install(FILES ${second} DESTINATION share/${PROJECT_NAME}/config)\n"
+                "ament_package()\n",
+                **_FILES,
+            },
+        ),
+        Example(
             "a pattern for another extension",
             {"CMakeLists.txt": _LISTS_PATTERNS.format(' FILES_MATCHING PATTERN "*.yml"'), **_FILES},
             "CMakeLists.txt:2:19: the patterns match no file in config/, such as "
@@ -231,6 +255,7 @@ class ShareDirectoryNotInstalled(Rule):
     def check(self, package: Package) -> Iterator[Diagnostic]:
         yield from self._check_installed(package)
         yield from self._check_patterns(package)
+        yield from self._check_globs(package)
         yield from self._check_paths(package)
 
     def _check_installed(self, package: Package) -> Iterator[Diagnostic]:
@@ -272,6 +297,22 @@ class ShareDirectoryNotInstalled(Rule):
                     )
                     yield self.report(item, message)
 
+    def _check_globs(self, package: Package) -> Iterator[Diagnostic]:
+        """Report patterns of ``file(GLOB)`` that match none of the files of a directory."""
+        for install in package.cmake.installs:
+            if install.kind not in {"FILES", "PROGRAMS"} or install.items:
+                continue
+            given = install.command.sections({install.kind, "DESTINATION"})[install.kind]
+            for argument, pattern in patterns_without_files(package, given):
+                directory = pattern.rpartition("/")[0]
+                files = [file for file in package.files if file.startswith(f"{directory}/")]
+                if directory and files and installs_directory(package, directory) is False:
+                    message = (
+                        f"the pattern matches no file in {directory}/, such as {files[0]}: "
+                        f"nothing is installed"
+                    )
+                    yield self.report(argument, message)
+
     def _check_paths(self, package: Package) -> Iterator[Diagnostic]:
         name = package.cmake.project_name
         for install in package.cmake.installs:
@@ -286,11 +327,11 @@ class ShareDirectoryNotInstalled(Rule):
                 slash = written.endswith("/")
                 if slash and target == f"share/{name}" and directory != "launch":
                     end = item.argument.end
-                    edit = Edit("CMakeLists.txt", end - 1, end, "")
+                    edit = Edit(item.argument.path, end - 1, end, "")
                     lands = f"{target}/, not in {target}/{directory}/"
                 elif not slash and target == f"share/{name}/{directory}":
                     end = item.argument.end
-                    edit = Edit("CMakeLists.txt", end, end, "/")
+                    edit = Edit(item.argument.path, end, end, "/")
                     lands = f"{target}/{directory}/, not in {target}/"
                 else:
                     continue

@@ -94,7 +94,7 @@ class TestUnguarded(Rule):
                 or name in others
             ):
                 continue
-            if not package.cmake.commands[found_package.command.index].blocks:
+            if not found_package.command.blocks:
                 message = (
                     f"test dependency {name!r} is found outside of if(BUILD_TESTING): "
                     f"builds without tests stop"

@@ -5,11 +5,16 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
+from scaffold.api.cmake import Command
 
 _TESTS = ("ament_lint_auto_find_test_dependencies", "ament_add_pytest_test", "ament_add_gtest")
 _LISTS = (
     "project(talker)\nif({})\n  find_package(ament_lint_auto REQUIRED)\n"
     "  ament_lint_auto_find_test_dependencies()\nendif()\n"
+)
+_LISTS_LOOP = (
+    "project(talker)\ninclude(cmake/macros.cmake)\nif({})\n  foreach(name talk listen)\n"
+    "    ament_add_pytest_test(${{name}} test/${{name}}.py)\n  endforeach()\nendif()\n"
 )
 _NODE = "#!/usr/bin/env python3\nimport rclpy\n\nif __name__ == '__main__':\n    rclpy.init()\n"
 _INSTALL = "install(PROGRAMS talker/node.py DESTINATION lib/${PROJECT_NAME})\n"
@@ -46,6 +51,28 @@ class TestingConditionWrong(Rule):
             fixed={"CMakeLists.txt": _LISTS.format("BUILD_TESTING")},
         ),
         Example(
+            "tests in a loop, although an included file only defines macros",
+            {
+                "CMakeLists.txt": _LISTS_LOOP.format("BUILD_TESTS"),
+                "cmake/macros.cmake": "macro(talk)\nendmacro()\n",
+            },
+            Report(
+                "CMakeLists.txt:3:4",
+                "BUILD_TESTS is never set, so the tests below never run; did you mean "
+                "BUILD_TESTING?",
+                fix="Replace BUILD_TESTS with BUILD_TESTING",
+            ),
+            fixed={"CMakeLists.txt": _LISTS_LOOP.format("BUILD_TESTING")},
+        ),
+        Example(
+            "tests under a variable that an included file sets",
+            {
+                "CMakeLists.txt": "project(talker)\ninclude(cmake/tests.cmake)\nif(BUILD_TESTS)\n"
+                "  ament_add_pytest_test(talk test/talk.py)\nendif()\n",
+                "cmake/tests.cmake": "set(BUILD_TESTS ON)\n",
+            },
+        ),
+        Example(
             "a node that is always installed",
             {"CMakeLists.txt": _LISTS_NODES.format(_INSTALL), "talker/node.py": _NODE},
         ),
@@ -66,12 +93,12 @@ class TestingConditionWrong(Rule):
 
     def _check_tests(self, package: Package) -> Iterator[Diagnostic]:
         cmake = package.cmake
-        if cmake.find("include"):
+        if cmake.includes_unknown:
             return
         conditions = {
-            command.branch.start: command.branch
+            branch.start: branch
             for command in cmake.find(*_TESTS)
-            if command.branch is not None and command.depth == 1
+            for branch in _outermost(command)
         }
         for condition in conditions.values():
             if condition.name != "if" or len(condition.arguments) != 1:
@@ -80,7 +107,7 @@ class TestingConditionWrong(Rule):
             name = argument.value
             if "TEST" not in name.upper() or name == "BUILD_TESTING" or not name.isidentifier():
                 continue
-            if any(name in item.values for item in cmake.commands if item is not condition):
+            if any(name in item.values for item in cmake.run if item is not condition):
                 continue
             edit = Edit("CMakeLists.txt", argument.start, argument.end, "BUILD_TESTING")
             message = (
@@ -103,3 +130,13 @@ class TestingConditionWrong(Rule):
                         f"{path} is installed only if tests are built: releases do not contain it"
                     )
                     yield self.report(item, message)
+
+
+def _outermost(command: Command) -> Iterator[Command]:
+    """Yield the branch of the outermost block around a command, except in a function."""
+    blocks = command.blocks
+    if any(block.name in {"function", "macro"} for block in blocks):
+        return
+    for inner in (*blocks[1:2], command)[:1]:
+        if inner.branch is not None:
+            yield inner.branch

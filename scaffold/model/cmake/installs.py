@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 
 from scaffold.model.cmake.parser import Argument, Command
-from scaffold.model.cmake.variables import ROOT, Variables
+from scaffold.model.cmake.variables import ROOT, Bindings, Variables
 from scaffold.record import NamedTuple
 from scaffold.source import Location
 
@@ -79,7 +79,7 @@ class InstallReader:
         self._directory = directory
         self._project_name = project_name
 
-    def read(self, command: Command, bindings: Mapping[str, str]) -> Iterator[Install]:
+    def read(self, command: Command, bindings: Bindings) -> Iterator[Install]:
         """Yield what a call installs in one turn of the loops around it."""
         if command.name != "install":
             keyword = "INSTALL_TO_SHARE"
@@ -115,7 +115,7 @@ class InstallReader:
         self,
         arguments: Sequence[Argument],
         command: Command,
-        bindings: Mapping[str, str],
+        bindings: Bindings,
         *,
         are_files: bool,
     ) -> list[InstallItem]:
@@ -131,7 +131,7 @@ class InstallReader:
                 install_items.append(InstallItem(argument, shown(value), path))
         return install_items
 
-    def _destinations(self, command: Command, bindings: Mapping[str, str]) -> dict[str, str | None]:
+    def _destinations(self, command: Command, bindings: Bindings) -> dict[str, str | None]:
         """Return the destination of each kind of artifact of a target."""
         result: dict[str, str | None] = {}
         artifact = ""
@@ -147,7 +147,7 @@ class InstallReader:
         return result
 
     def _expanded(
-        self, argument: Argument | None, command: Command, bindings: Mapping[str, str]
+        self, argument: Argument | None, command: Command, bindings: Bindings
     ) -> str | None:
         """Return an argument with variables replaced, and without an explicit prefix."""
         if argument is None:

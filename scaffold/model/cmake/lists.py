@@ -4,14 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 from scaffold.model.cmake import parser as cmake_parser
+from scaffold.model.cmake.inclusion import Inclusion
 from scaffold.model.cmake.installs import Install, InstallItem, InstallReader, plain_path, shown
 from scaffold.model.cmake.lexer import Token
 from scaffold.model.cmake.parser import Argument, Command
-from scaffold.model.cmake.variables import ROOT, Variables
+from scaffold.model.cmake.variables import ROOT, Bindings, Glob, Variables
 from scaffold.record import NamedTuple
 from scaffold.source import Location, ParseError, Source
+
+if TYPE_CHECKING:
+    from scaffold.model.package_files import PackageFiles
 
 __all__ = [
     "Argument",
@@ -31,7 +36,7 @@ LAST_CALLS = ("ament_package", "ament_auto_package", "autoware_ament_auto_packag
 
 _MAX_ITEMS = 20_000  # installed items; lists and loops multiply
 _MAX_DEPTH = 200  # blocks around a command; deeper ones count as not guarded
-_NO_BINDINGS: Mapping[str, str] = {}
+_NO_BINDINGS: Bindings = {}
 
 
 class FoundPackage(NamedTuple):
@@ -56,11 +61,28 @@ class CMakeLists:
         self.commands = parsed.commands
         self.errors = parsed.errors
         """The syntax errors, each a location and a message, in file order."""
+        self.run: Sequence[Command] = parsed.commands
+        """The commands, with those of included files that are known."""
+        self.followed: frozenset[Command] = frozenset()
+        """The calls of ``include`` whose file is known."""
+        self._glob: Glob | None = None
 
     @classmethod
     def parse(cls, source: Source) -> CMakeLists:
         """Parse a file; errors are collected in ``errors``."""
         return cls(source, cmake_parser.parse(source))
+
+    def follow(self, files: PackageFiles) -> None:
+        """Read the files that this one includes, before anything else is asked.
+
+        Args:
+            files: The files of the package.
+        """
+        if self.find("include"):
+            inclusion = Inclusion(files, self)
+            self.run, self.followed = inclusion.commands, frozenset(inclusion.followed)
+            self.__dict__.pop("_variables", None)
+        self._glob = files.listed
 
     def require(self) -> None:
         """Raise an error unless the file is valid.
@@ -79,6 +101,23 @@ class CMakeLists:
             return self._by_name.get(names[0], [])
         result = [command for name in names for command in self._by_name.get(name, ())]
         return sorted(result, key=lambda command: command.index)
+
+    def find_run(self, *names: str) -> list[Command]:
+        """Return the calls of some commands, also in included files."""
+        if not self.followed:
+            return self.find(*names)
+        return [command for command in self.run if command.name in names]
+
+    @property
+    def includes_unknown(self) -> bool:
+        """Whether an included file is unknown."""
+        return not self.followed.issuperset(self.find_run("include"))
+
+    @cached_property
+    def defined(self) -> frozenset[str]:
+        """The functions and macros of the file, and of those that it includes, in lower case."""
+        definitions = self.find_run("macro", "function")
+        return frozenset(item.values[0].lower() for item in definitions if item.arguments)
 
     @cached_property
     def _by_name(self) -> Mapping[str, list[Command]]:
@@ -120,13 +159,13 @@ class CMakeLists:
         project = self.project
         name = project.arguments[0].text if project and project.arguments else None
         directory = self.source.path.rpartition("/")[0]
-        return Variables(self.commands, directory, name)
+        return Variables(self.run, directory, name, self._glob)
 
     def expand(
         self,
         value: str | Argument,
         at: Command | None = None,
-        bindings: Mapping[str, str] = _NO_BINDINGS,
+        bindings: Bindings = _NO_BINDINGS,
     ) -> str | None:
         """Replace variables and escapes.
 
@@ -150,7 +189,7 @@ class CMakeLists:
         self,
         arguments: Iterable[Argument],
         at: Command | None = None,
-        bindings: Mapping[str, str] = _NO_BINDINGS,
+        bindings: Bindings = _NO_BINDINGS,
     ) -> list[str] | None:
         """Replace variables in arguments and split lists; ``None`` when anything is not known."""
         result: list[str] = []
@@ -160,6 +199,25 @@ class CMakeLists:
                 return None
             result.extend(map(shown, values))
         return result
+
+    def turns(self, command: Command) -> Iterable[Bindings]:
+        """Return the bindings in the turns of the loops, and the calls of the function, around it.
+
+        One without bindings if they are unknown; it still has literal arguments.
+        """
+        return self._variables.combinations(command) or (_NO_BINDINGS,)
+
+    def where_written(self, command: Command, argument: Argument, value: str | None) -> Argument:
+        """Return the argument with a value: that of the ``set`` of a variable, or of a call."""
+        if "$" not in argument.raw:
+            return argument
+        setters = [item for item in self.find_run("set", "list") if item.index < command.index]
+        calls = self.find_run(*self.defined) if self.defined else []
+        for other in (*setters, *calls):
+            for item in other.arguments:
+                if item.value == value:
+                    return item
+        return argument
 
     def path_of(self, value: str) -> str:
         """Return the path, relative to the root of the package, of what ``expand`` returned."""
@@ -259,8 +317,15 @@ class CMakeLists:
         """Return whether a package is found by name."""
         return any(package.name == name for package in self.found_packages)
 
+    @property
+    def has_unknown_packages(self) -> bool:
+        """Whether the name of a package is unknown."""
+        known = {id(package.command) for package in self.found_packages}
+        calls = self.find_run("find_package")
+        return any("$" in call.values[0] and id(call) not in known for call in calls if call.values)
+
     def _found_packages(self) -> Iterator[FoundPackage]:
-        for command in self.find("find_package"):
+        for command in self.find_run("find_package"):
             if not command.arguments or self.is_for_ros1(command):
                 continue
             argument = command.arguments[0]
@@ -281,11 +346,10 @@ class CMakeLists:
         result: list[Install] = []
         items = 0
         reader = InstallReader(self._variables, self._directory, self.project_name)
-        for command in self.find("install", *LAST_CALLS[1:]):
+        for command in self.find_run("install", *LAST_CALLS[1:]):
             if self.is_for_ros1(command):
                 continue
-            # A loop over unknown values still has literal arguments.
-            for bindings in self._variables.combinations(command) or ({},):
+            for bindings in self.turns(command):
                 if items > _MAX_ITEMS:
                     return result
                 result.extend(reader.read(command, bindings))

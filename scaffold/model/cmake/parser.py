@@ -58,6 +58,11 @@ class Argument:
         return self._source.text[self.start : self.end]
 
     @property
+    def path(self) -> str:
+        """The file, which may be included by another one."""
+        return self._source.path
+
+    @property
     def quoted(self) -> bool:
         """Whether it is in double quotes."""
         return self.kind == "quoted"
@@ -164,6 +169,11 @@ class Command:
                 if kinds[number] in _ARGUMENT_KINDS
             ]
         return self._arguments
+
+    @property
+    def path(self) -> str:
+        """The file, which may be included by another one."""
+        return self._source.path
 
     @property
     def location(self) -> Location:

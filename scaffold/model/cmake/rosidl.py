@@ -68,7 +68,7 @@ def _generation(cmake: CMakeLists, command: Command) -> Generation:
             elif value is None or ":" in value or value.startswith("/") or "$" in value:
                 complete = False
             else:
-                written = _where_written(cmake, command, argument, value)
+                written = cmake.where_written(command, argument, value)
                 files.append(Listed(cmake.path_of(value), written))
     return Generation(
         command,
@@ -79,15 +79,3 @@ def _generation(cmake: CMakeLists, command: Command) -> Generation:
         frozenset(options),
         cmake.guarded_by_testing(command),
     )
-
-
-def _where_written(cmake: CMakeLists, command: Command, argument: Argument, value: str) -> Argument:
-    """Return the argument with a value, which may be in the ``set`` of a variable."""
-    if "$" not in argument.raw:
-        return argument
-    for other in cmake.find("set", "list"):
-        if other.index < command.index:
-            for item in other.arguments[1:]:
-                if item.value == value:
-                    return item
-    return argument

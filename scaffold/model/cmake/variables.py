@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import posixpath
 from bisect import bisect_left
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections import Counter
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from functools import partial
 
 from scaffold import lazy_re
 from scaffold.model.cmake.parser import Argument, Command
@@ -19,6 +22,7 @@ _MAX_TURNS = 20_000  # turns of loops followed in a file
 _LONGEST_VALUE = 20_000
 _MAX_ENTRIES = 16  # commands examined for one value
 _MAX_DEPTH = 200  # blocks around a command; deeper ones make values unknown
+_MAX_NESTING = 16  # functions that call each other, and variables set from each other, in turns
 
 HARMLESS = frozenset(
     """
@@ -44,8 +48,43 @@ _GNU_DIRECTORIES = {
     "CMAKE_INSTALL_DATAROOTDIR": "share",
 }
 """What GNUInstallDirs sets on every Linux; its directory for libraries differs."""
+_DEFINITIONS = frozenset({"function", "macro"})
 _LOOPS = frozenset({"foreach", "while"})
+REPEATED = _DEFINITIONS | _LOOPS
+_GLOBS = frozenset({"GLOB", "GLOB_RECURSE"})
+_GLOB_OPTIONS = frozenset({"LIST_DIRECTORIES", "RELATIVE"})
+_PARTS: Mapping[str, Callable[[str], str]] = {
+    "NAME": posixpath.basename,
+    "NAME_WE": lambda path: posixpath.basename(path).partition(".")[0],
+    "NAME_WLE": lambda path: posixpath.splitext(posixpath.basename(path))[0],
+    "DIRECTORY": posixpath.dirname,
+    "PATH": posixpath.dirname,
+}
+"""The parts of a path that ``get_filename_component`` returns."""
+_PARTS_ARGUMENTS = len(("path", "NAME"))
 _READING_LISTS = frozenset({"LENGTH", "GET", "JOIN", "SUBLIST", "FIND"})
+
+
+Bindings = Mapping[str, str | None]
+"""Values of the variables of loops, and of the parameters of functions; ``None`` if unknown."""
+
+_NOWHERE: Bindings = {}
+
+Glob = Callable[[str, str], list[str] | None]
+"""Lists what ``GLOB`` or ``GLOB_RECURSE`` finds with a pattern; ``None`` if unknown."""
+
+
+class _Turn(dict[str, "str | None"]):
+    """The bindings in one turn of the loops, and one call of the function, around a command."""
+
+    def __init__(
+        self, bindings: Bindings, call: Command | None = None, caller: Bindings = _NOWHERE
+    ) -> None:
+        super().__init__(bindings)
+        self.call = call
+        """The call of the innermost function or macro."""
+        self.caller = caller
+        """The bindings at that call."""
 
 
 class _Entry(NamedTuple):
@@ -53,13 +92,29 @@ class _Entry(NamedTuple):
 
     command: Command
     value: str | None
+    again: Callable[[Bindings], str | None] | None = None
+    """Returns the value in one turn of the loops and calls around the command."""
 
 
 class Variables:
-    """Tracks ``set``, ``list(APPEND)``, ``unset`` and ``foreach`` from top to bottom."""
+    """Tracks ``set``, ``list(APPEND)``, ``file(GLOB)``, ``unset``, ``foreach`` and calls.
 
-    def __init__(self, commands: Sequence[Command], directory: str, project: str | None) -> None:
+    Args:
+        commands: The commands of the file, and of those that it includes.
+        directory: The directory of the file.
+        project: The name in ``project``, as it is written.
+        glob: Lists the files of the package, if known.
+    """
+
+    def __init__(
+        self,
+        commands: Sequence[Command],
+        directory: str,
+        project: str | None,
+        glob: Glob | None = None,
+    ) -> None:
         current = f"{ROOT}/{directory}" if directory else ROOT
+        self._glob = glob
         self._fixed: dict[str, str] = dict.fromkeys(
             (
                 "CMAKE_CURRENT_SOURCE_DIR",
@@ -70,11 +125,18 @@ class Variables:
             current,
         )
         self._turns = _MAX_TURNS
+        self._nesting = 0
+        self._calls: dict[str, list[Command]] = {}
+        self._definitions: Counter[str] = Counter()
+        for command in commands:
+            self._calls.setdefault(command.name, []).append(command)
+            if command.name in _DEFINITIONS and command.arguments:
+                self._definitions[command.values[0].lower()] += 1
         self._history: dict[str, list[_Entry]] = {}
         self._names = {
             argument.value
             for command in commands
-            if command.name in {"set", "list", "unset"}
+            if command.name in {"set", "list", "unset", "file"}
             for argument in command.arguments[:2]
         }
         """All variables with possibly known values."""
@@ -89,7 +151,7 @@ class Variables:
 
     # -- asking
 
-    def evaluate(self, text: str, at: Command | None, bindings: Mapping[str, str]) -> str | None:
+    def evaluate(self, text: str, at: Command | None, bindings: Bindings) -> str | None:
         """Replace escapes and ``${…}`` in a text; ``None`` if anything is unknown.
 
         Args:
@@ -121,7 +183,7 @@ class Variables:
         return "".join(stack[0]) if len(stack) == 1 else None
 
     def argument(
-        self, argument: Argument, at: Command | None, bindings: Mapping[str, str]
+        self, argument: Argument, at: Command | None, bindings: Bindings
     ) -> list[str] | None:
         """Return the values of an argument, several for an unquoted list."""
         if argument.bracket:
@@ -131,30 +193,75 @@ class Variables:
             return None
         return [value] if argument.quoted else split_list(value)
 
-    def combinations(self, command: Command) -> Iterator[Mapping[str, str]] | None:
-        """Return the combinations of values of the variables of the loops around a command.
+    def combinations(self, command: Command) -> Iterator[Bindings] | None:
+        """Return the values of variables in the turns of the loops around a command.
 
-        One empty mapping without a loop; ``None`` if a loop is over unknown values.
+        A function or macro has a turn for each call, or one with unknown parameters. One empty
+        mapping outside of both; ``None`` if a loop is over unknown values.
         """
         if command.depth > _MAX_DEPTH:
             return None
-        loops = [block for block in command.blocks if block.name in _LOOPS]
-        if not loops:
-            return iter(({},))
-        combinations: list[dict[str, str]] = [{}]
-        for loop in loops:
-            longer: list[dict[str, str]] = []
-            for bindings in combinations:
-                self._turns -= len(loop.arguments)
-                turns = self._loop(loop, bindings) if self._turns > 0 else None
-                if turns is None:
+        turns: list[Bindings] = [{}]
+        for block in _repeated(command):
+            longer: list[Bindings] = []
+            for turn in turns:
+                self._turns -= len(block.arguments)
+                more = self._turns_of(block, turn) if self._turns > 0 else None
+                if more is None:
                     return None
-                self._turns -= len(turns[1])
-                longer.extend({**bindings, turns[0]: value} for value in turns[1])
-            combinations = longer
-        return iter(combinations)
+                self._turns -= len(more)
+                longer.extend(more)
+            turns = longer
+        return iter(turns)
 
-    def _loop(self, loop: Command, bindings: Mapping[str, str]) -> tuple[str, list[str]] | None:
+    def _turns_of(self, block: Command, turn: Bindings) -> list[_Turn] | None:
+        if block.name in _DEFINITIONS:
+            return [*self._turns_of_calls(block)] or [_Turn(self._parameters(block, [], None))]
+        loop = self._loop(block, turn)
+        if loop is None:
+            return None
+        call, caller = (turn.call, turn.caller) if isinstance(turn, _Turn) else (None, {})
+        return [_Turn({**turn, loop[0]: value}, call, caller) for value in loop[1]]
+
+    def _turns_of_calls(self, definition: Command) -> Iterator[_Turn]:
+        """Yield a turn for each call of a function or macro that is defined once."""
+        name = definition.values[0].lower() if definition.arguments else ""
+        if self._definitions[name] != 1 or self._nesting >= _MAX_NESTING:
+            return
+        self._nesting += 1
+        for call in self._calls.get(name, ()):
+            for caller in self.combinations(call) or ():
+                given: list[str] = []
+                for argument in call.arguments:
+                    values = self.argument(argument, call, caller)
+                    if values is None:
+                        yield _Turn(self._parameters(definition, given, None), call, caller)
+                        break
+                    given += values
+                else:
+                    yield _Turn(self._parameters(definition, given, given), call, caller)
+        self._nesting -= 1
+
+    def _parameters(
+        self, definition: Command, known: Sequence[str], given: Sequence[str] | None
+    ) -> dict[str, str | None]:
+        """Return the parameters in a call.
+
+        Args:
+            definition: The function or macro.
+            known: The first arguments, as far as they are known.
+            given: All arguments; ``None`` if some are unknown.
+        """
+        names = definition.values[1:]
+        result: dict[str, str | None] = dict.fromkeys((*names, "ARGC", "ARGV", "ARGN"))
+        result.update(zip(names, known, strict=False))
+        if given is not None:
+            result["ARGC"] = str(len(given))
+            result["ARGV"] = ";".join(given)
+            result["ARGN"] = ";".join(given[len(names) :])
+        return result
+
+    def _loop(self, loop: Command, bindings: Bindings) -> tuple[str, list[str]] | None:
         """Return the variable of a foreach and its values."""
         if loop.name == "while" or not loop.arguments:
             return None
@@ -181,24 +288,47 @@ class Variables:
             values.extend(parts)
         return variable, values
 
-    def _value(self, name: str, at: Command | None, bindings: Mapping[str, str]) -> str | None:
+    def _value(self, name: str, at: Command | None, bindings: Bindings) -> str | None:
         if name in bindings:
             return bindings[name]
+        turn = bindings if isinstance(bindings, _Turn) else _Turn({})
+        start = _start_of_function(at) if at is not None and turn.call is not None else -1
         history = self._history.get(name, [])
-        before = len(history)
-        if at is not None:
-            before = bisect_left(history, at.index, key=_index)
-        if before > _MAX_ENTRIES:
-            history = history[before - _MAX_ENTRIES : before]
-            before = _MAX_ENTRIES
-        for number in range(before - 1, -1, -1):
-            entry = history[number]
+        before = len(history) if at is None else bisect_left(history, at.index, key=_index)
+        first = max(before - _MAX_ENTRIES, 0)
+        for entry in reversed(history[first:before]):
+            if entry.command.index <= start:
+                return self._value(name, turn.call, turn.caller)
             seen = _reaches(entry.command, at)
-            if seen == "surely":
-                return entry.value
-            if seen == "perhaps":
-                return None
-        return None if before == _MAX_ENTRIES else self._fixed.get(name)
+            if seen != "never":
+                return self._value_in_turn(entry, at, turn) if seen == "surely" else None
+        if before - first == _MAX_ENTRIES:
+            return None
+        return self._value_at_start(name, at, turn)
+
+    def _value_at_start(self, name: str, at: Command | None, turn: _Turn) -> str | None:
+        """Return a value that nothing before a command sets in the same function or file."""
+        if turn.call is not None:
+            return self._value(name, turn.call, turn.caller)
+        if name == "CMAKE_CURRENT_LIST_DIR" and at is not None:
+            directory = posixpath.dirname(at.path)
+            return f"{ROOT}/{directory}" if directory else ROOT
+        return self._fixed.get(name)
+
+    def _value_in_turn(self, entry: _Entry, at: Command | None, bindings: _Turn) -> str | None:
+        """Return a value, which may differ between the turns of loops."""
+        if entry.again is None or at is None or not bindings:
+            return entry.value
+        blocks = _repeated(entry.command)
+        if not blocks or blocks != _repeated(at):
+            return entry.value
+        if self._turns <= 0 or self._nesting >= _MAX_NESTING:
+            return None
+        self._turns -= 1
+        self._nesting += 1
+        value = entry.again(bindings)
+        self._nesting -= 1
+        return value
 
     # -- following
 
@@ -216,6 +346,10 @@ class Variables:
         arguments = command.arguments
         if name == "set":
             self._set(command)
+        elif name == "file" and arguments and arguments[0].value in _GLOBS:
+            self._note_each(command, 1, self._globbed)
+        elif name == "get_filename_component":
+            self._note_each(command, 0, self._component)
         elif name == "list" and arguments and arguments[0].value == "APPEND":
             self._append(command)
         elif name == "list" and arguments and arguments[0].value in _READING_LISTS:
@@ -239,22 +373,82 @@ class Variables:
             if command.depth:
                 self._note(command, name.value, None)
         else:
-            self._note(command, name.value, self._join(rest, command))
+            self._note(
+                command,
+                name.value,
+                self._join(rest, command, {}),
+                lambda turn: self._join(rest, command, turn),
+            )
+
+    def _note_each(
+        self,
+        command: Command,
+        position: int,
+        result: Callable[[Command, Bindings], str | None],
+    ) -> None:
+        """Note the result of a command that writes it to one of its arguments."""
+        if len(command.arguments) > position:
+            name = command.arguments[position].value
+            again = partial(result, command)
+            self._note(command, name, again({}), again)
+
+    def _globbed(self, command: Command, bindings: Bindings) -> str | None:
+        """Return the files that ``file(GLOB)`` finds."""
+        arguments = iter(command.arguments[2:])
+        relative: str | None = None
+        found: set[str] = set()
+        for argument in arguments:
+            values = self.argument(argument, command, bindings)
+            if argument.value in _GLOB_OPTIONS:
+                value = next(arguments, None)
+                if value is not None and argument.value == "RELATIVE":
+                    relative = self.evaluate(value.text, command, bindings)
+                    if relative is None:
+                        return None
+            elif argument.value != "CONFIGURE_DEPENDS":
+                for pattern in [None] if values is None else values:
+                    matches = self._matches(command, pattern)
+                    if matches is None:
+                        return None
+                    found.update(matches)
+        if relative is None:
+            return ";".join(sorted(found))
+        if not all(path.startswith(f"{relative}/") for path in found):
+            return None
+        return ";".join(sorted(path.removeprefix(f"{relative}/") for path in found))
+
+    def _matches(self, command: Command, pattern: str | None) -> list[str] | None:
+        current = self._fixed["CMAKE_CURRENT_SOURCE_DIR"]
+        if pattern is None or self._glob is None:
+            return None
+        full = pattern if pattern.startswith((ROOT, "/")) else f"{current}/{pattern}"
+        if not full.startswith(f"{ROOT}/"):
+            return None
+        path = posixpath.normpath(full.removeprefix(f"{ROOT}/"))
+        paths = self._glob(path, command.values[0])
+        return None if paths is None else [f"{ROOT}/{path}" for path in paths]
+
+    def _component(self, command: Command, bindings: Bindings) -> str | None:
+        """Return the part of a path that ``get_filename_component`` returns."""
+        _, *rest = command.arguments
+        part = _PARTS.get(rest[1].value) if len(rest) == _PARTS_ARGUMENTS else None
+        value = None if part is None else self.evaluate(rest[0].text, command, bindings)
+        return None if part is None or value is None else part(value)
 
     def _append(self, command: Command) -> None:
         if len(command.arguments) < len(("APPEND", "variable")):
             return
         name = command.arguments[1].value
         before = self._value(name, command, {}) if name in self._history else ""
-        added = self._join(command.arguments[2:], command)
+        added = self._join(command.arguments[2:], command, {})
         if before is None or added is None:
             self._note(command, name, None)
         else:
             self._note(command, name, ";".join(filter(None, (before, added))))
 
-    def _join(self, arguments: Iterable[Argument], at: Command) -> str | None:
+    def _join(self, arguments: Iterable[Argument], at: Command, bindings: Bindings) -> str | None:
         values = [
-            argument.text if argument.bracket else self.evaluate(argument.text, at, {})
+            argument.text if argument.bracket else self.evaluate(argument.text, at, bindings)
             for argument in arguments
         ]
         parts = [value for value in values if value is not None]
@@ -266,14 +460,20 @@ class Variables:
             if argument.kind == "unquoted" and argument.raw in self._names:
                 self._note(command, argument.raw, None)
 
-    def _note(self, command: Command, name: str, value: str | None) -> None:
+    def _note(
+        self,
+        command: Command,
+        name: str,
+        value: str | None,
+        again: Callable[[Bindings], str | None] | None = None,
+    ) -> None:
         if command.depth > _MAX_DEPTH or (
             value is not None and any(block.name in _LOOPS for block in command.blocks)
         ):
             value = None  # each turn of the loop may set another value
         if value is not None and len(value) > _LONGEST_VALUE:
             value = None
-        self._history.setdefault(name, []).append(_Entry(command, value))
+        self._history.setdefault(name, []).append(_Entry(command, value, again))
 
 
 def split_list(value: str) -> list[str]:
@@ -304,6 +504,17 @@ def _reaches(setter: Command, reader: Command | None) -> str:
             return "never"  # in another branch of the same if()
         return "perhaps"
     return "surely"
+
+
+def _repeated(command: Command) -> list[Command]:
+    """Return the loops, functions and macros around a command, the outermost first."""
+    return [block for block in command.blocks if block.name in REPEATED]
+
+
+def _start_of_function(command: Command) -> int:
+    """Return the index of the innermost function or macro around a command."""
+    starts = (block.index for block in command.blocks if block.name in _DEFINITIONS)
+    return max(starts, default=-1)
 
 
 def _index(entry: _Entry) -> int:

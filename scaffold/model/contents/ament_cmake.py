@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from scaffold import lazy_re
 from scaffold.model.cmake.distribution_branches import lines_not_run
+from scaffold.model.cmake.inclusion import module_directories, named_file
 from scaffold.model.cmake.known_commands import MODULES, is_known
 from scaffold.model.cmake.lists import CMakeLists
 from scaffold.record import NamedTuple
@@ -60,8 +61,11 @@ def is_built_for_ros1(package: Package) -> bool:
 def has_unknown_commands(package: Package) -> bool:
     """Return whether commands of other packages may do anything, such as install any file."""
     cmake = package.cmake
-    own = {command.arguments[0].value.lower() for command in _definitions(cmake)}
-    return any(_is_unknown(command) for command in cmake.commands if command.name not in own)
+    return any(
+        _is_unknown(command)
+        for command in cmake.run
+        if command.name not in cmake.defined and command not in cmake.followed
+    )
 
 
 def _is_unknown(command: Command) -> bool:
@@ -79,10 +83,6 @@ _SAFE = frozenset(
 )
 
 
-def _definitions(cmake: CMakeLists) -> list[Command]:
-    return [command for command in cmake.find("macro", "function") if command.arguments]
-
-
 def nested(
     package: Package, is_asked_for: Callable[[CMakeLists, Command], bool] | None = None
 ) -> Iterator[CMakeLists]:
@@ -93,13 +93,13 @@ def nested(
         is_asked_for: Tells whether a command must not be followed.
     """
     visited = {"CMakeLists.txt"}
-    modules = [*_module_directories(package.cmake)]
+    modules = [*module_directories(package.cmake)]
     pending = [("", package.cmake)]
     while pending:
         directory, lists = pending.pop()
         dead = [*lines_not_run(lists)]
         for command in lists.find("add_subdirectory", "include"):
-            path = _named_file(package, directory, lists, command, modules)
+            path = named_file(package, directory, lists, command, modules)
             if path is None or path in visited:
                 continue
             if any(first <= command.location.line <= last for first, last in dead):
@@ -111,31 +111,6 @@ def nested(
             is_own = command.name == "add_subdirectory"
             pending.append((posixpath.dirname(path) if is_own else directory, below))
             yield below
-
-
-def _named_file(
-    package: Package, directory: str, lists: CMakeLists, command: Command, modules: list[str]
-) -> str | None:
-    """Return the file of the package that a command includes."""
-    value = lists.expand(command.arguments[0], command) if command.arguments else None
-    if value is None:
-        return None
-    if command.name == "add_subdirectory":
-        places = [posixpath.join(directory, value, "CMakeLists.txt")]
-    else:
-        # An expanded path is relative to the root of the package, others to the directory.
-        places = [posixpath.join(directory, value), value]
-        places += [posixpath.join(module, f"{value}.cmake") for module in modules]
-    paths = map(posixpath.normpath, places)
-    return next((path for path in paths if package.has(path)), None)
-
-
-def _module_directories(lists: CMakeLists) -> Iterator[str]:
-    """Yield the directories of the package in which ``include`` looks for modules."""
-    for command in lists.find("set", "list"):
-        if "CMAKE_MODULE_PATH" in command.values[:2]:
-            for argument in command.arguments[1:]:
-                yield from lists.expand_list([argument], command) or ()
 
 
 def programs(package: Package) -> list[Program]:
