@@ -93,9 +93,9 @@ class AmentPackageMissing(Rule):
         cmake = package.cmake
         if package.build_type == "cmake" or not uses_ament(package):
             return
-        if cmake.find_run(*PACKAGE_COMMANDS) or has_unknown_commands(package):
+        if cmake.find(*PACKAGE_COMMANDS) or has_unknown_commands(package):
             return
-        last = cmake.commands[-1]
+        last = cmake.own_commands[-1]
         end = len(cmake.source.text)
         text = f"{cmake.source.newline}ament_package(){cmake.source.newline}"
         lead = "" if cmake.source.text.endswith("\n") else cmake.source.newline

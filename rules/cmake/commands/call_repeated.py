@@ -123,7 +123,7 @@ class CallRepeated(Rule):
             if name is None:
                 continue
             first = seen.setdefault((group, name), command)
-            if first is not command:
+            if first is not command and first.path == command.path:
                 line = first.location.line
                 message = f"{command.name}({name}) is already called in line {line}: CMake stops"
                 yield self.report(command.arguments[0], message)
@@ -145,7 +145,7 @@ class CallRepeated(Rule):
     def _check_finds(self, package: Package) -> Iterator[Diagnostic]:
         cmake = package.cmake
         first: dict[tuple[str, ...], int] = {}
-        for command in cmake.find("find_package"):
+        for command in cmake.find_own("find_package"):
             values = tuple(command.values)
             if not values or command.blocks or "$" in values[0]:
                 continue

@@ -265,13 +265,13 @@ class CommandOrTargetUndefined(Rule):
                 continue
             if name == "ament_package" and not packages.issubset(_WITHOUT_CORE):
                 continue
-            for command in cmake.find_run(name):
+            for command in cmake.find(name):
                 message = f"{name}() is undefined without find_package({providers[0]} REQUIRED)"
                 yield self.report(command.name_location, message)
 
     def _check_names(self, cmake: CMakeLists) -> Iterator[Diagnostic]:
         """Report misspelled commands, and those of catkin."""
-        for command in cmake.run:
+        for command in cmake.commands:
             name = command.name
             if name in BUILT_IN or name in OF_AMENT or name in cmake.defined:
                 continue

@@ -294,7 +294,7 @@ class CommandRemoved(Rule):
         }
         missed = [change for change in changes if change.names[0] not in own]
         for change, cmake in product(missed, lists):
-            for command in cmake.find(change.names[0]):
+            for command in cmake.find_own(change.names[0]):
                 if _is_asked_for(cmake, command):
                     continue
                 failure = "CMake stops" if change.is_removed else "CMake warns"

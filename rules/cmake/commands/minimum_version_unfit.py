@@ -122,7 +122,7 @@ class MinimumVersionUnfit(Rule):
     def check(self, package: Package) -> Iterator[Diagnostic]:
         cmake = package.cmake
         project = cmake.project
-        minimum = cmake.find("cmake_minimum_required")
+        minimum = cmake.find_own("cmake_minimum_required")
         for command in minimum:
             yield from self._check_version(cmake, command)
         for below in nested(package):

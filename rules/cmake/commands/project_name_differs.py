@@ -90,7 +90,7 @@ class ProjectNameDiffers(Rule):
 
     def _check_call(self, package: Package) -> Iterator[Diagnostic]:
         cmake = package.cmake
-        if cmake.project is None and cmake.commands and not cmake.find("include"):
+        if cmake.project is None and cmake.commands and not cmake.includes_unknown:
             if not uses_ament(package):
                 return
             message = f"no project({package.name}): CMake stops at ament_package()"
@@ -129,6 +129,6 @@ class ProjectNameDiffers(Rule):
         argument = package.cmake.find("project")[0].arguments[0]
         fix = None
         if argument.value == written and not argument.quoted:
-            edit = Edit("CMakeLists.txt", argument.start, argument.end, name)
+            edit = Edit(argument.path, argument.start, argument.end, name)
             fix = Fix(f"Rename the project to {name}", (edit,))
         yield self.report(at, message, fix)

@@ -66,7 +66,7 @@ class VariableReferenceWrong(Rule):
     def check(self, package: Package) -> Iterator[Diagnostic]:
         yield from self._check_closed(package)
         cmake = package.cmake
-        if cmake.find("include", "add_subdirectory"):
+        if cmake.includes_unknown or cmake.find("add_subdirectory"):
             return
         named = {value for command in cmake.commands for value in command.values}
         for command in cmake.commands:
@@ -80,7 +80,7 @@ class VariableReferenceWrong(Rule):
         at = argument.raw.find(f"${{{name}}}")
         if at >= 0:
             start = argument.start + at + 2
-            edit = Edit("CMakeLists.txt", start, start + len(name), _WANTED)
+            edit = Edit(argument.path, start, start + len(name), _WANTED)
             fix = Fix(f"Replace with {_WANTED}", (edit,))
         message = f"{name} is never set, so it is empty; did you mean ${{{_WANTED}}}?"
         return self.report(argument, message, fix)

@@ -176,7 +176,7 @@ class InterfaceNotGenerated(Rule):
             )
             fix = None
             if "/" not in call.target and "." not in call.target:
-                edit = Edit("CMakeLists.txt", target.start, target.end, "${PROJECT_NAME}")
+                edit = Edit(target.path, target.start, target.end, "${PROJECT_NAME}")
                 fix = Fix("Replace the name with ${PROJECT_NAME}", (edit,))
             else:
                 message = (
@@ -240,5 +240,5 @@ def _add(call: Generation, path: str) -> Fix | None:
     indent = " " * (last.location.column - 1)
     on_own_line = last.location.line > call.command.location.line
     separator = f"\n{indent}" if on_own_line else " "
-    edit = Edit("CMakeLists.txt", last.end, last.end, separator + text)
+    edit = Edit(last.path, last.end, last.end, separator + text)
     return Fix(f"Add {path}", (edit,), Safety.SAFE)

@@ -369,7 +369,7 @@ def _linked_nodes(cmake: CMakeLists) -> set[str | None]:
 
 
 def _calls(cmake: CMakeLists, *names: str) -> Iterator[Command]:
-    return (call for call in cmake.find_run(*names) if call.arguments)
+    return (call for call in cmake.find(*names) if call.arguments)
 
 
 def _holds_data(package: Package, install: Install, placed: Container[str | None]) -> bool:

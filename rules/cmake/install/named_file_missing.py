@@ -372,7 +372,7 @@ class NamedFileMissing(Rule):
 
     def _check_tests(self, package: Package) -> Iterator[Diagnostic]:
         cmake = package.cmake
-        for command in cmake.find_run(*_TESTING):
+        for command in cmake.find(*_TESTING):
             position = 1 if command.name == "ament_add_pytest_test" else 0
             if len(command.arguments) <= position:
                 continue

@@ -76,7 +76,7 @@ class PythonPackageNotInstalled(Rule):
         text = _CALL + "\n"
         fix = None
         if cmake.finds("ament_cmake_python"):
-            fix = Fix("Install the Python package", (Edit("CMakeLists.txt", start, start, text),))
+            fix = Fix("Install the Python package", (Edit(calls[0].path, start, start, text),))
         message = (
             f"{name}/ is not installed, but {user.path}:{user.line} imports it: "
             f"ModuleNotFoundError; call ament_python_install_package(${{PROJECT_NAME}})"

@@ -425,7 +425,7 @@ def _scripts(package: Package) -> list[Program]:
 def _is_meant(package: Package, path: str) -> bool:
     """Return whether a script is installed by its name, or is a node that a pattern matches."""
     stem = path.rpartition("/")[2].removesuffix(".py")
-    commands = package.cmake.run
+    commands = package.cmake.commands
     if any(stem in value for command in commands for value in command.values):
         return True
     try:

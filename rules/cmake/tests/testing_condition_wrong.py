@@ -107,9 +107,9 @@ class TestingConditionWrong(Rule):
             name = argument.value
             if "TEST" not in name.upper() or name == "BUILD_TESTING" or not name.isidentifier():
                 continue
-            if any(name in item.values for item in cmake.run if item is not condition):
+            if any(name in item.values for item in cmake.commands if item is not condition):
                 continue
-            edit = Edit("CMakeLists.txt", argument.start, argument.end, "BUILD_TESTING")
+            edit = Edit(argument.path, argument.start, argument.end, "BUILD_TESTING")
             message = (
                 f"{name} is never set, so the tests below never run; did you mean BUILD_TESTING?"
             )

@@ -51,7 +51,7 @@ def lines_not_run(lists: CMakeLists) -> Iterator[Lines]:
 def _bodies(lists: CMakeLists) -> Iterator[tuple[str, Lines]]:
     """Yield the functions and macros of a file, with the lines of their bodies."""
     opened: list[Command] = []
-    for command in lists.commands:
+    for command in lists.own_commands:
         if command.name in _DEFINITIONS:
             opened.append(command)
         elif command.name.removeprefix("end") in _DEFINITIONS and opened:
@@ -63,7 +63,7 @@ def _bodies(lists: CMakeLists) -> Iterator[tuple[str, Lines]]:
 
 def _calls(lists: CMakeLists, name: str) -> list[int]:
     """Return the lines of a file that call a function."""
-    return [_line(lists, command) for command in lists.commands if command.name == name]
+    return [_line(lists, command) for command in lists.own_commands if command.name == name]
 
 
 def _line(lists: CMakeLists, command: Command) -> int:
@@ -113,7 +113,7 @@ class _Walk:
         self._blocks: list[_Block] = []
 
     def run(self) -> Iterator[Lines]:
-        for command in self._lists.commands:
+        for command in self._lists.own_commands:
             if command.name in _CONDITIONS:
                 yield from self._branch(command, self._line(command))
             elif command.name in _BODIES:

@@ -31,18 +31,18 @@ class Inclusion:
         self._files = files
         self._modules = [*module_directories(lists)]
         self._paths = {lists.source.path}
-        self._left = _MAX_COMMANDS - len(lists.commands)
+        self._left = _MAX_COMMANDS - len(lists.own_commands)
         self.commands = [*self._commands(lists)]
         """All commands, in the order in which CMake runs them."""
         for number, command in enumerate(self.commands):
             command.index = number
 
     def _commands(self, lists: CMakeLists) -> Iterator[Command]:
-        for command in lists.commands:
+        for command in lists.own_commands:
             yield command
             if command.name == "include":
                 below = self._included(lists, command)
-                for inner in below.commands if below is not None else ():
+                for inner in below.own_commands if below is not None else ():
                     inner.depth += command.depth
                     if inner.parent is None:
                         inner.parent, inner.branch = command.parent, command.branch
@@ -62,7 +62,7 @@ class Inclusion:
             below = lists.parse(self._files.source(path))
         except ViewError:
             return None
-        self._left -= len(below.commands)
+        self._left -= len(below.own_commands)
         if below.errors or self._left < 0:
             return None
         self._paths.add(path)

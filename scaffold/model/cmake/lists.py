@@ -59,10 +59,11 @@ class CMakeLists:
         self.tokens = parsed.tokens
         """All tokens; joined they are the file."""
         self.commands = parsed.commands
+        """The commands, with those of included files that are known, in the order of CMake."""
         self.errors = parsed.errors
         """The syntax errors, each a location and a message, in file order."""
-        self.run: Sequence[Command] = parsed.commands
-        """The commands, with those of included files that are known."""
+        self.own_commands = parsed.commands
+        """The commands of the file itself."""
         self.followed: frozenset[Command] = frozenset()
         """The calls of ``include`` whose file is known."""
         self._glob: Glob | None = None
@@ -80,8 +81,9 @@ class CMakeLists:
         """
         if self.find("include"):
             inclusion = Inclusion(files, self)
-            self.run, self.followed = inclusion.commands, frozenset(inclusion.followed)
-            self.__dict__.pop("_variables", None)
+            self.commands, self.followed = inclusion.commands, frozenset(inclusion.followed)
+            for cached in ("_by_name", "_variables"):
+                self.__dict__.pop(cached, None)
         self._glob = files.listed
 
     def require(self) -> None:
@@ -102,21 +104,19 @@ class CMakeLists:
         result = [command for name in names for command in self._by_name.get(name, ())]
         return sorted(result, key=lambda command: command.index)
 
-    def find_run(self, *names: str) -> list[Command]:
-        """Return the calls of some commands, also in included files."""
-        if not self.followed:
-            return self.find(*names)
-        return [command for command in self.run if command.name in names]
+    def find_own(self, *names: str) -> list[Command]:
+        """Return the calls of some commands, except in included files."""
+        return [command for command in self.find(*names) if command.path == self.source.path]
 
     @property
     def includes_unknown(self) -> bool:
         """Whether an included file is unknown."""
-        return not self.followed.issuperset(self.find_run("include"))
+        return not self.followed.issuperset(self.find("include"))
 
     @cached_property
     def defined(self) -> frozenset[str]:
         """The functions and macros of the file, and of those that it includes, in lower case."""
-        definitions = self.find_run("macro", "function")
+        definitions = self.find("macro", "function")
         return frozenset(item.values[0].lower() for item in definitions if item.arguments)
 
     @cached_property
@@ -159,7 +159,7 @@ class CMakeLists:
         project = self.project
         name = project.arguments[0].text if project and project.arguments else None
         directory = self.source.path.rpartition("/")[0]
-        return Variables(self.run, directory, name, self._glob)
+        return Variables(self.commands, directory, name, self._glob)
 
     def expand(
         self,
@@ -211,8 +211,8 @@ class CMakeLists:
         """Return the argument with a value: that of the ``set`` of a variable, or of a call."""
         if "$" not in argument.raw:
             return argument
-        setters = [item for item in self.find_run("set", "list") if item.index < command.index]
-        calls = self.find_run(*self.defined) if self.defined else []
+        setters = [item for item in self.find("set", "list") if item.index < command.index]
+        calls = self.find(*self.defined) if self.defined else []
         for other in (*setters, *calls):
             for item in other.arguments:
                 if item.value == value:
@@ -321,11 +321,11 @@ class CMakeLists:
     def has_unknown_packages(self) -> bool:
         """Whether the name of a package is unknown."""
         known = {id(package.command) for package in self.found_packages}
-        calls = self.find_run("find_package")
+        calls = self.find("find_package")
         return any("$" in call.values[0] and id(call) not in known for call in calls if call.values)
 
     def _found_packages(self) -> Iterator[FoundPackage]:
-        for command in self.find_run("find_package"):
+        for command in self.find("find_package"):
             if not command.arguments or self.is_for_ros1(command):
                 continue
             argument = command.arguments[0]
@@ -346,7 +346,7 @@ class CMakeLists:
         result: list[Install] = []
         items = 0
         reader = InstallReader(self._variables, self._directory, self.project_name)
-        for command in self.find_run("install", *LAST_CALLS[1:]):
+        for command in self.find("install", *LAST_CALLS[1:]):
             if self.is_for_ros1(command):
                 continue
             for bindings in self.turns(command):

@@ -63,7 +63,7 @@ def has_unknown_commands(package: Package) -> bool:
     cmake = package.cmake
     return any(
         _is_unknown(command)
-        for command in cmake.run
+        for command in cmake.commands
         if command.name not in cmake.defined and command not in cmake.followed
     )
 
@@ -98,7 +98,7 @@ def nested(
     while pending:
         directory, lists = pending.pop()
         dead = [*lines_not_run(lists)]
-        for command in lists.find("add_subdirectory", "include"):
+        for command in lists.find_own("add_subdirectory", "include"):
             path = named_file(package, directory, lists, command, modules)
             if path is None or path in visited:
                 continue

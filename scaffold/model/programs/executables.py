@@ -34,8 +34,8 @@ _PLAIN_COMMANDS = frozenset(
     ament_lint_auto_find_test_dependencies ament_lint_cmake ament_mypy ament_package ament_pep257
     ament_python_install_module ament_python_install_package
     ament_target_dependencies ament_uncrustify ament_xmllint cmake_minimum_required cmake_policy
-    else elseif enable_testing endforeach endif find_package foreach if include_directories install
-    list math message option
+    else elseif enable_testing endforeach endfunction endif endmacro file find_package foreach
+    function get_filename_component if include_directories install list macro math message option
     pluginlib_export_plugin_description_file
     project rclcpp_components_register_node rclcpp_components_register_nodes return
     rosidl_generate_interfaces rosidl_get_typesupport_target rosidl_target_interfaces set
@@ -162,7 +162,8 @@ def _file_of(package: Package, module: str) -> str:
 
 def _by_cmake(package: Package) -> Programs:
     cmake = package.cmake
-    complete = all(command.name in _PLAIN_COMMANDS for command in cmake.commands)
+    plain = _PLAIN_COMMANDS | cmake.defined
+    complete = all(command.name in plain or command in cmake.followed for command in cmake.commands)
     complete = complete and (installs_configured(package) or not installs_unknown_scripts(package))
     sources = _configured(package)
     for program in programs(package):
