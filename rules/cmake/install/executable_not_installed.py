@@ -15,7 +15,7 @@ from scaffold.api import (
     closest_name,
     listed_names,
 )
-from scaffold.api.cmake import has_unknown_commands, is_used_by_build, programs
+from scaffold.api.cmake import PACKAGE_COMMANDS, has_unknown_commands, is_used_by_build, programs
 from scaffold.api.install import file_of, is_started, paths_imported_by
 from scaffold.api.launch import package_uses
 from scaffold.api.programs import programs_of
@@ -228,7 +228,7 @@ class ExecutableNotInstalled(Rule):
         yield from self._check_targets(package)
         yield from self._check_configured(package)
         cmake = package.cmake
-        if not cmake.find("ament_package") or has_unknown_commands(package):
+        if not cmake.find(*PACKAGE_COMMANDS) or has_unknown_commands(package):
             return
         installs = [
             install
@@ -249,7 +249,7 @@ class ExecutableNotInstalled(Rule):
                 continue
             if is_used_by_build(package, path) or self._is_misspelled(package, path):
                 continue
-            place = at.name_location if at else cmake.find("ament_package")[0].name_location
+            place = at.name_location if at else cmake.find(*PACKAGE_COMMANDS)[0].name_location
             message = (
                 f"{path} is a node with a main function, but not installed: `ros2 run` does not "
                 f"find it; add it to install(PROGRAMS ...)"
@@ -292,7 +292,7 @@ class ExecutableNotInstalled(Rule):
 
     def _check_targets(self, package: Package) -> Iterator[Diagnostic]:
         cmake = package.cmake
-        if not cmake.find("ament_package") or has_unknown_commands(package):
+        if not cmake.find(*PACKAGE_COMMANDS) or has_unknown_commands(package):
             return
         targets = [install for install in cmake.installs if install.kind == "TARGETS"]
         installed = {item.value for target in targets for item in target.items}

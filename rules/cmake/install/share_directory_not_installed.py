@@ -8,7 +8,7 @@ from contextlib import suppress
 from fnmatch import fnmatchcase
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, Severity, ViewError
-from scaffold.api.cmake import Install, installs_directory
+from scaffold.api.cmake import PACKAGE_COMMANDS, Install, installs_directory
 from scaffold.api.launch import DATA_DIRECTORIES, data_files, is_named, launch_files
 
 from ._globs import patterns_without_files
@@ -260,7 +260,7 @@ class ShareDirectoryNotInstalled(Rule):
 
     def _check_installed(self, package: Package) -> Iterator[Diagnostic]:
         cmake = package.cmake
-        calls = cmake.find("ament_package")
+        calls = cmake.find(*PACKAGE_COMMANDS)
         if not calls:
             return
         first: dict[str, str] = {}

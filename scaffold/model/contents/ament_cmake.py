@@ -78,7 +78,7 @@ def _is_unknown(command: Command) -> bool:
 
 
 _SAFE = frozenset(
-    {"find_package", "ament_package", "ament_python_install_package"}
+    {"find_package", "ament_auto_package", "ament_package", "ament_python_install_package"}
     | {"moveit_package", "nav2_package"}
 )
 
