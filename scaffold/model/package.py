@@ -122,6 +122,7 @@ class Package(PackageFiles):
         """CMakeLists.txt, if used: colcon builds ament_python with setup.py."""
 
         def parse() -> CMakeLists:
+            from scaffold.model.cmake.inclusion import splice_included
             from scaffold.model.cmake.lists import CMakeLists
 
             if self.build_type == "ament_python" and self.has(SETUP_PY):
@@ -129,7 +130,7 @@ class Package(PackageFiles):
             lists = CMakeLists.parse(self.source(CMAKE_LISTS))
             for at, message in lists.errors:
                 raise ParseError(at, message)
-            lists.follow(self)
+            splice_included(self, lists)
             return lists
 
         self._note(CMAKE_LISTS)

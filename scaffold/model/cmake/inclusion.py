@@ -17,14 +17,18 @@ if TYPE_CHECKING:
 _MAX_COMMANDS = 20_000  # of all files
 
 
-class Inclusion:
-    """Splices the commands of included files into those of a file.
+def splice_included(files: PackageFiles, lists: CMakeLists) -> None:
+    """Add the commands of included files to those of a file, which may list files from now on.
 
     Args:
         files: The files of the package.
         lists: The file.
     """
+    inclusion = _Inclusion(files, lists)
+    lists.splice(inclusion.commands, inclusion.followed, files.listed)
 
+
+class _Inclusion:
     def __init__(self, files: PackageFiles, lists: CMakeLists) -> None:
         self.followed: set[Command] = set()
         """The calls of ``include`` whose file is known."""

@@ -2,21 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from functools import cached_property
-from typing import TYPE_CHECKING
 
 from scaffold.model.cmake import parser as cmake_parser
-from scaffold.model.cmake.inclusion import Inclusion
 from scaffold.model.cmake.installs import Install, InstallItem, InstallReader, plain_path, shown
 from scaffold.model.cmake.lexer import Token
 from scaffold.model.cmake.parser import Argument, Command
 from scaffold.model.cmake.variables import ROOT, Bindings, Glob, Variables
 from scaffold.record import NamedTuple
 from scaffold.source import Location, ParseError, Source
-
-if TYPE_CHECKING:
-    from scaffold.model.package_files import PackageFiles
 
 __all__ = [
     "Argument",
@@ -73,18 +68,19 @@ class CMakeLists:
         """Parse a file; errors are collected in ``errors``."""
         return cls(source, cmake_parser.parse(source))
 
-    def follow(self, files: PackageFiles) -> None:
-        """Read the files that this one includes, before anything else is asked.
+    def splice(self, commands: list[Command], followed: Collection[Command], glob: Glob) -> None:
+        """Add the commands of included files, before anything else is asked.
 
         Args:
-            files: The files of the package.
+            commands: All commands.
+            followed: The calls of ``include`` whose file is known.
+            glob: Lists the files of the package.
         """
-        if self.find("include"):
-            inclusion = Inclusion(files, self)
-            self.commands, self.followed = inclusion.commands, frozenset(inclusion.followed)
-            for cached in ("_by_name", "_variables"):
-                self.__dict__.pop(cached, None)
-        self._glob = files.listed
+        self.commands = commands
+        self.followed = frozenset(followed)
+        self._glob = glob
+        for cached in ("_by_name", "_variables"):
+            self.__dict__.pop(cached, None)
 
     def require(self) -> None:
         """Raise an error unless the file is valid.
