@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import dropwhile
 
 from scaffold.api import Diagnostic, Edit, Effect, Example, Fix, Package, Report, Rule, Severity
 from scaffold.api.cmake import Command, generations, is_interface_package
@@ -56,6 +57,15 @@ class CallRepeated(Rule):
     effect = Effect.STOPS_BUILD
     other_severities = {Severity.WARNING: "the call is ``find_package``"}
     examples = (
+        Example(
+            "a name with and without the variable of the loop",
+            {
+                "CMakeLists.txt": "project(talker)\nforeach(name talk listen)\n"
+                "  ament_add_pytest_test(${name} test/${name}.py)\n"
+                "  ament_add_pytest_test(all test/${name}.py)\nendforeach()\n"
+            },
+            "4:25: ament_add_pytest_test(all) is called in each turn of a loop: CMake stops",
+        ),
         Example("two names", {"CMakeLists.txt": _LISTS.format("more"), **_FILES}),
         Example(
             "two tests with the same name",
@@ -106,6 +116,7 @@ class CallRepeated(Rule):
     def check(self, package: Package) -> Iterator[Diagnostic]:
         yield from self._check_interfaces(package)
         yield from self._check_names(package)
+        yield from self._check_loops(package)
         yield from self._check_exports(package)
         yield from self._check_finds(package)
 
@@ -127,6 +138,21 @@ class CallRepeated(Rule):
                 line = first.location.line
                 message = f"{command.name}({name}) is already called in line {line}: CMake stops"
                 yield self.report(command.arguments[0], message)
+
+    def _check_loops(self, package: Package) -> Iterator[Diagnostic]:
+        """Report names of tests and targets that do not differ between the turns of a loop."""
+        cmake = package.cmake
+        for command in cmake.find(*_NAMING):
+            inner = [*dropwhile(lambda block: block.name == "if", command.blocks)]
+            if not command.arguments or {block.name for block in inner} != {"foreach"}:
+                continue
+            first, turns = command.arguments[0], cmake.turns(command)
+            names = [cmake.expand(first, command, turn) for turn in turns]
+            if command.name != _LAUNCH_TEST and len(names) > 1 and {*names} == {names[0]} - {None}:
+                message = (
+                    f"{command.name}({names[0]}) is called in each turn of a loop: CMake stops"
+                )
+                yield self.report(first, message)
 
     def _may_skip(self, command: Command) -> bool:
         """Return whether a command is in one of several branches, or in a loop or function."""

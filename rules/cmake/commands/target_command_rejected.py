@@ -219,23 +219,28 @@ class TargetCommandRejected(Rule):
         cmake = package.cmake
         if cmake.finds_automatically or cmake.finds_tests_automatically:
             return
-        finds = cmake.find("find_package")
-        if any(cmake.expand(find.values[0], find) is None for find in finds if find.values):
+        if cmake.has_unknown_packages:
             return
         for command in cmake.find(_AMENT):
-            found = packages_found(package, command.index)
-            if found is None or _is_loose(command):
+            found = packages_found(package, None if _is_loose(command) else command.index)
+            if found is None:
                 continue
             for argument in command.arguments[1:]:
-                name = cmake.expand(argument, command)
-                if not name or name in found or name in _KEYWORDS:
-                    continue
-                if is_released(name) or package.workspace.get(name) is not None:
-                    message = (
-                        f"no find_package({name}) call comes before this one: CMake stops; "
-                        f"add find_package({name} REQUIRED)"
-                    )
-                    yield self.report(argument, message)
+                for name in _values(cmake, command, argument):
+                    if name in found or name in _KEYWORDS:
+                        continue
+                    if is_released(name) or package.workspace.get(name) is not None:
+                        message = (
+                            f"no find_package({name}) call comes before this one: CMake stops; "
+                            f"add find_package({name} REQUIRED)"
+                        )
+                        yield self.report(argument, message)
+
+
+def _values(cmake: CMakeLists, command: Command, argument: Argument) -> list[str]:
+    """Return the values of an argument in all turns of the loops around its command."""
+    values = [cmake.expand_list([argument], command, turn) or () for turn in cmake.turns(command)]
+    return [*dict.fromkeys(value for turn in values for value in turn)]
 
 
 def _uses(cmake: CMakeLists) -> Iterator[tuple[Command, Argument]]:

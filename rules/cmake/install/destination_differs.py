@@ -362,8 +362,8 @@ def _linked_nodes(cmake: CMakeLists) -> set[str | None]:
     linked = {
         cmake.expand(call.arguments[0], call, turn)
         for call in _calls(cmake, "ament_target_dependencies", "target_link_libraries")
-        if any("rclcpp" in value for value in call.values[1:])
         for turn in cmake.turns(call)
+        if "rclcpp" in " ".join(cmake.expand_list(call.arguments[1:], call, turn) or call.values)
     }
     return executables & linked - {None}
 

@@ -16,7 +16,15 @@ from scaffold.api import (
     Rule,
     closest_name,
 )
-from scaffold.api.cmake import Command, Install, InstallItem, generations, is_made_by_build
+from scaffold.api.cmake import (
+    Argument,
+    CMakeLists,
+    Command,
+    Install,
+    InstallItem,
+    generations,
+    is_made_by_build,
+)
 from scaffold.api.interfaces import SECTIONS, closest_word
 from scaffold.api.workspace import is_untracked
 
@@ -56,6 +64,8 @@ _LISTS_PACKAGE = "project(talker)\nament_python_install_package({})\n"
 
 
 _FILE_KINDS = frozenset({"FILES", "PROGRAMS"})
+_MAX_DEPTH = 4
+"""More functions that call each other are not followed."""
 _COMPILING = ("add_executable", "add_library", "ament_add_gmock", "ament_add_gtest")
 
 
@@ -180,6 +190,44 @@ class NamedFileMissing(Rule):
             "CMakeLists.txt:2:18: adds src/, which has no CMakeLists.txt: CMake stops",
         ),
         Example(
+            "an included file, and a module of CMake",
+            {
+                "CMakeLists.txt": "project(talker)\ninclude(cmake/scripts.cmake)\n"
+                "include(GNUInstallDirs)\ninclude(${talker_DIR}/talkerConfig.cmake OPTIONAL)\n",
+                "cmake/scripts.cmake": "macro(scripts)\nendmacro()\n",
+            },
+        ),
+        Example(
+            "a missing included file",
+            {
+                "CMakeLists.txt": "project(talker)\ninclude(cmake/script.cmake)\n",
+                "cmake/scripts.cmake": "macro(scripts)\nendmacro()\n",
+            },
+            "CMakeLists.txt:2:9: includes cmake/script.cmake, which does not exist: CMake stops; "
+            "did you mean cmake/scripts.cmake?",
+        ),
+        Example(
+            "a function that is called if the directory exists",
+            {
+                "CMakeLists.txt": "project(talker)\nfunction(data name)\n"
+                "  install(DIRECTORY ${name} DESTINATION share/${PROJECT_NAME})\nendfunction()\n"
+                "if(EXISTS ${CMAKE_CURRENT_SOURCE_DIR}/maps)\n  data(maps)\nendif()\n",
+            },
+        ),
+        Example(
+            "sources of a function",
+            {
+                "CMakeLists.txt": "project(talker)\nfunction(node name)\n"
+                '  cmake_parse_arguments(ARG "" "" "SOURCES" ${ARGN})\n'
+                "  add_executable(${name} ${ARG_SOURCES})\nendfunction()\n"
+                "node(talk SOURCES src/talk.cpp src/words.cpp)\n",
+                "src/talk.cpp": "",
+                "src/word.cpp": "",
+            },
+            "CMakeLists.txt:6:32: file src/words.cpp does not exist: CMake stops; did you mean "
+            "src/word.cpp?",
+        ),
+        Example(
             "a missing test",
             {"CMakeLists.txt": _LISTS_TESTS.format("test_talks.py"), "test/test_talk.py": ""},
             "CMakeLists.txt:2:28: test file test/test_talks.py does not exist: the test fails; "
@@ -275,6 +323,7 @@ class NamedFileMissing(Rule):
         yield from self._check_installed(package)
         yield from self._check_sources(package)
         yield from self._check_subdirectories(package)
+        yield from self._check_included(package)
         yield from self._check_tests(package)
         yield from self._check_interfaces(package)
         yield from self._check_package(package)
@@ -302,7 +351,7 @@ class NamedFileMissing(Rule):
         path = item.path
         if not path or not self._is_own(path) or is_made_by_build(package, path):
             return None
-        if _runs_if_exists(install.command) or _is_elsewhere(package, path):
+        if _runs_if_exists(package.cmake, install.command) or _is_elsewhere(package, path):
             return None
         nested = [f"{directory}/" for directory in package.tree.nested]
         if any(f"{path}/".startswith(item) or item.startswith(f"{path}/") for item in nested):
@@ -336,19 +385,20 @@ class NamedFileMissing(Rule):
         if cmake.find(*_MAKERS_OF_SOURCES):
             return
         for command in cmake.find(*_COMPILING):
-            if len(command.blocks) > cmake.guarded_by_testing(command):
+            if not _runs_always(cmake, command):
                 continue
             for argument in command.arguments[1:]:
-                value = cmake.expand(argument, command)
-                if value is None or set("$<*;") & set(value) or not value.endswith(_ENDINGS):
-                    continue
-                path = cmake.path_of(value)
-                if package.has(path) or path.startswith(("/", "..")):
-                    continue
-                if _is_elsewhere(package, path):
-                    continue
-                hint = _closest(package, path, package.files, 0.8)
-                yield self.report(argument, f"file {path} does not exist: CMake stops{hint}")
+                for value in _values(cmake, command, argument):
+                    path = cmake.path_of(value)
+                    if set("$<*;") & set(value) or not value.endswith(_ENDINGS):
+                        continue
+                    if package.has(path) or path.startswith(("/", "..")):
+                        continue
+                    if _is_elsewhere(package, path):
+                        continue
+                    hint = _closest(package, path, package.files, 0.8)
+                    message = f"file {path} does not exist: CMake stops{hint}"
+                    yield self.report(cmake.where_written(command, argument, value), message)
 
     def _check_subdirectories(self, package: Package) -> Iterator[Diagnostic]:
         cmake = package.cmake
@@ -369,6 +419,22 @@ class NamedFileMissing(Rule):
             else:
                 continue  # a submodule that has not been cloned is an empty directory
             yield self.report(command.arguments[0], message)
+
+    def _check_included(self, package: Package) -> Iterator[Diagnostic]:
+        cmake = package.cmake
+        if cmake.find("configure_file", "file", "execute_process"):
+            return
+        for command in cmake.find_own("include"):
+            value = cmake.expand(command.arguments[0], command) if command.arguments else None
+            if value is None or not value.endswith(".cmake") or value.startswith(("/", "..")):
+                continue
+            path = cmake.path_of(value)
+            if command.blocks or command.has("OPTIONAL") or command in cmake.followed:
+                continue
+            if not package.has(path) and not _is_elsewhere(package, path):
+                hint = _closest(package, path, package.files, 0.8)
+                message = f"includes {path}, which does not exist: CMake stops{hint}"
+                yield self.report(command.arguments[0], message)
 
     def _check_tests(self, package: Package) -> Iterator[Diagnostic]:
         cmake = package.cmake
@@ -447,6 +513,21 @@ class NamedFileMissing(Rule):
                 yield self.report(package.start_of(init), message, fix)
 
 
+def _values(cmake: CMakeLists, command: Command, argument: Argument) -> list[str]:
+    """Return the values of an argument in all calls of the function around its command."""
+    values = [cmake.expand_list([argument], command, turn) or () for turn in cmake.turns(command)]
+    return [*dict.fromkeys(value for turn in values for value in turn)]
+
+
+def _runs_always(cmake: CMakeLists, command: Command) -> bool:
+    """Return whether no condition decides about a command, except that tests are built."""
+    blocks = command.blocks
+    if blocks and blocks[0].name in {"function", "macro"} and blocks[0].values:
+        calls = cmake.find(blocks[0].values[0].lower())
+        return len(blocks) == 1 and not any(call.blocks for call in calls)
+    return len(blocks) <= cmake.guarded_by_testing(command)
+
+
 def _closest(package: Package, path: str, files: Collection[str], cutoff: float) -> str:
     closest = closest_name(package, path, files, cutoff)
     return f"; did you mean {closest}?" if closest else ""
@@ -465,10 +546,16 @@ def _is_linked(package: Package, path: str) -> bool:
     return not is_own and disk.exists(at)
 
 
-def _runs_if_exists(command: Command) -> bool:
-    """Return whether a command runs only if a file exists: ``if(EXISTS ...)``."""
+def _runs_if_exists(cmake: CMakeLists, command: Command, depth: int = 0) -> bool:
+    """Return whether a command may run only if a file exists: ``if(EXISTS ...)``."""
     at = command
     while at.parent is not None and at.branch is not None:
+        if at.parent.name in {"function", "macro"} and at.parent.values:
+            calls = cmake.find(at.parent.values[0].lower())
+            if depth >= _MAX_DEPTH or any(
+                _runs_if_exists(cmake, call, depth + 1) for call in calls
+            ):
+                return True
         asked = [at.branch, at.parent] if at.branch.name == "else" else [at.branch]
         if any("EXISTS" in item.values for item in asked):
             return True

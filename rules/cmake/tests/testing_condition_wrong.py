@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
-from scaffold.api.cmake import Command
+from scaffold.api.cmake import CMakeLists, Command
 
 _TESTS = ("ament_lint_auto_find_test_dependencies", "ament_add_pytest_test", "ament_add_gtest")
 _LISTS = (
@@ -96,9 +96,7 @@ class TestingConditionWrong(Rule):
         if cmake.includes_unknown:
             return
         conditions = {
-            branch.start: branch
-            for command in cmake.find(*_TESTS)
-            for branch in _outermost(command)
+            branch.start: branch for command in _tests(cmake) for branch in _outermost(command)
         }
         for condition in conditions.values():
             if condition.name != "if" or len(condition.arguments) != 1:
@@ -130,6 +128,13 @@ class TestingConditionWrong(Rule):
                         f"{path} is installed only if tests are built: releases do not contain it"
                     )
                     yield self.report(item, message)
+
+
+def _tests(cmake: CMakeLists) -> list[Command]:
+    """Return the commands that define tests, also those that call a function that does."""
+    around = {block for command in cmake.find(*_TESTS) for block in command.blocks}
+    functions = [block for block in around if block.name in {"function", "macro"} and block.values]
+    return cmake.find(*_TESTS, *{block.values[0].lower() for block in functions})
 
 
 def _outermost(command: Command) -> Iterator[Command]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import posixpath
 from bisect import bisect_left
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Container, Iterable, Iterator, Mapping, Sequence
 from functools import partial
 
 from scaffold import lazy_re
@@ -51,7 +51,7 @@ _GNU_DIRECTORIES = {
 _DEFINITIONS = frozenset({"function", "macro"})
 _LOOPS = frozenset({"foreach", "while"})
 REPEATED = _DEFINITIONS | _LOOPS
-_GLOBS = frozenset({"GLOB", "GLOB_RECURSE"})
+_GLOBS = (["GLOB"], ["GLOB_RECURSE"])
 _GLOB_OPTIONS = frozenset({"LIST_DIRECTORIES", "RELATIVE"})
 _PARTS: Mapping[str, Callable[[str], str]] = {
     "NAME": posixpath.basename,
@@ -341,15 +341,13 @@ class Variables:
         name = command.name
         if name in HARMLESS:
             return
+        if self._note_result(command):
+            return
         if name == "include" and command.values == ["GNUInstallDirs"]:
             self._fixed.update(_GNU_DIRECTORIES)
         arguments = command.arguments
         if name == "set":
             self._set(command)
-        elif name == "file" and arguments and arguments[0].value in _GLOBS:
-            self._note_each(command, 1, self._globbed)
-        elif name == "get_filename_component":
-            self._note_each(command, 0, self._component)
         elif name == "list" and arguments and arguments[0].value == "APPEND":
             self._append(command)
         elif name == "list" and arguments and arguments[0].value in _READING_LISTS:
@@ -379,6 +377,18 @@ class Variables:
                 self._join(rest, command, {}),
                 lambda turn: self._join(rest, command, turn),
             )
+
+    def _note_result(self, command: Command) -> bool:
+        """Note what a command returns in a variable; return whether it is such a command."""
+        if command.name == "cmake_parse_arguments":
+            self._parse_arguments(command)
+        elif command.name == "get_filename_component":
+            self._note_each(command, 0, self._component)
+        elif command.name == "file" and command.values[:1] in _GLOBS:
+            self._note_each(command, 1, self._globbed)
+        else:
+            return False
+        return True
 
     def _note_each(
         self,
@@ -427,6 +437,33 @@ class Variables:
         path = posixpath.normpath(full.removeprefix(f"{ROOT}/"))
         paths = self._glob(path, command.values[0])
         return None if paths is None else [f"{ROOT}/{path}" for path in paths]
+
+    def _parse_arguments(self, command: Command) -> None:
+        """Note what ``cmake_parse_arguments(PREFIX flags single multiple ...)`` sets."""
+        prefix, *kinds = command.values[:4]
+        if "PARSE_ARGV" in command.values[:1] or len(kinds) < len(("flags", "single", "multiple")):
+            return
+        keywords = {word for kind in kinds for word in kind.split(";")}
+        for keyword in (*kinds[1].split(";"), *kinds[2].split(";")):
+            again = partial(self._parsed, command, keyword, keywords)
+            self._note(command, f"{prefix}_{keyword}", None, again)
+
+    def _parsed(
+        self, command: Command, keyword: str, keywords: Container[str], bindings: Bindings
+    ) -> str | None:
+        """Return what follows a keyword in the parsed arguments."""
+        result: list[str] = []
+        is_inside = False
+        for argument in command.arguments[4:]:
+            values = self.argument(argument, command, bindings)
+            if values is None:
+                return None
+            for value in values:
+                if value in keywords:
+                    is_inside = value == keyword
+                elif is_inside:
+                    result.append(value)
+        return ";".join(result)
 
     def _component(self, command: Command, bindings: Bindings) -> str | None:
         """Return the part of a path that ``get_filename_component`` returns."""

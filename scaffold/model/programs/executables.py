@@ -33,7 +33,8 @@ _PLAIN_COMMANDS = frozenset(
     ament_index_register_resource
     ament_lint_auto_find_test_dependencies ament_lint_cmake ament_mypy ament_package ament_pep257
     ament_python_install_module ament_python_install_package
-    ament_target_dependencies ament_uncrustify ament_xmllint cmake_minimum_required cmake_policy
+    ament_target_dependencies ament_uncrustify ament_xmllint cmake_minimum_required
+    cmake_parse_arguments cmake_policy
     else elseif enable_testing endforeach endfunction endif endmacro file find_package foreach
     function get_filename_component if include_directories install list macro math message option
     pluginlib_export_plugin_description_file
