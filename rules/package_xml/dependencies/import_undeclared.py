@@ -599,11 +599,11 @@ class ImportUndeclared(Rule):
             fixed={"package.xml": _manifest("ament_index_python", "launch_xml")},
         ),
         Example(
-            "a pip key",
+            "old keys for pip",
             {
-                "package.xml": _manifest("python-transforms3d-pip"),
+                "package.xml": _manifest("python-transforms3d-pip", "python-utm-pip"),
                 "talker/__init__.py": "",
-                "talker/node.py": "import transforms3d\n",
+                "talker/node.py": "import transforms3d\nimport utm\n",
             },
         ),
         Example(

@@ -209,7 +209,7 @@ def _keys(package: Package, node: Import, local: frozenset[str]) -> tuple[str, .
         return ()
     keys = keys_of_module(root)
     if keys:  # also of tkinter, which Debian has separately from Python
-        return keys + _keys_for_pip(keys)
+        return _with_keys_for_pip(keys)
     if root in sys.stdlib_module_names or root in _OLD_STANDARD_LIBRARY:
         return ()
     names = node.module.split(".")
@@ -221,7 +221,7 @@ def _keys(package: Package, node: Import, local: frozenset[str]) -> tuple[str, .
     is_interface = is_interface and root not in _libraries(package)
     if is_interface or package.workspace.get(root) is not None:
         return (root,)
-    return library_keys(root)
+    return _with_keys_for_pip(library_keys(root))
 
 
 def _libraries(package: Package) -> frozenset[str]:
@@ -237,10 +237,10 @@ def _libraries(package: Package) -> frozenset[str]:
     )
 
 
-def _keys_for_pip(keys: Sequence[str]) -> tuple[str, ...]:
-    """Return the rosdep keys of the same modules installed with pip."""
+def _with_keys_for_pip(keys: tuple[str, ...]) -> tuple[str, ...]:
+    """Append the rosdep keys of the same modules installed with pip."""
     names = [key.removeprefix("python3-").removesuffix("-pip") for key in keys]
-    return tuple(
+    return keys + tuple(
         other
         for key, name in zip(keys, names, strict=True)
         if key != name
