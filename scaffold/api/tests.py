@@ -2,6 +2,12 @@
 
 from __future__ import annotations
 
+from scaffold.model.contents.pytest_settings import (
+    Setting,
+    files_collected,
+    module_name,
+    pytest_settings,
+)
 from scaffold.model.tests import (
     LAUNCH,
     Fixture,
@@ -28,9 +34,11 @@ from scaffold.model.tests import (
 __all__ = [
     "LAUNCH",
     "Fixture",
+    "Setting",
     "TestFunction",
     "arguments",
     "constructed_class",
+    "files_collected",
     "files_of_tests",
     "fixture_decorator",
     "fixtures",
@@ -41,8 +49,10 @@ __all__ = [
     "may_be_imported",
     "may_start",
     "methods",
+    "module_name",
     "node_tests",
     "own_fixtures",
+    "pytest_settings",
     "settings_or_tests_mention",
     "test_functions",
     "test_modules",
