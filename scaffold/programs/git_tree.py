@@ -146,7 +146,8 @@ class Commit(Objects):
         super().__init__(directory, "", f"--since {revision}")
         top = self._run("rev-parse", "--show-toplevel")
         if top is None:
-            raise InputError(f"--since {revision}: no git repository of yours at {directory}")
+            why = f"{directory} is not in a git repository of this user"
+            raise InputError(f"--since {revision}: {why}")
         self.top = os.fsdecode(top.removesuffix(b"\n"))
         """The top of the work tree."""
         self._directory = self.top

@@ -152,7 +152,7 @@ def test_since_without_git_is_an_error(
 ) -> None:
     shutil.rmtree(workspace / ".git")
     assert main(["check", "--since", "HEAD"]) == 2
-    assert f"no git repository of yours at {workspace}\n" in capsys.readouterr().err
+    assert f"{workspace} is not in a git repository of this user\n" in capsys.readouterr().err
     monkeypatch.setenv("PATH", str(workspace))
     assert main(["check", "--since", "HEAD"]) == 2
     assert "--since HEAD: git is not installed\n" in capsys.readouterr().err
