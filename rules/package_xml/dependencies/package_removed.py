@@ -106,10 +106,17 @@ class PackageRemoved(Rule):
             distro="humble",
         ),
         Example(
-            "the former name of a package",
-            {"package.xml": _NAMED.format("  <exec_depend>ros_ign_bridge</exec_depend>\n")},
+            "former names of packages",
+            {
+                "package.xml": _NAMED.format(
+                    "  <exec_depend>ros_ign_bridge</exec_depend>\n"
+                    "  <exec_depend>turtlebot4_ignition_bringup</exec_depend>\n"
+                )
+            },
             "3:16: ros_ign_bridge was removed in Jazzy: rosdep finds no rule; use ros_gz_bridge "
             "(rosdistro)",
+            "4:16: turtlebot4_ignition_bringup was removed in Jazzy: rosdep finds no rule; use "
+            "turtlebot4_gz_bringup (rosdistro)",
         ),
     )
 
