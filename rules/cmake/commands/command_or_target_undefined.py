@@ -265,7 +265,7 @@ class CommandOrTargetUndefined(Rule):
                 continue
             if name == "ament_package" and not packages.issubset(_WITHOUT_CORE):
                 continue
-            for command in cmake.find(name):
+            for command in filter(cmake.is_called, cmake.find(name)):
                 message = f"{name}() is undefined without find_package({providers[0]} REQUIRED)"
                 yield self.report(command.name_location, message)
 
@@ -274,6 +274,8 @@ class CommandOrTargetUndefined(Rule):
         for command in cmake.commands:
             name = command.name
             if name in BUILT_IN or name in OF_AMENT or name in cmake.defined:
+                continue
+            if not cmake.is_called(command):
                 continue
             successor = _OF_ROS1.get(name)
             if successor and command.parent is None:

@@ -223,7 +223,7 @@ class TargetCommandRejected(Rule):
             return
         for command in cmake.find(_AMENT):
             found = packages_found(package, None if _is_loose(command) else command.index)
-            if found is None:
+            if found is None or not cmake.is_called(command):
                 continue
             for argument in command.arguments[1:]:
                 for name in _values(cmake, command, argument):

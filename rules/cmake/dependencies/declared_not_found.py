@@ -55,6 +55,26 @@ class DeclaredNotFound(Rule):
             },
         ),
         Example(
+            "found in a loop",
+            {
+                "package.xml": _MANIFEST,
+                "CMakeLists.txt": _LISTS.format(
+                    "foreach(name rclcpp std_msgs)\n  find_package(${name})\nendforeach()\n"
+                ),
+            },
+        ),
+        Example(
+            "not found, also not in a loop",
+            {
+                "package.xml": _MANIFEST,
+                "CMakeLists.txt": _LISTS.format(
+                    "foreach(name rclcpp)\n  find_package(${name})\nendforeach()\n"
+                ),
+            },
+            "package.xml:3:17: <build_depend> 'std_msgs', but CMakeLists.txt does not call "
+            "find_package(std_msgs); add the call, or declare <exec_depend>",
+        ),
+        Example(
             "not found",
             {"package.xml": _MANIFEST, "CMakeLists.txt": _LISTS.format("")},
             "package.xml:3:17: <build_depend> 'std_msgs', but CMakeLists.txt does not call "
@@ -66,9 +86,7 @@ class DeclaredNotFound(Rule):
         cmake = package.cmake
         if package.build_type != "ament_cmake" or cmake.finds_automatically:
             return
-        if has_unknown_commands(package) or any(
-            "${" in find for find in self._found_names(package)
-        ):
+        if has_unknown_commands(package) or cmake.has_unknown_packages:
             return
         for dependency in package.manifest.dependencies:
             name = dependency.name
@@ -82,9 +100,6 @@ class DeclaredNotFound(Rule):
                     f"find_package({name}); add the call, or declare <exec_depend>"
                 )
                 yield self.report(dependency, message)
-
-    def _found_names(self, package: Package) -> list[str]:
-        return [value for call in package.cmake.find("find_package") for value in call.values[:1]]
 
     def _arguments(self, package: Package) -> Iterator[str]:
         for command in package.cmake.commands:

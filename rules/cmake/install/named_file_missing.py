@@ -74,8 +74,8 @@ class NamedFileMissing(Rule):
 
     **Why.** The build stops: ``file INSTALL cannot find``, ``Cannot find source file``,
     ``add_subdirectory given source "src" which is not an existing directory``, ``the passed file
-    'msg/Bet.msg' doesn't exist``. A test fails with ``file or directory not found``. Git does not
-    keep empty directories: they exist only on the author's machine.
+    'msg/Bet.msg' doesn't exist``, ``ament_add_pytest_test() the path 'test/test_talks.py' does not
+    exist``. Git does not keep empty directories: they exist only on the author's machine.
 
     **Fix.** Correct the name, or remove it. Python packages need an ``__init__.py``, but neither
     ``add_executable`` nor ``add_subdirectory``. Interfaces must be in a directory, and end in .msg,
@@ -198,6 +198,15 @@ class NamedFileMissing(Rule):
             },
         ),
         Example(
+            "functions that nothing calls",
+            {
+                "CMakeLists.txt": "project(talker)\nfunction(node)\n"
+                "  add_executable(talk src/talk.cpp)\n"
+                "  install(PROGRAMS talk.py DESTINATION lib/${PROJECT_NAME})\n"
+                "  ament_add_pytest_test(talk test/test_talk.py)\nendfunction()\n",
+            },
+        ),
+        Example(
             "a missing included file",
             {
                 "CMakeLists.txt": "project(talker)\ninclude(cmake/script.cmake)\n",
@@ -230,8 +239,8 @@ class NamedFileMissing(Rule):
         Example(
             "a missing test",
             {"CMakeLists.txt": _LISTS_TESTS.format("test_talks.py"), "test/test_talk.py": ""},
-            "CMakeLists.txt:2:28: test file test/test_talks.py does not exist: the test fails; "
-            "did you mean test/test_talk.py?",
+            "CMakeLists.txt:2:28: test file test/test_talks.py does not exist: CMake stops; did "
+            "you mean test/test_talk.py?",
         ),
         Example(
             "tests of a loop and of a macro",
@@ -242,10 +251,10 @@ class NamedFileMissing(Rule):
                 "endmacro()\nlook(test_talk TIMEOUT 60)\nlook(test_listens)\n",
                 "test/test_talk.py": "",
             },
-            "CMakeLists.txt:3:33: test file test/test_listen.py does not exist: the test fails; "
-            "did you mean test/test_talk.py?",
-            "CMakeLists.txt:6:33: test file test/test_listens.py does not exist: the test fails; "
-            "did you mean test/test_talk.py?",
+            "CMakeLists.txt:3:33: test file test/test_listen.py does not exist: CMake stops; did "
+            "you mean test/test_talk.py?",
+            "CMakeLists.txt:6:33: test file test/test_listens.py does not exist: CMake stops; did "
+            "you mean test/test_talk.py?",
         ),
         Example(
             "scripts that a macro of an included file installs",
@@ -336,6 +345,8 @@ class NamedFileMissing(Rule):
                 continue
             if install.command.has("FILES_MATCHING"):
                 continue  # CMake skips a missing directory
+            if not package.cmake.is_called(install.command):
+                continue
             for item in install.items:
                 problem = self._problem(package, install, item)
                 is_pattern = "*" in item.argument.raw and item.argument.raw == item.path
@@ -385,7 +396,7 @@ class NamedFileMissing(Rule):
         if cmake.find(*_MAKERS_OF_SOURCES):
             return
         for command in cmake.find(*_COMPILING):
-            if not _runs_always(cmake, command):
+            if not _runs_always(cmake, command) or not cmake.is_called(command):
                 continue
             for argument in command.arguments[1:]:
                 for value in _values(cmake, command, argument):
@@ -438,7 +449,7 @@ class NamedFileMissing(Rule):
 
     def _check_tests(self, package: Package) -> Iterator[Diagnostic]:
         cmake = package.cmake
-        for command in cmake.find(*_TESTING):
+        for command in filter(cmake.is_called, cmake.find(*_TESTING)):
             position = 1 if command.name == "ament_add_pytest_test" else 0
             if len(command.arguments) <= position:
                 continue
@@ -451,7 +462,7 @@ class NamedFileMissing(Rule):
                 if package.has(path) or package.has_directory(path) or _is_elsewhere(package, path):
                     continue
                 hint = _closest(package, path, package.python_files, 0.7)
-                message = f"test file {path} does not exist: the test fails{hint}"
+                message = f"test file {path} does not exist: CMake stops{hint}"
                 yield self.report(cmake.where_written(command, argument, value), message)
 
     def _check_interfaces(self, package: Package) -> Iterator[Diagnostic]:

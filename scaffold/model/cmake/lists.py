@@ -100,6 +100,14 @@ class CMakeLists:
         result = [command for name in names for command in self._by_name.get(name, ())]
         return sorted(result, key=lambda command: command.index)
 
+    def is_called(self, command: Command) -> bool:
+        """Return whether something calls the function or macro around a command, if any."""
+        return all(
+            block.name not in {"function", "macro"} or self.find(block.values[0].lower())
+            for block in command.blocks
+            if block.arguments
+        )
+
     def find_own(self, *names: str) -> list[Command]:
         """Return the calls of some commands, except in included files."""
         return [command for command in self.find(*names) if command.path == self.source.path]
@@ -316,9 +324,12 @@ class CMakeLists:
     @property
     def has_unknown_packages(self) -> bool:
         """Whether the name of a package is unknown."""
-        known = {id(package.command) for package in self.found_packages}
-        calls = self.find("find_package")
-        return any("$" in call.values[0] and id(call) not in known for call in calls if call.values)
+        return any(
+            self.expand(command.arguments[0], command, turn) is None
+            for command in self.find("find_package")
+            if command.arguments
+            for turn in self.turns(command)
+        )
 
     def _found_packages(self) -> Iterator[FoundPackage]:
         for command in self.find("find_package"):

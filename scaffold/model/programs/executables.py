@@ -21,27 +21,31 @@ from scaffold.record import NamedTuple
 from scaffold.source import ViewError
 
 if TYPE_CHECKING:
+    from scaffold.model.cmake.lists import CMakeLists
     from scaffold.model.package import Package
 
 _PLAIN_COMMANDS = frozenset(
     """
-    add_compile_options add_definitions add_dependencies add_executable add_launch_test add_library
-    add_test ament_add_gmock ament_add_gtest ament_add_pytest_test ament_add_test
-    ament_copyright ament_cppcheck ament_cpplint
-    ament_environment_hooks ament_export_dependencies ament_export_include_directories
-    ament_export_interfaces ament_export_libraries ament_export_targets ament_flake8
-    ament_index_register_resource
-    ament_lint_auto_find_test_dependencies ament_lint_cmake ament_mypy ament_package ament_pep257
-    ament_python_install_module ament_python_install_package
+    add_compile_definitions add_compile_options add_definitions add_dependencies add_executable
+    add_launch_test add_library add_test ament_add_gmock ament_add_gtest ament_add_pytest_test
+    ament_add_test ament_auto_add_executable ament_auto_add_library
+    ament_auto_find_build_dependencies ament_auto_package ament_clang_format ament_clang_tidy
+    ament_copyright ament_cppcheck ament_cpplint ament_environment_hooks
+    ament_export_dependencies ament_export_include_directories ament_export_interfaces
+    ament_export_libraries ament_export_targets ament_flake8 ament_index_register_resource
+    ament_lint_auto_find_test_dependencies ament_lint_cmake ament_mypy ament_package
+    ament_pep257 ament_python_install_module ament_python_install_package
     ament_target_dependencies ament_uncrustify ament_xmllint cmake_minimum_required
-    cmake_parse_arguments cmake_policy
-    else elseif enable_testing endforeach endfunction endif endmacro file find_package foreach
-    function get_filename_component if include_directories install list macro math message option
-    pluginlib_export_plugin_description_file
-    project rclcpp_components_register_node rclcpp_components_register_nodes return
+    cmake_parse_arguments cmake_policy else elseif enable_language enable_testing endforeach
+    endfunction endif endmacro file find_library find_package find_path find_program foreach
+    function get_filename_component if include_directories install link_directories
+    link_libraries list macro math message moveit_package option pkg_check_modules
+    pkg_search_module pluginlib_export_plugin_description_file project
+    rclcpp_components_register_node rclcpp_components_register_nodes return
     rosidl_generate_interfaces rosidl_get_typesupport_target rosidl_target_interfaces set
-    set_property set_target_properties string target_compile_definitions target_compile_features
-    target_compile_options target_include_directories target_link_libraries
+    set_property set_target_properties set_tests_properties string target_compile_definitions
+    target_compile_features target_compile_options target_include_directories
+    target_link_directories target_link_libraries target_precompile_headers unset
     """.split()  # noqa: SIM905  a column of quoted names would hide them
 )
 """Commands that define no programs, or ones with literal names."""
@@ -181,9 +185,18 @@ def _by_cmake(package: Package) -> Programs:
         elif install.destination is None or install.kind == "DIRECTORY":
             lib = install.destination is None or install.destination.startswith("lib")
             complete = complete and not lib
-    for command in cmake.find("rclcpp_components_register_node"):
-        names = cmake.expand_list(command.keyword("EXECUTABLE", {"PLUGIN", "EXECUTOR"}), command)
+    for names in _made_by_commands(cmake):
         complete = complete and names is not None
         sources.update(dict.fromkeys(names or (), ""))
     renames = any("OUTPUT_NAME" in command.values for command in cmake.commands)
     return Programs(sources, complete and not renames)
+
+
+def _made_by_commands(cmake: CMakeLists) -> Iterator[list[str] | None]:
+    """Yield the executables of commands that also install them; ``None`` for unknown ones."""
+    for command in cmake.find("rclcpp_components_register_node", "ament_auto_add_executable"):
+        written = command.arguments[:1]
+        if command.name == "rclcpp_components_register_node":
+            written = command.keyword("EXECUTABLE", {"PLUGIN", "EXECUTOR"})
+        for turn in cmake.turns(command):
+            yield cmake.expand_list(written, command, turn)
