@@ -182,6 +182,12 @@ def test_share_directory_of_both_build_types() -> None:
         ),
         ("rclcpp_components_register_node(c PLUGIN P EXECUTABLE d)", {"d"}, True),
         ("install(PROGRAMS demo/e.py DESTINATION lib/demo)", {"e.py"}, True),
+        ("ament_auto_add_executable(f f.cpp)\nament_auto_package()", {"f"}, True),
+        (
+            "macro(g x)\ninstall(TARGETS ${x} DESTINATION lib/demo)\nendmacro()\ng(h)\ng(i)",
+            {"h", "i"},
+            True,
+        ),
         ("install(PROGRAMS demo/e.py DESTINATION bin)", set(), True),
         ("install(TARGETS ${SOME} DESTINATION lib/demo)", set(), False),
         ("make_programs()", set(), False),
