@@ -52,6 +52,14 @@ _HINT = (
     "        for logger in [self.get_logger()]:\n"
     "            logger.{}('hello')\n"
 )
+_HINT_ARGUMENT = (
+    "from rclpy.node import Node\n\n\n"
+    "class Hinter(Node):\n"
+    "    def hint(self):\n"
+    "        self.say(self.get_logger())\n\n"
+    "    def say(self, logger):\n"
+    "        logger.{}('hello')\n"
+)
 _STATES = (
     "from dataclasses import dataclass, field\n\nfrom geometry_msgs.msg import Pose\n\n\n"
     "@dataclass\nclass State:\n"
@@ -1080,6 +1088,29 @@ class AttributeMissing(TypeRule):
             ),
             fixed={"hint.py": _HINT.format("warning")},
             distro="lyrical",
+        ),
+        Example(
+            "argument of a method in files with tabs and with Windows line ends",
+            {
+                "tabs.py": _HINT_ARGUMENT.replace("    ", "\t").format("debu"),
+                "windows.py": _HINT_ARGUMENT.replace("\n", "\r\n").format("debu"),
+            },
+            Report(
+                "tabs.py:9:3",
+                "rclpy.impl.rcutils_logger.RcutilsLogger has no 'debu': "
+                "AttributeError; did you mean 'debug'? ('logger' comes from line 6)",
+                fix="Replace with 'debug'",
+            ),
+            Report(
+                "windows.py:9:9",
+                "rclpy.impl.rcutils_logger.RcutilsLogger has no 'debu': "
+                "AttributeError; did you mean 'debug'? ('logger' comes from line 6)",
+                fix="Replace with 'debug'",
+            ),
+            fixed={
+                "tabs.py": _HINT_ARGUMENT.replace("    ", "\t").format("debug"),
+                "windows.py": _HINT_ARGUMENT.replace("\n", "\r\n").format("debug"),
+            },
         ),
         Example(
             "class with incomplete type stubs",

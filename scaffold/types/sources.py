@@ -71,8 +71,12 @@ class Source:
 
     @cached_property
     def with_callback_types(self) -> bytes:
-        """The content with annotated callbacks."""
-        return with_callback_types(self.data)
+        """The content with annotated callbacks.
+
+        Tabs are single spaces and lines end as on Unix, so that columns do not change: Python
+        only accepts indentation whose meaning does not depend on the width of tabs.
+        """
+        return with_callback_types(self.data.replace(b"\r\n", b"\n").replace(b"\t", b" "))
 
 
 def imported_names(data: bytes, module: str) -> Iterator[tuple[str, str]]:

@@ -123,7 +123,7 @@ def test_unsupported_calls(call: str) -> None:
         "class A:\n    def f(self, a): ...\n\n\nclass B(C):\n    def g(self):\n        self.f(1)\n",
         "def f(a): return a\n\n\nf(1)\n",
         "def f(\n    a,  # first, b\n    c: int,\n):\n    pass\n\n\nf(1, 2)\n",
-        "def f(a):\n\treturn a\n\n\nf(1)\n",
+        "def f(a):\n    return a\r\n\n\nf(1)\n",
         "class A:\n    f = staticmethod(print)\n\n\nf(1)\n",
     ],
 )

@@ -88,7 +88,7 @@ def with_arguments(
         text = data.decode()
     except UnicodeDecodeError:
         return Extended(data, ())
-    if "\r" in text or "\t" in text:
+    if "\r" in text:
         return Extended(data, ())
     lines: dict[int, list[str]] = {}
     annotations: list[tuple[int, int]] = []
