@@ -146,6 +146,14 @@ def test_annotations_of_parameters_are_removed(annotation: str) -> None:
     assert taken == ["a = (['x'])[0]; b = ([1])[0]"]
 
 
+def test_parameters_on_lines_of_their_own() -> None:
+    source = CLASS.replace("(self, text, times=1)", "(\n        self,\n        text,\n    )")
+    lines = added(source.replace(" * times", "").format("        self.say(name)\n"))
+    taken, kept = [line for line in lines if "rate" not in line]
+    name = taken.removeprefix("text = (").partition(")")[0]
+    assert kept == f"global {name}; {name} = [name]"
+
+
 def test_constructors_and_static_methods() -> None:
     assert added("class A:\n    def __init__(self, a):\n        pass\n\n\nA(1)\n") == [
         "a = ([1])[0]"

@@ -229,7 +229,7 @@ def _functions(text: str) -> Iterator[_Function]:
         if decorator not in {"", "staticmethod"} or "#" in match["parameters"]:
             continue
         called, segment = match["name"], (classes[at - 1] if at else 0, classes[at])
-        is_method = text.startswith("self", match.start("parameters"))
+        is_method = match["parameters"].lstrip().startswith("self")
         class_ = _NAME.match(text, segment[0] + len("class ")) if at else None
         name = "" if match["indent"] else called
         if called == "__init__" and is_method and class_:
