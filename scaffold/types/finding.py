@@ -16,6 +16,7 @@ from scaffold.model.python.conditions.guards import (
     Condition,
     all_conditions,
     has_fallback,
+    is_probe,
     values_asked,
 )
 from scaffold.model.python.conditions.handlers import is_tested_to_fail, last_names
@@ -57,8 +58,6 @@ _OF_ARGUMENTS = frozenset(
 # linear: only searched in the text of a called function
 _PATCHING = lazy_re.compile(r"\bpatch(?:\.object)?$|\bmonkeypatch\.setattr$")
 """Matches calls that replace an attribute during a test."""
-_SHORT = 2
-"""The maximum number of statements of a ``try`` that only probes whether something works."""
 
 
 class TypeFinding:
@@ -298,8 +297,14 @@ class TypeFinding:
             binding.kind != "function" for binding in module.index.bindings(class_).get(name, ())
         ):
             return False
-        uses = module.index.attributes(name)
-        return any(isinstance(it.ctx, ast.Store) and module.text(it.value) == "self" for it in uses)
+        return self._is_stored(name)
+
+    def _is_stored(self, name: str) -> bool:
+        """Return whether the file sets an attribute of ``self``."""
+        uses = self.module.index.attributes(name)
+        return any(
+            isinstance(it.ctx, ast.Store) and self.module.text(it.value) == "self" for it in uses
+        )
 
     def _imports_of(self, name: ast.Name) -> list[str]:
         """Return the packages that a name is imported from, if nothing else binds it."""
@@ -452,8 +457,7 @@ class TypeFinding:
         """
         if has_fallback(self.module, child, is_rare=False):
             return True
-        logs = any(isinstance(part, ast.Call) for part in ast.walk(handler))
-        return self.kind not in _OF_ARGUMENTS and len(node.body) <= _SHORT and not logs
+        return self.kind not in _OF_ARGUMENTS and is_probe(node, handler)
 
 
 def _is_measured(module: PythonModule, node: ast.AST) -> bool:

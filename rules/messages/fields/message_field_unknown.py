@@ -9,7 +9,7 @@ from scaffold.api import Diagnostic, Example, MessageRule
 from scaffold.api.distributions import removed_interface
 from scaffold.api.interfaces import closest_word
 from scaffold.api.messages import PARTS, MessageClass, MessageTypes, is_error_expected
-from scaffold.api.python import is_handled
+from scaffold.api.python import is_expected
 
 from ._named_fields import named_fields
 
@@ -219,7 +219,7 @@ class MessageFieldUnknown(MessageRule):
             return
         for node in types.module.walk(ast.Attribute):
             message = _message_wrapped(types, node)
-            if message and not is_handled(types.module, node, "AttributeError"):
+            if message and not is_expected(types.module, node, "AttributeError"):
                 yield self.report(types.module.location(node), message)
 
 

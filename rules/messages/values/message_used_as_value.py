@@ -8,7 +8,7 @@ from collections.abc import Iterator, Mapping
 
 from scaffold.api import Diagnostic, Example, MessageRule
 from scaffold.api.messages import MessageClass, MessageTypes, is_error_expected, kind_of_field
-from scaffold.api.python import is_handled
+from scaffold.api.python import is_expected
 
 from . import _arrays
 
@@ -318,7 +318,7 @@ class MessageUsedAsValue(MessageRule):
         for node, problem in _problems(types):
             if is_error_expected(types.module, node):
                 continue
-            if not is_handled(types.module, node, "TypeError"):
+            if not is_expected(types.module, node, "TypeError"):
                 yield self.report(types.module.location(node), problem)
 
 

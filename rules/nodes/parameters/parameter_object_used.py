@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, RclpyRule, Report
-from scaffold.api.python import is_handled
+from scaffold.api.python import is_expected
 from scaffold.api.rclpy import FIELDS, PARAMETER, RclpyFile, class_of
 
 from ._values import objects_used
@@ -218,7 +218,7 @@ class ParameterObjectUsed(RclpyRule):
                         is_parameter = class_of(file, parameter) == PARAMETER
                     case _:
                         continue
-                if is_parameter and not is_handled(file.module, attribute, "AttributeError"):
+                if is_parameter and not is_expected(file.module, attribute, "AttributeError"):
                     message = f"'.value' is the value itself, without {field!r}: AttributeError"
                     yield self.report(file.module.location(attribute), message)
 

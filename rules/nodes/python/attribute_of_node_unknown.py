@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, RclpyRule, Report, Severity, closest_name
-from scaffold.api.python import is_handled
+from scaffold.api.python import is_expected
 from scaffold.api.rclpy import (
     NODE,
     NodeClass,
@@ -125,6 +125,27 @@ class AttributeOfNodeUnknown(RclpyRule):
             },
             "talker/derived.py:8:34: neither Loud nor rclpy's Node has '_Talker__loud': "
             "AttributeError; did you mean '_Talker__pub'?",
+        ),
+        Example(
+            "handlers of any exception that log it, that say nothing and that replace the value",
+            {
+                "camera.py": "from rclpy.node import Node\n\n\n"
+                "class Camera(Node):\n"
+                "    def __init__(self):\n"
+                "        super().__init__('camera')\n"
+                "        self.frames = 0\n\n"
+                "    def stop(self):\n"
+                "        try:\n"
+                "            self.grabber.release()\n"
+                "        except Exception as error:\n"
+                "            self.get_logger().error(f'cannot stop: {error}')\n"
+                "        try:\n            self.light.close()\n"
+                "        except Exception:\n            pass\n"
+                "        try:\n            count = self.count\n"
+                "        except Exception:\n            count = self.frames\n"
+                "        return count\n"
+            },
+            "11:13: neither Camera nor rclpy's Node has 'grabber': AttributeError",
         ),
         Example("defined", {"talker.py": _NODE.format("on_timer", "pub")}),
         Example(
@@ -249,7 +270,7 @@ class AttributeOfNodeUnknown(RclpyRule):
             return
         known = {*defined_by(node), *given, *_names_of_rclpy()}
         for call, name in read_by_name(node.file, node.node):
-            if name not in known and not is_handled(module, call, "AttributeError"):
+            if name not in known and not is_expected(module, call, "AttributeError"):
                 closest = _closest(package, name, known)
                 hint = f"; did you mean {closest!r}?" if closest else ""
                 message = f"neither {node.name} nor rclpy's Node has {name!r}: AttributeError{hint}"
@@ -299,7 +320,7 @@ def _closest(package: Package, name: str, names: set[str]) -> str:
 
 def _may_fail(file: RclpyFile, node: ast.Attribute) -> bool:
     """Return whether the code handles a missing attribute."""
-    if is_handled(file.module, node, "AttributeError"):
+    if is_expected(file.module, node, "AttributeError"):
         return True
     return f"'{node.attr}'" in file.module.source.text or (
         f'"{node.attr}"' in file.module.source.text

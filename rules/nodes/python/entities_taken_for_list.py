@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, RclpyRule
-from scaffold.api.python import is_handled
+from scaffold.api.python import is_expected
 from scaffold.api.rclpy import NodeClass, RclpyFile
 
 _PROPERTIES = (
@@ -67,7 +67,7 @@ class EntitiesTakenForList(RclpyRule):
         for name in _PROPERTIES:
             for attribute in file.module.index.attributes(name):
                 error = _error(file, attribute)
-                is_flaw = error and not is_handled(file.module, attribute, error)
+                is_flaw = error and not is_expected(file.module, attribute, error)
                 if is_flaw and _is_of_node(file, attribute):
                     message = f"{name!r} is a property of Node that returns a generator: {error}"
                     yield self.report(file.module.location(attribute), message)

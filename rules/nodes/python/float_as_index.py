@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, PythonRule
-from scaffold.api.python import PythonModule, is_handled
+from scaffold.api.python import PythonModule, is_expected
 from scaffold.api.rclpy import RclpyFile, rclpy_file
 
 _HEAD = (
@@ -94,14 +94,14 @@ class FloatAsIndex(PythonRule):
         file = rclpy_file(package, module.path)
         yield from self._check_slices(file)
         for subscript in module.walk(ast.Subscript):
-            if _is_of_own_length(file, subscript) and not is_handled(
+            if _is_of_own_length(file, subscript) and not is_expected(
                 module, subscript, "TypeError"
             ):
                 message = "a float cannot be an index: TypeError; divide with //"
                 yield self.report(module.location(subscript.slice), message)
         for call in module.calls_of("range"):
             for given in call.args:
-                if _is_quotient(file, given) and not is_handled(module, call, "TypeError"):
+                if _is_quotient(file, given) and not is_expected(module, call, "TypeError"):
                     message = "range() does not accept a float: TypeError; divide with //"
                     yield self.report(module.location(given), message)
 
@@ -115,7 +115,7 @@ class FloatAsIndex(PythonRule):
         """Check a position or size that is a pair of integers."""
         pair = file.evaluator.single_value(given)
         for part in pair.elts if isinstance(pair, ast.Tuple) else ():
-            if _is_quotient(file, part) and not is_handled(file.module, given, "TypeError"):
+            if _is_quotient(file, part) and not is_expected(file.module, given, "TypeError"):
                 message = f"{name}() does not accept a float here: it fails; divide with //"
                 yield self.report(file.module.location(part), message)
                 break
@@ -128,7 +128,7 @@ class FloatAsIndex(PythonRule):
             for bound in (node.lower, node.upper, node.step):
                 if bound is not None and _is_quotient(file, bound):
                     message = "a float cannot be a slice index: TypeError; divide with //"
-                    if not is_handled(module, node, "TypeError"):
+                    if not is_expected(module, node, "TypeError"):
                         yield self.report(module.location(bound), message)
 
 

@@ -21,6 +21,8 @@ _ENDING = frozenset(
 _ENDING_METHODS = frozenset({"skipTest", "fail"})
 """Methods of a ``TestCase`` that do not return."""
 _ALL = frozenset({"Exception", "BaseException"})
+_SHORT = 2
+"""The maximum number of statements of a ``try`` that only probes whether something works."""
 
 
 def is_handled(
@@ -50,6 +52,42 @@ def is_handled(
             return False
         child = parent
     return False
+
+
+def is_expected(module: PythonModule, node: ast.AST, exception: str) -> bool:
+    """Return whether code expects an exception that a node always raises.
+
+    A handler of any exception that only logs it does not.
+
+    Args:
+        module: The file.
+        node: The place where it is raised.
+        exception: The last part of its name, such as ``AttributeError``.
+    """
+    if is_handled(module, node, exception, is_broad=False):
+        return True
+    if has_fallback(module, node, is_rare=False):
+        return True
+    child = node
+    for parent in module.parents(node):
+        if isinstance(parent, ast.FunctionDef | ast.AsyncFunctionDef):
+            return False
+        if isinstance(parent, ast.Try) and module.index.place(child)[0] == "body":
+            broad = [
+                handler
+                for handler in parent.handlers
+                if handler.type is None or _ALL & last_names(handler.type)
+            ]
+            if any(is_probe(parent, handler) for handler in broad):
+                return True
+        child = parent
+    return False
+
+
+def is_probe(node: ast.Try, handler: ast.ExceptHandler) -> bool:
+    """Return whether a ``try`` is so short, and a handler so quiet, that it only probes."""
+    logs = any(isinstance(part, ast.Call) for part in ast.walk(handler))
+    return len(node.body) <= _SHORT and not logs
 
 
 def has_fallback(module: PythonModule, node: ast.AST, *, is_rare: bool) -> bool:
