@@ -1113,6 +1113,26 @@ class AttributeMissing(TypeRule):
             },
         ),
         Example(
+            "after a check whether the node has set an attribute, or whether its base has one",
+            {
+                "beacon.py": "from rclpy.node import Node\nfrom std_msgs.msg import Empty\n\n\n"
+                "class Beacon(Node):\n"
+                "    def __init__(self):\n"
+                "        super().__init__('beacon')\n"
+                "        self.output = self.create_publisher(Empty, 'beacon', 10)\n\n"
+                "    def tick(self):\n"
+                "        if not hasattr(self, 'last'):\n"
+                "            self.last = self.get_clock().time()\n"
+                "        if getattr(self, 'last', None) is not None:\n"
+                "            self.output.emit(Empty())\n"
+                "        if hasattr(self, 'get_topic_names'):\n"
+                "            self.output.send(Empty())\n"
+            },
+            "12:25: rclpy.clock.Clock has no 'time': AttributeError; it has clock_type, "
+            "create_jump_callback, handle, now, sleep_for, sleep_until",
+            "14:13: rclpy.publisher.Publisher has no 'emit': AttributeError",
+        ),
+        Example(
             "class with incomplete type stubs",
             {
                 "turn.py": "from scipy.spatial.transform import Rotation\n"

@@ -41,6 +41,8 @@ _DECIDING = lazy_re.compile(
     re.IGNORECASE,
 )
 """Matches conditions on a version, a module or the type of an object."""
+_OF_OWN = lazy_re.compile(r"(?:has|get)attr\(self, '(\w+)'(?:, \w+)?\)")
+"""Matches a check whether ``self`` has an attribute."""
 _LEAVING = lazy_re.compile(
     r"version_info|\bPY_?[23]\d{0,2}\b|hexversion|__version__|(?i:distro)|find_spec|importorskip"
 )
@@ -387,7 +389,7 @@ class TypeFinding:
         """Return whether a condition checks a version, the type of an object, or an import."""
         parts = [*open_parts(self.module, condition.test)]
         values = [value for part in parts for value in values_asked(self.module, part)]
-        texts = [ast.unparse(value) for value in values]
+        texts = [_OF_OWN.sub(self._unless_stored, ast.unparse(value)) for value in values]
         if condition.is_of_leaving:
             return any(map(_LEAVING.search, texts))
         if any(map(_DECIDING.search, texts)):
@@ -395,6 +397,10 @@ class TypeFinding:
         nodes = (node for part in parts for node in ast.walk(part))
         names = {node.id for node in nodes if isinstance(node, ast.Name)}
         return not names.isdisjoint(self._imported)
+
+    def _unless_stored(self, check: re.Match[str]) -> str:
+        """Return a check for an attribute, or nothing if the file sets that: it may come later."""
+        return "" if self._is_stored(check[1]) else check[0]
 
     def _asks_arguments(self, conditions: Sequence[Condition]) -> bool:
         """Return whether the place runs only for some values of another argument."""
