@@ -57,6 +57,18 @@ def test_argument_is_stored_before_the_call_and_read_in_the_function() -> None:
     assert kept == f"global {name}; {name} = [name]"
 
 
+@pytest.mark.parametrize(
+    "call",
+    [
+        "print(\n    self.say('x')\n)",
+        "rows = {'a':\n    self.say('x')\n}",
+        "rows = [\n    'if', self.say('x'),\n    'for',\n]\nfor row in rows:\n    print(row)",
+    ],
+)
+def test_calls_in_statements_of_several_lines(call: str) -> None:
+    assert inserted_for_call(call) == ["text = (['x'])[0]; times = ([1])[0]"]
+
+
 def test_call_without_a_required_argument_is_no_source() -> None:
     assert inserted_for_call("self.say(times=2)") == []
 
@@ -90,7 +102,7 @@ def test_different_calls_give_a_union() -> None:
 @pytest.mark.parametrize(
     "call",
     [
-        "print(\n    self.say('x')\n)",
+        "rows = [\n    1 if name else self.say('x'),\n]",
         "rows = [self.say(row) for row in name]",
         "rows = [self.say(row)\n        for row in name]",
         "name and self.say('x')",
@@ -103,7 +115,6 @@ def test_different_calls_give_a_union() -> None:
         "self.say(text := 'x')",
         "print('{self.say(name)}')",
         "other.say('x')",
-        "rows = {'a':\n    self.say('x')\n}",
         "rows = name + \\\n    self.say('x')",
         "self.say(\n    'x',  # loud, and\n    2,\n)",
     ],

@@ -29,12 +29,21 @@ _HEAD = lazy_re.compile(
 _IN_F_STRING = lazy_re.compile(r"""\bf(['"])[^'"\n{}]*\{$""")
 """Matches the text before a call in an f-string."""
 _LINES_BACK = 6
+_MOST_LINES = 20
+"""The maximum number of lines of a statement before a call in it."""
+_MOST_AFTER = 2_000
+"""The maximum length of a statement after a call in it."""
+_BRACKET = lazy_re.compile(r"[()\[\]{}]")
+_STRING = lazy_re.compile(r"(?<![\w'\"])[rRbBuU]?(?:'[^'\\\n{}]*'|\"[^\"\\\n{}]*\")(?!['\"])")
+"""Matches a string on one line, without braces: in an f-string, these contain code."""
 _TRIPLE = ('"""', "'''")
 
 
 def statement_around(text: str, start: int, end: int) -> int:
-    """Return the start of the line of a call if its statement starts there; otherwise -1."""
+    """Return the start of the statement around a call; -1 if the call may not be executed."""
     line = text.rfind("\n", 0, start) + 1
+    if not _ends_statement(text, line):
+        return _wrapped_statement_around(text, start, end)
     stop = text.find("\n", end)
     after = text[end : stop if stop >= 0 else len(text)]
     first = _FIRST.match(text, line)
@@ -47,7 +56,31 @@ def statement_around(text: str, start: int, end: int) -> int:
         return -1
     if before.count("'") % 2 or before.count('"') % 2 or not _is_closed(before, after):
         return -1
-    return line if _ends_statement(text, line) and not _is_in_docstring(text, start) else -1
+    return -1 if _is_in_docstring(text, start) else line
+
+
+def _wrapped_statement_around(text: str, start: int, end: int) -> int:
+    """Return the start of a statement of several lines around a call; -1 if that is uncertain."""
+    line = text.rfind("\n", 0, start) + 1
+    for _ in range(_MOST_LINES):
+        line = text.rfind("\n", 0, line - 1) + 1
+        if not line or _ends_statement(text, line):
+            break
+    first = _FIRST.match(text, line)
+    if first is None or first[1] in _INSIDE | _BLOCKS or _is_in_docstring(text, start):
+        return -1
+    before = _STRING.sub("", text[first.end() : start])
+    stop = text.find("\n\n", end, end + _MOST_AFTER)
+    after = _STRING.sub("", text[end : stop if stop >= 0 else end + _MOST_AFTER])
+    depth = sum(map(before.count, "([{")) - sum(map(before.count, ")]}"))
+    if depth <= 0 or any(mark in before for mark in "#'\""):
+        return -1
+    for sign in _BRACKET.finditer(after):
+        depth += 1 if sign[0] in "([{" else -1
+        if not depth:
+            inside = before + after[: after.find("\n", sign.end())]
+            return -1 if "#" in inside or _SOMETIMES.search(inside) else line
+    return -1
 
 
 def _is_in_docstring(text: str, at: int) -> bool:
