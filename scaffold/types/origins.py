@@ -49,7 +49,8 @@ def is_of_several(
                 if len(_contents_of(module, entry.value)) != 1:
                     return True
             case ast.Attribute(value=ast.Name(id="self"), attr=name):
-                if len(_sources_of(module, name)) > 1 or len(_contents_of(module, origin)) > 1:
+                sources = _sources_of(module, name, origin)
+                if len(sources) > 1 or len(_contents_of(module, origin)) > 1:
                     return True
             case ast.Name():
                 if len(_contents_of(module, origin)) > 1:
@@ -356,8 +357,8 @@ def _looped_over(module: PythonModule, name: ast.Name) -> ast.expr | None:
     return None
 
 
-def _sources_of(module: PythonModule, name: str) -> set[str]:
-    """Return the sources of the values of an attribute of ``self``."""
+def _sources_of(module: PythonModule, name: str, used: ast.AST) -> set[str]:
+    """Return the sources of the values of an attribute of ``self``, in the class that uses it."""
     sources = set()
     statements: list[ast.Assign | ast.AnnAssign] = [*module.walk(ast.Assign)]
     statements += module.walk(ast.AnnAssign)
@@ -366,6 +367,25 @@ def _sources_of(module: PythonModule, name: str) -> set[str]:
         value = statement.value
         if value is None or _is_nothing(value):
             continue
-        if any(isinstance(target, ast.Attribute) and target.attr == name for target in targets):
+        if any(
+            isinstance(target, ast.Attribute)
+            and target.attr == name
+            and not _is_of_other_class(module, target, used)
+            for target in targets
+        ):
             sources.add(_source(module, value))
     return sources
+
+
+def _is_of_other_class(module: PythonModule, target: ast.Attribute, used: ast.AST) -> bool:
+    """Return whether an attribute is that of ``self`` in a class without relation to another."""
+    classes = [module.enclosing_class(node) for node in (target, used)]
+    if module.text(target.value) != "self" or None in classes or classes[0] is classes[1]:
+        return False
+    bases = {last_name(base) for class_ in module.walk(ast.ClassDef) for base in class_.bases}
+    defined = {class_.name for class_ in module.walk(ast.ClassDef)}
+    return not any(
+        class_ is not None
+        and (class_.name in bases or not defined.isdisjoint(map(last_name, class_.bases)))
+        for class_ in classes
+    )
