@@ -9,6 +9,7 @@ any str. The annotation of the parameter is removed, because nothing enforces it
 from __future__ import annotations
 
 import re
+from bisect import bisect_right
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from functools import lru_cache
 
@@ -210,10 +211,18 @@ def _add_nodes_of(
     if "node" not in function.parameters:
         return ()
     body = function_body(text, function.start - 1, function.start - 1)
-    found = [*node_parameters.statements(text, function.parameters, body, known)]
+    class_ = _class_around(text, function.place) if function.is_method else ""
+    found = [*node_parameters.statements(text, function.parameters, body, class_, known)]
     if found:
         _add(lines, {function.start: [f"{function.inner}{line}" for line in found]})
     return found
+
+
+def _class_around(text: str, place: int) -> str:
+    """Return the text of the class around a place."""
+    starts = [*class_starts(text), len(text)]
+    at = bisect_right(starts, place)
+    return text[starts[at - 1] : starts[at]] if 0 < at < len(starts) else ""
 
 
 def _functions(text: str) -> Iterator[_Function]:
