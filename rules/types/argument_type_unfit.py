@@ -927,6 +927,35 @@ class ArgumentTypeUnfit(TypeRule):
             "rover/hub.py:11:37: 'msg' of publish() must be a std_msgs.msg.String or bytes, not a "
             "str: publish() fails ('text' comes from line 6 of rover/speaker.py)",
         ),
+        Example(
+            "publishers of one name in two classes, of a node that each class gets",
+            {
+                "lamps.py": "from rclpy.node import Node\n"
+                "from std_msgs.msg import Bool, String\n\n\n"
+                "class Lamp:\n"
+                "    def __init__(self, node):\n"
+                "        self._node = node\n"
+                "        self.start()\n\n"
+                "    def start(self):\n"
+                "        self.output = self._node.create_publisher(Bool, 'lamp', 10)\n"
+                "        self.output.publish(True)\n"
+                "        self._node.count_lamps()\n\n\n"
+                "class Text:\n"
+                "    def __init__(\n"
+                "        self,\n"
+                "        node: Node,\n"
+                "    ):\n"
+                "        self.node = node\n"
+                "        self.output = self.node.create_publisher(String, 'text', 10)\n\n"
+                "    def show(self):\n"
+                "        self.output.publish(String())\n"
+                "        self.output.publish(Bool())\n"
+            },
+            "12:29: 'msg' of publish() must be a std_msgs.msg.Bool or bytes, not a bool: "
+            "publish() fails",
+            "26:29: 'msg' of publish() must be a std_msgs.msg.String or bytes, not a "
+            "std_msgs.msg.Bool: publish() fails",
+        ),
     )
 
     def judge(self, finding: TypeFinding) -> Diagnostic | None:
