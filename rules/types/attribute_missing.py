@@ -250,6 +250,21 @@ class AttributeMissing(TypeRule):
     kinds = frozenset({"missing-attribute"})
     examples = (
         Example(
+            "entry added to a dictionary in a list",
+            {
+                "zones.py": "from rclpy.node import Node\n\n\n"
+                "class Zones(Node):\n"
+                "    def __init__(self):\n"
+                "        super().__init__('zones')\n"
+                "        self.zones = [{'wave': {'height': 0}}, {'wave': {'height': 1}}]\n\n"
+                "    def add(self, index, entry):\n"
+                "        self.zones[index]['entries'] = {'height': entry}\n\n"
+                "    def save(self):\n"
+                "        for zone in self.zones:\n"
+                "            zone['wave']['height'] = zone['entries']['height'].get()\n"
+            },
+        ),
+        Example(
             "return value of wait_for_message() used as the message",
             {
                 "once.py": "from rclpy.wait_for_message import wait_for_message\n"

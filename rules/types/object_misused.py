@@ -123,6 +123,27 @@ class ObjectMisused(TypeRule):
             "10:14: an rclpy.client.Client cannot be used in `with`: TypeError",
             "12:15: a std_msgs.msg.String cannot be raised: TypeError",
         ),
+        Example(
+            "callbacks in a table, with a list in the last column of some rows",
+            {
+                "servo.py": "from rclpy.node import Node\n"
+                "from std_msgs.msg import String, UInt16\n\n\n"
+                "class Servo(Node):\n"
+                "    def __init__(self):\n"
+                "        super().__init__('servo')\n"
+                "        for topic in [\n"
+                "            [self.on_pwm, 'servo{}', UInt16, 1, [1, 2]],\n"
+                "            [self.on_mode, 'mode', String, 1],\n"
+                "        ]:\n"
+                "            if len(topic) > 4:\n"
+                "                callback, name, type_, depth, numbers = topic\n"
+                "                for number in numbers:\n"
+                "                    topic = name.format(number)\n"
+                "                    self.create_subscription(type_, topic, callback, depth)\n\n"
+                "    def on_pwm(self, msg):\n        print(msg)\n\n"
+                "    def on_mode(self, msg):\n        print(msg)\n"
+            },
+        ),
         Example("access to a field", {"height.py": _NODE.format("point.z")}),
         Example(
             "parameters converted by a function of another package",

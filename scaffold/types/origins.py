@@ -81,10 +81,12 @@ def has_default(module: PythonModule, node: ast.AST) -> bool:
 def is_placeholder(module: PythonModule, node: ast.AST) -> bool:
     """Return whether a reported value only reserves space in a container, such as ``[0] * 8``.
 
-    The type checker does not notice that a statement replaces the elements by other objects.
+    The type checker does not notice that a statement replaces the elements by other objects,
+    or adds others to the dictionaries in a container.
     """
-    containers = (origin for origin in _origins(module, node) if _is_container(origin))
-    return any(
+    traced = [*_origins(module, node)]
+    containers = (origin for origin in traced if _is_container(origin))
+    return _is_set_under_key(module, traced) or any(
         any(isinstance(value, ast.Constant) for value in _initial_values(module, container))
         and any(
             not isinstance(value, ast.Constant)
@@ -93,6 +95,25 @@ def is_placeholder(module: PythonModule, node: ast.AST) -> bool:
         )
         for container in containers
     )
+
+
+def _is_set_under_key(module: PythonModule, traced: Sequence[ast.AST]) -> bool:
+    """Return whether a statement sets an entry with a key that is read to an object."""
+    keys = {key for origin in traced if (key := _key(origin)) is not None}
+    return any(
+        _key(target) in keys and not isinstance(statement.value, ast.Constant)
+        for statement in (module.walk(ast.Assign) if keys else ())
+        for target in statement.targets
+        if isinstance(target, ast.Subscript) and isinstance(target.value, ast.Subscript)
+    )
+
+
+def _key(node: ast.AST) -> str | None:
+    """Return the string in brackets."""
+    match node:
+        case ast.Subscript(slice=ast.Constant(value=str(key))):
+            return key
+    return None
 
 
 def may_be_text(module: PythonModule, node: ast.AST) -> bool:

@@ -116,8 +116,9 @@ def _without_arguments(type_: str) -> str:
 
 
 def is_function(type_: str) -> bool:
-    """Return whether a type is a function or a method."""
-    return re.match(r"(?:bound method|def) ", type_) is not None or type_.startswith("(")
+    """Return whether a type is a function or a method; a union has parentheses around one."""
+    is_plain = type_.startswith("(") and not type_.startswith(("((", "(bound ", "(def "))
+    return is_plain or re.match(r"(?:bound method|def) ", type_) is not None
 
 
 def class_in(type_: str) -> str:
