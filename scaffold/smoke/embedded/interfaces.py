@@ -50,7 +50,7 @@ async def provide(
         origin: The run that it belongs to.
         timeout: Seconds for the build.
         tell: Called with the current activity.
-        announce: Called with missing interfaces and the reason.
+        announce: Called with interfaces to build, and with missing ones and the reason.
     """
     if environment.kind != "wheels":
         return environment
@@ -71,7 +71,11 @@ async def provide(
     if reason:
         announce(f"{', '.join(new)}: not among the ROS wheels, and not built: {reason}")
         return ready
-    tell(f"building {', '.join(new)}, which the ROS wheels lack; the result is cached")
+    announce(
+        f"building {', '.join(new)}, which the ROS wheels lack; this takes minutes, and the result "
+        "is cached"
+    )
+    tell(f"building {', '.join(new)}")
     layout = Layout.below(scratch / PLACE)
     sources = [_written(bundle, name, scratch, complete=missing[name]) for name in new]
     builds = await build(ready, sources, layout, scratch, origin=origin, timeout=timeout)
