@@ -52,7 +52,7 @@ class TestMisdefined(Rule):
     code = "TS042"
     name = "test-misdefined"
     other_severities = {
-        Severity.WARNING: "the option is of pytest-cov, which apt installs with colcon"
+        Severity.WARNING: "the option is from pytest-cov, which apt installs with colcon"
     }
     examples = (
         Example("valid tests", {"test/test_text.py": _TEST.format("count", "self, ")}),
@@ -114,8 +114,8 @@ class TestMisdefined(Rule):
             "pyproject.toml:2:1: -n is an option of pytest-xdist, which package.xml does not "
             "declare: pytest stops without it; add "
             "<test_depend>python3-pytest-xdist</test_depend>",
-            "test/unit/test_talk.py:1:1: pytest imports test/system/test_talk.py by the same name "
-            "and stops: import file mismatch; rename one, or add an __init__.py to both "
+            "test/unit/test_talk.py:1:1: pytest imports test/system/test_talk.py under the same "
+            "name, and stops: import file mismatch; rename one, or add an __init__.py to both "
             "directories",
         ),
         Example(
@@ -192,7 +192,7 @@ class TestMisdefined(Rule):
             first = seen.setdefault(module_name(package, path), path)
             if first != path and not settings_or_tests_mention(package, ("collect_ignore",)):
                 message = (
-                    f"pytest imports {first} by the same name and stops: import file mismatch; "
+                    f"pytest imports {first} under the same name, and stops: import file mismatch; "
                     f"rename one, or add an __init__.py to both directories"
                 )
                 yield self.report(package.start_of(path), message)

@@ -64,7 +64,7 @@ class CallRepeated(Rule):
                 "  ament_add_pytest_test(${name} test/${name}.py)\n"
                 "  ament_add_pytest_test(all test/${name}.py)\nendforeach()\n"
             },
-            "4:25: ament_add_pytest_test(all) is called in each turn of a loop: CMake stops",
+            "4:25: ament_add_pytest_test(all) is called in each iteration: CMake stops",
         ),
         Example("two names", {"CMakeLists.txt": _LISTS.format("more"), **_FILES}),
         Example(
@@ -140,7 +140,7 @@ class CallRepeated(Rule):
                 yield self.report(command.arguments[0], message)
 
     def _check_loops(self, package: Package) -> Iterator[Diagnostic]:
-        """Report names of tests and targets that do not differ between the turns of a loop."""
+        """Report names of tests and targets that are the same in all iterations of a loop."""
         cmake = package.cmake
         for command in cmake.find(*_NAMING):
             inner = [*dropwhile(lambda block: block.name == "if", command.blocks)]
@@ -148,10 +148,9 @@ class CallRepeated(Rule):
                 continue
             first, turns = command.arguments[0], cmake.turns(command)
             names = [cmake.expand(first, command, turn) for turn in turns]
-            if command.name != _LAUNCH_TEST and len(names) > 1 and {*names} == {names[0]} - {None}:
-                message = (
-                    f"{command.name}({names[0]}) is called in each turn of a loop: CMake stops"
-                )
+            is_known = None not in names and command.name != _LAUNCH_TEST
+            if is_known and len(names) > 1 == len({*names}):
+                message = f"{command.name}({names[0]}) is called in each iteration: CMake stops"
                 yield self.report(first, message)
 
     def _may_skip(self, command: Command) -> bool:

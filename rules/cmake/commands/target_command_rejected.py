@@ -226,7 +226,7 @@ class TargetCommandRejected(Rule):
             if found is None or not cmake.is_called(command):
                 continue
             for argument in command.arguments[1:]:
-                for name in _values(cmake, command, argument):
+                for name in cmake.values_of(argument, command):
                     if name in found or name in _KEYWORDS:
                         continue
                     if is_released(name) or package.workspace.get(name) is not None:
@@ -235,12 +235,6 @@ class TargetCommandRejected(Rule):
                             f"add find_package({name} REQUIRED)"
                         )
                         yield self.report(argument, message)
-
-
-def _values(cmake: CMakeLists, command: Command, argument: Argument) -> list[str]:
-    """Return the values of an argument in all turns of the loops around its command."""
-    values = [cmake.expand_list([argument], command, turn) or () for turn in cmake.turns(command)]
-    return [*dict.fromkeys(value for turn in values for value in turn)]
 
 
 def _uses(cmake: CMakeLists) -> Iterator[tuple[Command, Argument]]:

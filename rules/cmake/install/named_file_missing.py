@@ -17,7 +17,6 @@ from scaffold.api import (
     closest_name,
 )
 from scaffold.api.cmake import (
-    Argument,
     CMakeLists,
     Command,
     Install,
@@ -399,7 +398,7 @@ class NamedFileMissing(Rule):
             if not _runs_always(cmake, command) or not cmake.is_called(command):
                 continue
             for argument in command.arguments[1:]:
-                for value in _values(cmake, command, argument):
+                for value in cmake.values_of(argument, command):
                     path = cmake.path_of(value)
                     if set("$<*;") & set(value) or not value.endswith(_ENDINGS):
                         continue
@@ -522,12 +521,6 @@ class NamedFileMissing(Rule):
                     f"package: CMake stops"
                 )
                 yield self.report(package.start_of(init), message, fix)
-
-
-def _values(cmake: CMakeLists, command: Command, argument: Argument) -> list[str]:
-    """Return the values of an argument in all calls of the function around its command."""
-    values = [cmake.expand_list([argument], command, turn) or () for turn in cmake.turns(command)]
-    return [*dict.fromkeys(value for turn in values for value in turn)]
 
 
 def _runs_always(cmake: CMakeLists, command: Command) -> bool:

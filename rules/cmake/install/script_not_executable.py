@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator, Sequence
 
 from scaffold.api import (
     Diagnostic,
@@ -251,16 +251,17 @@ class ScriptNotExecutable(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        yield from self._check_bit(package)
+        scripts = _scripts(package)
+        yield from self._check_bit(package, scripts)
         yield from self._check_kind(package)
-        yield from self._check_shebang(package)
+        yield from self._check_shebang(package, {script.path for script in scripts})
 
-    def _check_bit(self, package: Package) -> Iterator[Diagnostic]:
+    def _check_bit(self, package: Package, scripts: Sequence[Program]) -> Iterator[Diagnostic]:
         cmake = package.cmake
         wanted = f"lib/{cmake.project_name}"
         reported: set[str] = set()
         imported = _imported(package)
-        for program in _scripts(package):
+        for program in scripts:
             path = program.path
             if path in reported or program.destination != wanted or not package.has(path):
                 continue
@@ -335,8 +336,7 @@ class ScriptNotExecutable(Rule):
                 return Fix(f"Replace {install.kind} with PROGRAMS", (edit,), Safety.SAFE)
         return None
 
-    def _check_shebang(self, package: Package) -> Iterator[Diagnostic]:
-        paths = {program.path for program in _scripts(package)}
+    def _check_shebang(self, package: Package, paths: Collection[str]) -> Iterator[Diagnostic]:
         imported = _imported(package)
         for path in sorted(paths):
             if not path.endswith(".py") or path.endswith("__init__.py") or not package.has(path):
@@ -419,14 +419,15 @@ def _starts_python(line: str) -> bool:
 
 
 def _scripts(package: Package) -> list[Program]:
-    return [program for program in programs(package) if _is_meant(package, program.path)]
+    """Return the programs that are installed by their names, or are nodes."""
+    written = {value for command in package.cmake.commands for value in command.values}
+    return [item for item in programs(package) if _is_meant(package, item.path, written)]
 
 
-def _is_meant(package: Package, path: str) -> bool:
+def _is_meant(package: Package, path: str, written: Collection[str]) -> bool:
     """Return whether a script is installed by its name, or is a node that a pattern matches."""
     stem = path.rpartition("/")[2].removesuffix(".py")
-    commands = package.cmake.commands
-    if any(stem in value for command in commands for value in command.values):
+    if any(stem in value for value in written):
         return True
     try:
         return "rclpy" in package.imports(path) and package.module(path).has_main_guard

@@ -189,7 +189,7 @@ class ShareDirectoryNotInstalled(Rule):
                 "ament_package()\n",
                 **_FILES,
             },
-            "CMakeLists.txt:2:22: the pattern matches no file in config/, such as "
+            "CMakeLists.txt:2:22: the pattern matches none of the files in config/, such as "
             "config/talker.yaml: nothing is installed",
         ),
         Example(
@@ -308,8 +308,8 @@ class ShareDirectoryNotInstalled(Rule):
                 files = [file for file in package.files if file.startswith(f"{directory}/")]
                 if directory and files and installs_directory(package, directory) is False:
                     message = (
-                        f"the pattern matches no file in {directory}/, such as {files[0]}: "
-                        f"nothing is installed"
+                        f"the pattern matches none of the files in {directory}/, such as "
+                        f"{files[0]}: nothing is installed"
                     )
                     yield self.report(argument, message)
 

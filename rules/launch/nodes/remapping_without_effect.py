@@ -188,10 +188,9 @@ class RemappingWithoutEffect(Rule):
         for node in _remapped_nodes(package):
             names = names_of(node, package)
             for source, target, location in node.remappings if names is not None else ():
-                problem = _problem(package, node, names or set(), (source, target))
+                problem, is_stale = _problem(package, node, names or set(), (source, target))
                 if problem:
                     is_kept = _is_absolute_in(names or set(), target)
-                    is_stale = problem.endswith(_listed(names or set(), source))
                     severity = Severity.WARNING if is_kept or is_stale else None
                     cause = f"names of {node.program}"
                     yield self.report(location, problem, severity=severity, cause=cause)
@@ -199,43 +198,33 @@ class RemappingWithoutEffect(Rule):
 
 def _problem(
     package: Package, node: Remapped, names: set[str], remapping: tuple[str, str | None]
-) -> str:
-    """Return why a remapping has no effect; empty if it may have one."""
+) -> tuple[str, bool]:
+    """Return why a remapping has no effect, and whether it may be left over; empty without one."""
     source, target = remapping
+    mistake = _mistake(node, names, source, target)
+    if mistake:
+        return f"{node.program!r} uses {mistake}", False
+    if _has_name(names, source, node.name):
+        return "", False
+    closest = closest_name(package, source, names, 0.6)
+    hint = f"did you mean {closest!r}?" if closest else f"it has {listed_names(names, source)}"
+    problem = f"{node.program!r} has no topic, service or action {source!r}: nothing is remapped"
+    return f"{problem}; {hint}", not closest
+
+
+def _mistake(node: Remapped, names: set[str], source: str, target: str | None) -> str:
+    """Return what the node uses instead of a name that is written wrongly."""
     full_name = _misses_namespace(names, source, node.namespace)
     if full_name:
-        return (
-            f"{node.program!r} uses {full_name!r} in its namespace: nothing is remapped; write "
-            f"{source.removeprefix('/')!r}"
-        )
+        right = source.removeprefix("/")
+        return f"{full_name!r} in its namespace: nothing is remapped; write {right!r}"
     private = _misses_privacy(names, source)
     if private:
-        return (
-            f"{node.program!r} uses the private name {private!r}: nothing is remapped; write "
-            f"{private!r}"
-        )
+        return f"the private name {private!r}: nothing is remapped; write {private!r}"
     if _is_reversed(names, source, target, node.name):
-        return (
-            f"{node.program!r} uses {target!r}, not {source!r}: nothing is remapped; the name in "
-            f"the code comes first"
-        )
-    if _has_name(names, source, node.name):
-        return ""
-    return (
-        f"{node.program!r} has no topic, service or action {source!r}: "
-        f"nothing is remapped; {_hint(package, source, names)}"
-    )
-
-
-def _hint(package: Package, source: str, names: set[str]) -> str:
-    closest = closest_name(package, source, names, 0.6)
-    if closest:
-        return f"did you mean {closest!r}?"
-    return _listed(names, source)
-
-
-def _listed(names: set[str], source: str) -> str:
-    return f"it has {listed_names(names, source)}"
+        why = "nothing is remapped; the name in the code comes first"
+        return f"{target!r}, not {source!r}: {why}"
+    return ""
 
 
 def _remapped_nodes(package: Package) -> Iterator[Remapped]:

@@ -211,6 +211,11 @@ class CMakeLists:
         """
         return self._variables.combinations(command) or (_NO_BINDINGS,)
 
+    def values_of(self, argument: Argument, command: Command) -> list[str]:
+        """Return the known values of an argument in the loops and calls around its command."""
+        lists = (self.expand_list([argument], command, turn) for turn in self.turns(command))
+        return [*dict.fromkeys(value for values in lists for value in values or ())]
+
     def where_written(self, command: Command, argument: Argument, value: str | None) -> Argument:
         """Return the argument with a value: that of the ``set`` of a variable, or of a call."""
         if "$" not in argument.raw:

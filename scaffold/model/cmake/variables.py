@@ -521,7 +521,7 @@ def split_list(value: str) -> list[str]:
 
 
 def _reaches(setter: Command, reader: Command | None) -> str:
-    """Return whether a value reaches another command: ``certainly``, ``perhaps``, ``never``."""
+    """Return whether a value reaches another command: ``surely``, ``perhaps``, ``never``."""
     if max(setter.depth, reader.depth if reader is not None else 0) > _MAX_DEPTH:
         return "perhaps"
     opens_own_scope = setter.name in {"foreach", "function", "macro"}

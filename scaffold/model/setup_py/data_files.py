@@ -32,14 +32,15 @@ class DataFile(NamedTuple):
 def data_file(module: PythonModule, evaluator: Evaluator, element: Element) -> DataFile:
     """Return an item of the list as an entry, which may be malformed."""
     node, at = element.node, module.location(element.origin or element.node)
-    if element.origin is not None:
-        entry = _evaluated(element.value, node, at)
-    elif isinstance(node, ast.Tuple | ast.List) and len(node.elts) == 2:  # noqa: PLR2004  a pair
-        entry = _written(module, evaluator, node)
-    elif lacks_comma(evaluator, node):
-        entry = _evaluated((), node, at)._replace(malformed="a comma is missing before the files")
-    else:
-        entry = _evaluated(element.value, node, at)
+    entry = _evaluated(element.value, node, at)
+    match node:
+        case _ if element.origin is not None:
+            pass  # the names in it have other values here
+        case ast.Tuple(elts=[_, _]) | ast.List(elts=[_, _]):
+            entry = _written(module, evaluator, node)
+        case _ if lacks_comma(evaluator, node):
+            problem = "a comma is missing before the files"
+            entry = _evaluated((), node, at)._replace(malformed=problem)
     return entry._replace(conditional=element.conditional)
 
 

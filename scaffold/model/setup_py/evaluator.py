@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import ast
 import posixpath
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import partial
 from typing import TYPE_CHECKING
 
 from scaffold.model.python.evaluation.evaluator import Elements, Evaluator
 from scaffold.model.python.evaluation.list_changes import statement_of
 from scaffold.model.python.evaluation.values import UNKNOWN, Glob, Lazy, PathValue
+from scaffold.model.remembered import remembered
 from scaffold.model.setup_py.globs import matches
 
 if TYPE_CHECKING:
@@ -138,13 +139,18 @@ def _children(files: PackageFiles, top: str) -> tuple[list[str], list[str]] | No
     top = posixpath.normpath(top)
     if not files.has_directory(top):
         return None
-    above = "" if top == "." else f"{top}/"
+    directories, names = _by_directory(files, of_files=False), _by_directory(files, of_files=True)
+    return directories.get(top, []), names.get(top, [])
 
-    def names(paths: Iterable[str]) -> list[str]:
-        below = (path.removeprefix(above) for path in paths if path.startswith(above))
-        return sorted(name for name in below if "/" not in name)
 
-    return names(files.tree.directories), names(files.files)
+@remembered
+def _by_directory(files: PackageFiles, *, of_files: bool) -> Mapping[str, list[str]]:
+    """Return the names of the files, or of the directories, in each directory."""
+    result: dict[str, list[str]] = {}
+    for path in sorted(files.files if of_files else files.tree.directories):
+        directory, name = posixpath.split(path)
+        result.setdefault(directory or ".", []).append(name)
+    return result
 
 
 def _walk(files: PackageFiles, top: str) -> object:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from itertools import islice
 from typing import TYPE_CHECKING, Protocol
 
@@ -225,21 +226,18 @@ def changed(
     args: Sequence[object],
 ) -> object:
     """Call a method that changes a list or dictionary, and return its result."""
-    try:
-        if len(holder) >= MAX_LENGTH:
-            raise ValueError  # noqa: TRY301  handled like those of the methods
-        if isinstance(holder, dict):
-            return _OF_DICTIONARIES[method](holder, *args)
-        if method in _ADDING:
+    compares = isinstance(holder, list) and method in _COMPARING
+    if len(holder) < MAX_LENGTH and (not compares or is_known([*holder, *args])):
+        with suppress(ValueError, LookupError, TypeError):
+            if not isinstance(holder, list):
+                return _OF_DICTIONARIES[method](holder, *args)
+            if method not in _ADDING:
+                return _OF_LISTS[method](holder, *args)
             items = machine.items_of(*args)
             holder.extend(islice((UNKNOWN,) if items is None else items, MAX_LENGTH))
             return None
-        if method in _COMPARING and not is_known([*holder, *args]):
-            raise ValueError  # noqa: TRY301
-        return _OF_LISTS[method](holder, *args)
-    except (ValueError, LookupError, TypeError):
-        machine.forget(holder)
-        return UNKNOWN
+    machine.forget(holder)
+    return UNKNOWN
 
 
 def _update(holder: dict[object, object], other: object) -> None:

@@ -9,7 +9,7 @@ import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from enum import Enum
 from itertools import islice
-from typing import Final
+from typing import Any, Final
 
 
 class Unknown(Enum):
@@ -115,14 +115,15 @@ _ARITHMETIC: Mapping[type[ast.operator], Callable[[float, float], float]] = {
     ast.FloorDiv: operator.floordiv,
     ast.Mod: operator.mod,
 }
-COMPARISONS: Mapping[type[ast.cmpop], Callable[[object, object], bool]] = {
+COMPARISONS: Mapping[type[ast.cmpop], Callable[[Any, Any], bool]] = {
     ast.Eq: operator.eq,
     ast.NotEq: operator.ne,
     ast.Is: operator.is_,
     ast.IsNot: operator.is_not,
-    ast.In: lambda left, right: left in right,  # type: ignore[operator]  # a TypeError is caught
-    ast.NotIn: lambda left, right: left not in right,  # type: ignore[operator]  # the same
+    ast.In: lambda left, right: left in right,
+    ast.NotIn: lambda left, right: left not in right,
 }
+"""They may raise TypeError."""
 _TEXT_METHODS: Mapping[str, Callable[..., object]] = {
     "startswith": str.startswith,
     "endswith": str.endswith,
