@@ -218,6 +218,23 @@ class ParameterUndeclared(Rule):
             "ignored; did you mean 'rate'?",
         ),
         Example(
+            "a node whose name is set on the command line",
+            {
+                **_PACKAGE,
+                "launch/a.launch.py": _LAUNCH.replace(
+                    "executable='talk'", "executable='talk', name=LaunchConfiguration('name')"
+                ),
+            },
+            Report(
+                "launch/a.launch.py:9:50",
+                "this node declares no parameter 'rates': the value is ignored; did "
+                "you mean 'rate'?",
+                severity=Severity.WARNING,
+            ),
+            "launch/a.launch.py:10:13: this node declares no parameter 'raet': the value is "
+            "ignored; did you mean 'rate'?",
+        ),
+        Example(
             "misspelled, and missing",
             {
                 "talker.py": _NODE.format(""),

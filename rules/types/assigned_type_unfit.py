@@ -253,6 +253,16 @@ class AssignedTypeUnfit(TypeRule):
             ),
         ),
         Example(
+            "class instead of a message",
+            {
+                "scan.py": "from sensor_msgs.msg import LaserScan\n"
+                "from std_msgs.msg import Header\n\n"
+                "scan = LaserScan()\nscan.header = Header\n"
+            },
+            "5:15: 'header' of sensor_msgs.msg.LaserScan is a std_msgs.msg.Header, not the class "
+            "'Header': it cannot be published; write Header()",
+        ),
+        Example(
             "Enum and IntEnum members in an integer field",
             {
                 "state.py": "from enum import Enum, IntEnum\n\nfrom std_msgs.msg import UInt8\n\n\n"

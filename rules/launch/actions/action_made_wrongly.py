@@ -143,6 +143,15 @@ class ActionMadeWrongly(LaunchRule):
             "14:2: this is None, but LaunchDescription takes actions",
         ),
         Example(
+            "a tuple and a function in the list",
+            {
+                "launch/a.launch.py": _LAUNCH_ITEMS.format("(node, node),\n talk")
+                + "\n\ndef talk():\n    return []\n"
+            },
+            "12:31: this is a tuple, but LaunchDescription takes actions; unpack it with *",
+            "13:2: this is a function, but LaunchDescription takes actions; call it",
+        ),
+        Example(
             "an event in on_exit of a node",
             {
                 "launch/a.launch.py": "from launch.events import Shutdown\n"
@@ -289,7 +298,7 @@ def _is_script(launch: LaunchFile, call: LaunchCall) -> bool:
 
 def _replacement(kind: str) -> str:
     """Return what to write instead."""
-    if kind == "this is a list":
+    if kind in {"this is a list", "this is a tuple"}:
         return "; unpack it with *"
     if kind == "this is an event":
         return "; wrap it in EmitEvent(event=...)"

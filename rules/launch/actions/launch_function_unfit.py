@@ -124,6 +124,15 @@ class LaunchFunctionUnfit(LaunchRule):
             "14:57: launch calls on_exit with event and context: TypeError",
         ),
         Example(
+            "a handler of the output of a process, which gets no context",
+            {
+                "launch/a.launch.py": _LAUNCH_HANDLERS.format("event, context", "on_exit")
+                .replace("OnProcessExit", "OnProcessIO")
+                .replace("on_exit=", "on_stdout=")
+            },
+            "14:57: launch calls on_exit with the event: TypeError",
+        ),
+        Example(
             "a lambda that takes nothing",
             {"launch/a.launch.py": _LAUNCH_HANDLERS.format("event, context", "lambda: []")},
             "14:57: launch calls this with event and context: TypeError",

@@ -125,6 +125,15 @@ class ParameterDefaultUnusable(RclpyRule):
             "9:39: a parameter cannot hold a Path: TypeError; pass str(...)",
             "11:42: a parameter cannot hold a Path: TypeError; pass str(...)",
         ),
+        Example(
+            "parameters of unknown names without a default",
+            {
+                "talker.py": _NODE.format("1.0", "", "None")
+                .replace("__init__(self)", "__init__(self, name)")
+                .replace("'mode'", "name")
+            },
+            "10:45: parameter of this name needs a default or a Parameter.Type: ValueError",
+        ),
         Example("only a name and a default", {"talker.py": _PLAIN.format("'rate', 2.0")}),
         Example(
             "only a name",
