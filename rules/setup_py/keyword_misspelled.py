@@ -1,4 +1,4 @@
-"""SP050: keywords of setup() and groups of entry points exist."""
+"""SP050: keywords of setup(), sections of setup.cfg and groups of entry points exist."""
 
 from __future__ import annotations
 
@@ -29,6 +29,13 @@ _DESCRIBING = frozenset(
     """.split()  # noqa: SIM905  as above
 )
 """Keywords that describe a package, which ROS takes from package.xml."""
+_SECTIONS = frozenset(
+    f"options.{name}"
+    for name in (
+        "packages.find", "package_data", "exclude_package_data", "data_files", "entry_points",
+        "extras_require",
+    )
+)  # fmt: skip
 _GROUP = "console_scripts"
 _WRONG_GROUPS = frozenset(
     {"console_script", "scripts", "console", "consolescripts", "console-scripts", "executables"}
@@ -40,10 +47,11 @@ _SETUP = (
 
 
 class KeywordMisspelled(Rule):
-    """``setup`` gets an unknown keyword, or ``entry_points`` an unknown group.
+    """``setup`` or setup.cfg has an unknown keyword, section or group of entry points.
 
     **Why.** setuptools only warns ``Unknown distribution option``, or ignores the name silently: no
-    executable or file is installed.
+    executable or file is installed. At a section it stops: ``Unsupported distribution option
+    section``.
 
     **Fix.** Correct the spelling: ``entry_points``, ``data_files``, ``console_scripts``.
 
@@ -81,6 +89,18 @@ class KeywordMisspelled(Rule):
             "2:1: setuptools ignores the unknown group 'console_script'; did you mean "
             "'console_scripts'?",
         ),
+        Example(
+            "sections and options of setup.cfg",
+            {"setup.cfg": "[options]\npackages = find:\n[options.packages.find]\nexclude = test\n"},
+        ),
+        Example(
+            "a misspelled section and option of setup.cfg",
+            {"setup.cfg": "[options]\npackage = find:\n[options.data-files]\nshare/a = a.yaml\n"},
+            "setup.cfg:2:1: setuptools ignores the unknown option 'package'; did you mean "
+            "'packages'?",
+            "setup.cfg:3:2: setuptools rejects the unknown section [options.data-files]: the "
+            "build stops; did you mean [options.data_files]?",
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
@@ -88,10 +108,21 @@ class KeywordMisspelled(Rule):
         yield from self._check_setup(package)
 
     def _check_configured(self, package: Package) -> Iterator[Diagnostic]:
-        section = package.setup_cfg.sections.get(GROUPS) if package.has("setup.cfg") else None
-        for key, option in section.options.items() if section else ():
-            if key in _WRONG_GROUPS:
-                yield self._report_group(option.key_location, key)
+        cfg = package.setup_cfg if package.has("setup.cfg") else None
+        for name, section in cfg.sections.items() if cfg else ():
+            if name.startswith("options.") and name not in _SECTIONS:
+                closest = get_close_matches(name, _SECTIONS, 1, 0.8)
+                hint = f"; did you mean [{closest[0]}]?" if closest else ""
+                message = f"setuptools rejects the unknown section [{name}]: the build stops{hint}"
+                yield self.report(section.name_location, message)
+            for key, option in section.options.items():
+                if name == GROUPS and key in _WRONG_GROUPS:
+                    yield self._report_group(option.key_location, key)
+                known = _KNOWN if name == "options" else ()
+                closest = get_close_matches(key, known, 1, 0.8) if key not in known else []
+                if closest and key.replace("-", "_") not in known:
+                    message = f"setuptools ignores the unknown option {key!r}; did you mean "
+                    yield self.report(option.key_location, f"{message}{closest[0]!r}?")
 
     def _check_setup(self, package: Package) -> Iterator[Diagnostic]:
         setup = package.setup_py

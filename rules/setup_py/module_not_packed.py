@@ -182,6 +182,47 @@ class ModuleNotPacked(Rule):
             },
             "setup.py:5:16: talker/ is a package: list it in packages, not in py_modules",
         ),
+        Example(
+            "a package of a node that patterns leave out",
+            {
+                "setup.py": _SETUP_PLACES.format(
+                    "    packages=find_packages(include=['talker']),\n"
+                    "    entry_points={'console_scripts': ['a = talker.nodes.a:main']},\n"
+                ).replace("import setup", "import find_packages, setup"),
+                "talker/__init__.py": "",
+                "talker/nodes/__init__.py": "",
+                "talker/nodes/a.py": "def main():\n    pass\n",
+            },
+            "setup.py:5:14: find_packages does not include 'talker.nodes', which the entry points "
+            "start",
+        ),
+        Example(
+            "packages in setup.cfg",
+            {
+                "setup.py": "from setuptools import setup\n\nsetup()\n",
+                "setup.cfg": "[options]\npackages = find:\n",
+                "talker/__init__.py": "",
+            },
+        ),
+        Example(
+            "packages that setup.cfg does not find",
+            {
+                "setup.py": "from setuptools import setup\n\nsetup()\n",
+                "setup.cfg": "[options]\npackages = find:\n[options.packages.find]\nwhere = src\n",
+                "talker/__init__.py": "",
+            },
+            "setup.cfg:2:12: find_packages searches src/, which does not exist: nothing is "
+            "installed",
+        ),
+        Example(
+            "a colon that is missing in setup.cfg",
+            {
+                "setup.py": "from setuptools import setup\n\nsetup()\n",
+                "setup.cfg": "[options]\npackages = find\n",
+                "talker/__init__.py": "",
+            },
+            "setup.cfg:2:12: packages lists 'find', which does not exist: the build stops",
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
@@ -199,7 +240,7 @@ class ModuleNotPacked(Rule):
         packages = setup.packages
         roots = {script.module.partition(".")[0] for script in setup.console_scripts} - {""}
         if isinstance(packages, FindPackages):
-            yield from self._check_found(package, setup, packages, roots)
+            yield from self._check_found(package, setup, packages)
             return
         names = list(packages) if isinstance(packages, list | tuple) else None
         if (keyword is not None and names is None) or setup.keyword("py_modules"):
@@ -225,7 +266,7 @@ class ModuleNotPacked(Rule):
             yield self.report(at, message, cause=f"directory {root if is_top else place}")
 
     def _check_found(
-        self, package: Package, setup: SetupPy, packages: FindPackages, roots: set[str]
+        self, package: Package, setup: SetupPy, packages: FindPackages
     ) -> Iterator[Diagnostic]:
         keyword = setup.keyword("packages")
         if keyword is None or packages.namespace or isinstance(packages.where, Unknown):
@@ -237,14 +278,18 @@ class ModuleNotPacked(Rule):
             message = f"find_packages searches {where}/, which does not exist: nothing is installed"
             yield self.report(keyword, message)
             return
-        for root in sorted(roots) if not where else ():
-            is_left_out = packages.leaves_out(root)
+        for name in _started(setup) if not where else ():
+            is_left_out = packages.leaves_out(name)
             if isinstance(is_left_out, Unknown):
                 return
-            if is_left_out:
-                message = f"find_packages does not include {root!r}, which the entry points start"
+            root = name.replace(".", "/")
+            if is_left_out and package.has_directory(root):
+                message = f"find_packages does not include {name!r}, which the entry points start"
                 yield self.report(keyword, message)
-            elif package.glob(f"{root}/*.py") and not package.has(f"{root}/__init__.py"):
+                return
+            if "/" in root:
+                continue  # LY004 reports a subpackage without __init__.py
+            if package.glob(f"{root}/*.py") and not package.has(f"{root}/__init__.py"):
                 init = f"{root}/__init__.py"
                 message = f"missing: without it, find_packages does not install {root}/"
                 yield self.report(package.start_of(init), message)
@@ -295,12 +340,17 @@ class ModuleNotPacked(Rule):
                 yield self.report(modules, message)
 
 
+def _started(setup: SetupPy) -> list[str]:
+    """Return the packages, with those around them, of the modules that entry points start."""
+    parts = [script.module.split(".")[:-1] for script in setup.console_scripts]
+    return sorted({".".join(names[:end]) for names in parts for end in range(1, len(names) + 1)})
+
+
 def _is_configured(package: Package, setup: SetupPy) -> bool:
     """Return whether packages are configured in another way."""
     if setup.keyword("package_dir") is not None:
         return True
-    text = package.source("setup.cfg").text if package.has("setup.cfg") else ""
-    return "packages" in text or package.has("pyproject.toml")
+    return package.has("pyproject.toml")
 
 
 def _missing(package: Package, places: object) -> Iterator[str]:

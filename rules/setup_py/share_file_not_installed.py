@@ -194,6 +194,24 @@ class ShareFileNotInstalled(Rule):
             "setup.py:7:16: data_files does not install launch/talk_all.py: `ros2 launch` does "
             "not find it; add an entry",
         ),
+        Example(
+            "installed by setup.cfg",
+            {
+                "setup.py": "from setuptools import setup\n\nsetup()\n",
+                "setup.cfg": "[options.data_files]\nshare/talker/launch =\n    launch/*.py\n",
+                "launch/talk.launch.py": "",
+            },
+        ),
+        Example(
+            "not installed by setup.cfg",
+            {
+                "setup.py": "from setuptools import setup\n\nsetup()\n",
+                "setup.cfg": "[options.data_files]\nshare/talker/launch = launch/a*.py\n",
+                "launch/talk.launch.py": "",
+            },
+            "setup.cfg:1:2: data_files does not install launch/talk.launch.py: `ros2 launch` does "
+            "not find it; add an entry",
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:

@@ -23,13 +23,14 @@ from scaffold.model.setup_py import edit as setup_edit
 from scaffold.model.setup_py.data_files import DataFile
 from scaffold.model.setup_py.entry_points import EntryPoint
 from scaffold.model.setup_py.globs import matches
+from scaffold.model.setup_py.keywords import FindPackages
 from scaffold.model.setup_py.metadata import (
     is_requirement,
     is_specifier,
     is_version,
     requirements,
 )
-from scaffold.model.setup_py.setup_py import FindPackages, SetupPy
+from scaffold.model.setup_py.setup_py import SetupPy
 
 __all__ = [
     "EXTRAS",

@@ -138,15 +138,19 @@ class Package(PackageFiles):
 
     @property
     def setup_py(self) -> SetupPy:
-        """setup.py."""
+        """setup.py, with the keywords that setup.cfg adds."""
 
         def parse() -> SetupPy:
             from scaffold.model.setup_py.setup_py import SetupPy
 
-            return SetupPy(self.module(SETUP_PY), self)
+            cfg = None
+            if self.has(SETUP_CFG):
+                with suppress(ViewError):
+                    cfg = self.setup_cfg
+            return SetupPy(self.module(SETUP_PY), self, cfg)
 
         self._note(SETUP_PY)
-        return self._view("setup_py", parse)
+        return self.remember("setup_py", parse)
 
     @property
     def setup_cfg(self) -> IniFile:

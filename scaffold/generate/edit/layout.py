@@ -12,7 +12,8 @@ from scaffold.generate.update.provenance import NAME as PROVENANCE
 from scaffold.model.contents.ament_cmake import programs
 from scaffold.model.contents.interface_files import is_interface_package
 from scaffold.model.package import Package
-from scaffold.model.setup_py.setup_py import FindPackages, SetupPy
+from scaffold.model.setup_py.keywords import FindPackages
+from scaffold.model.setup_py.setup_py import SetupPy
 
 SCRIPTS = "scripts"
 """The directory for programs of a package that has no Python yet."""

@@ -14,7 +14,8 @@ from scaffold.model.setup_py import edit as setup_edit
 from scaffold.model.setup_py import edit as setup_keywords
 from scaffold.model.setup_py.data_files import DataFile
 from scaffold.model.setup_py.globs import matches
-from scaffold.model.setup_py.setup_py import FindPackages, SetupPy
+from scaffold.model.setup_py.keywords import FindPackages
+from scaffold.model.setup_py.setup_py import SetupPy
 from scaffold.source import Source
 
 PYTEST = "python3-pytest"

@@ -58,9 +58,12 @@ def call_without_destination(package: Package) -> Command | None:
 
 
 def installs_configured(package: Package) -> bool:
-    """Return whether the build installs the scripts of setup.cfg for ``ros2 run``."""
+    """Return whether CMake installs the scripts of setup.cfg for ``ros2 run``.
+
+    Those that setup.py installs are among its own entry points.
+    """
     if package.build_type == "ament_python":
-        return package.has("setup.py")
+        return False
     try:
         return any(_installs(package, call) for call in package.cmake.find(_CALL))
     except ViewError:

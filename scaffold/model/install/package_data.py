@@ -42,7 +42,6 @@ def package_data(package: Package) -> list[Glob] | None:
         or setup.keyword("package_dir") is not None
         or (included is not None and included.value is not False and _has_manifest(package))
         or any("site-packages" in str(data.destination) for data in setup.data_files)
-        or _mentions(package, "setup.cfg", "package_data")
         or _mentions(package, "pyproject.toml", "package-data")
     )
     word = setup.keyword("package_data")

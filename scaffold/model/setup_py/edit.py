@@ -13,7 +13,7 @@ from scaffold.model.setup_py.setup_py import SetupPy
 from scaffold.record import NamedTuple
 
 if TYPE_CHECKING:
-    from scaffold.model.setup_py.setup_py import Keyword
+    from scaffold.model.setup_py.keywords import Keyword
 
 
 MAX_LINE = 99

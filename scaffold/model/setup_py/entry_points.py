@@ -6,6 +6,7 @@ import ast
 import re
 from collections.abc import Iterator
 
+from scaffold.formats.ini import IniOption
 from scaffold.model.python.evaluation.evaluator import Evaluator
 from scaffold.model.python.evaluation.literals import string_pieces
 from scaffold.model.python.module import PythonModule
@@ -57,6 +58,11 @@ class EntryPointReader:
                 yield None
         if not elements.complete:
             yield None
+
+    def of_option(self, group: IniOption, call: ast.expr) -> Iterator[EntryPoint]:
+        """Yield the entry points of a group in setup.cfg."""
+        for line in group.lines:
+            yield self._entry_point(group.key, line.text, line.location, call)
 
     def of_text(self, node: ast.expr, value: str) -> Iterator[EntryPoint]:
         """Yield the entry points in a string that has the format of setup.cfg."""

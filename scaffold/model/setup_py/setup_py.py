@@ -4,20 +4,22 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Mapping, Sequence
-from fnmatch import fnmatchcase
 from functools import cached_property
 from typing import TYPE_CHECKING
 
+from scaffold.formats.ini import IniOption
 from scaffold.model.python.evaluation.evaluator import Elements
 from scaffold.model.python.evaluation.values import UNKNOWN, Glob, Unknown
 from scaffold.model.python.module import PythonModule
+from scaffold.model.setup_py.configured import configured
 from scaffold.model.setup_py.data_files import DataFile, data_file, lacks_comma
 from scaffold.model.setup_py.entry_points import EntryPoint, EntryPointReader
 from scaffold.model.setup_py.evaluator import SetupEvaluator
-from scaffold.record import NamedTuple
+from scaffold.model.setup_py.keywords import FindPackages, Keyword
 from scaffold.source import Location
 
 if TYPE_CHECKING:
+    from scaffold.formats.ini import IniFile
     from scaffold.model.package_files import PackageFiles
 
 _SETUP_FUNCTIONS = frozenset({"setuptools.setup", "distutils.core.setup", "setuptools.core.setup"})
@@ -27,42 +29,18 @@ _FIND_PACKAGES = frozenset(
 )
 
 
-class Keyword(NamedTuple):
-    """A keyword argument of setup()."""
-
-    name: str
-    value: object
-    """The value; ``UNKNOWN`` if it cannot be evaluated."""
-    node: ast.expr
-    """The expression of the value."""
-    location: Location
-    """The place of the value."""
-
-
-class FindPackages(NamedTuple):
-    """``find_packages(...)``: the packages are found at build time."""
-
-    where: str | Unknown
-    exclude: tuple[str, ...] | Unknown
-    include: tuple[str, ...] | Unknown
-    namespace: bool
-    """Whether directories without ``__init__.py`` are included."""
-    location: Location
-
-    def leaves_out(self, name: str) -> bool | Unknown:
-        """Return whether the patterns exclude a package of this name."""
-        if isinstance(self.include, Unknown) or isinstance(self.exclude, Unknown):
-            return UNKNOWN
-        is_taken = any(fnmatchcase(name, pattern) for pattern in self.include)
-        return not is_taken or any(fnmatchcase(name, pattern) for pattern in self.exclude)
-
-
 class SetupPy:
     """A setup.py, analyzed without running it; the call of setup() may be missing."""
 
-    def __init__(self, module: PythonModule, files: PackageFiles | None = None) -> None:
+    def __init__(
+        self,
+        module: PythonModule,
+        files: PackageFiles | None = None,
+        cfg: IniFile | None = None,
+    ) -> None:
         self.module = module
         self.evaluator = SetupEvaluator(module, files)
+        self._cfg = cfg
 
     # -- the call
 
@@ -83,8 +61,10 @@ class SetupPy:
 
     @cached_property
     def keywords(self) -> Mapping[str, Keyword]:
-        """The keyword arguments by name, including those of a known ``**dict``."""
+        """The keyword arguments by name, also those of a known ``**dict`` and of setup.cfg."""
         result: dict[str, Keyword] = {}
+        if self.call is not None and self._cfg is not None:
+            result |= {word.name: word for word in configured(self._cfg, self.call)}
         for word in self.call.keywords if self.call else ():
             if word.arg is None:
                 result.update(self._unpacked(word.value))
@@ -167,8 +147,10 @@ class SetupPy:
         word = self.keyword("packages")
         if word is None:
             return UNKNOWN if self.has_unknown_keywords else None
+        if isinstance(word.value, FindPackages):
+            return word.value
         node = self._literal(word.node)
-        if isinstance(node, ast.Call):
+        if isinstance(node, ast.Call) and node is not self.call:
             return self._find_packages(node)
         if isinstance(word.value, list | tuple):
             # setuptools also accepts directories: "talker/nodes", "talker/nodes/".
@@ -215,7 +197,7 @@ class SetupPy:
     @cached_property
     def data_files(self) -> Sequence[DataFile]:
         """The known entries of data_files; see ``data_files_complete``."""
-        return [
+        return self._configured_files or [
             data_file(self.module, self.evaluator, element)
             for element in self._data_elements.items
             if element.value is not UNKNOWN
@@ -235,10 +217,17 @@ class SetupPy:
         )
 
     @cached_property
+    def _configured_files(self) -> Sequence[DataFile]:
+        """The entries of data_files in setup.cfg."""
+        word = self.keyword("data_files")
+        values = word.value if word is not None and word.node is self.call else ()
+        return [x for x in values if isinstance(x, DataFile)] if isinstance(values, list) else []
+
+    @cached_property
     def _data_elements(self) -> Elements:
         """The items of data_files, except patterns in place of a pair that match nothing."""
         word = self.keyword("data_files")
-        if word is None:
+        if word is None or self._configured_files:
             return Elements((), complete=True)
         items, is_complete = self.evaluator.elements(word.node)
         kept = (
@@ -274,6 +263,10 @@ class SetupPy:
         reader = EntryPointReader(self.module, self.evaluator)
         if isinstance(word.value, str):
             return list(reader.of_text(word.node, word.value))
+        if word.node is self.call:
+            groups = word.value.values() if isinstance(word.value, dict) else ()
+            options = [group for group in groups if isinstance(group, IniOption)]
+            return [point for group in options for point in reader.of_option(group, word.node)]
         literal = self._dict_of(word.node)
         if literal is None:
             return (None,)

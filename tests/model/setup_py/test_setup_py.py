@@ -16,7 +16,8 @@ from scaffold.model.setup_py.edit import (
     add_import,
     package_expression,
 )
-from scaffold.model.setup_py.setup_py import FindPackages, SetupPy
+from scaffold.model.setup_py.keywords import FindPackages
+from scaffold.model.setup_py.setup_py import SetupPy
 from scaffold.source import Location, NewerSyntaxError, ParseError, Source
 
 SETUP = """\
