@@ -42,21 +42,39 @@ class AsyncioInCallback(RclpyRule):
             "12:9: asyncio.sleep() needs an asyncio event loop, which rclpy does not run: "
             "RuntimeError",
         ),
+        Example(
+            "in a coroutine that the callback awaits",
+            {
+                "talker.py": _NODE.format("self.rest()")
+                + "\n    async def rest(self):\n        await asyncio.sleep(0.1)\n"
+            },
+            "15:9: asyncio.sleep() needs an asyncio event loop, which rclpy does not run: "
+            "RuntimeError",
+        ),
     )
 
     def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
-        functions = {id(callback.function) for _, callback in file.callbacks}
         if "asyncio.run" in file.module.source.text or "run_until" in file.module.source.text:
             return
-        for node in file.module.walk(ast.Await):
-            function = file.module.enclosing_function(node)
-            if id(function) not in functions or not isinstance(node.value, ast.Call):
-                continue
-            name = file.module.qualified_name(node.value.func)
+        for call in _awaited(file):
+            name = file.module.qualified_name(call.func)
             # sleep(0) only yields, which works in any event loop.
-            waits = ast.unparse(node.value) != "asyncio.sleep(0)"
+            waits = ast.unparse(call) != "asyncio.sleep(0)"
             if name in AWAITED and waits:
                 message = (
                     f"{name}() needs an asyncio event loop, which rclpy does not run: RuntimeError"
                 )
-                yield self.report(file.module.location(node), message)
+                yield self.report(file.module.location(file.module.parent(call) or call), message)
+
+
+def _awaited(file: RclpyFile) -> Iterator[ast.Call]:
+    """Yield the calls that callbacks await, also in the coroutines that these await."""
+    awaited: dict[ast.AST | None, list[ast.Call]] = {}
+    for node in file.module.walk(ast.Await):
+        if isinstance(node.value, ast.Call):
+            awaited.setdefault(file.function_of(node), []).append(node.value)
+    pending = [callback.function for _, callback in file.callbacks]
+    while pending:
+        for call in awaited.pop(pending.pop(), ()):
+            yield call
+            pending.append(file.callback(call.func).function)

@@ -78,6 +78,12 @@ class TransitionResult(RclpyRule):
             "at the transition",
         ),
         Example(
+            "the result of a comparison",
+            {"talker.py": _NODE.format("on_activate(self, state)", f"{_RIGHT} is not None")},
+            "11:9: returns a bool, not a TransitionCallbackReturn: AttributeError at the "
+            "transition",
+        ),
+        Example(
             "a bool, no state",
             {"talker.py": _NODE.format("on_configure(self)", "return True")},
             "10:9: on_configure() takes 0 arguments, but gets the state: the transition fails",
@@ -192,14 +198,15 @@ class TransitionResult(RclpyRule):
             path = " on one path" if returned(function) else ""
             yield self.report(at, f"{function.name}() returns nothing{path}, {happens}")
         for statement in returned(function):
-            if statement.value is None or isinstance(statement.value, ast.Constant):
-                value = "nothing" if statement.value is None else ast.unparse(statement.value)
-                yield self.report(module.location(statement), f"returns {value}, {happens}")
-            elif isinstance(statement.value, ast.Call):
+            source, value = "", "nothing"
+            if isinstance(statement.value, ast.Call):
                 name, value = _result_of(file, statement.value)
-                if value:
-                    message = f"returns {value} from {name}(), {happens}"
-                    yield self.report(module.location(statement), message)
+                source = f" from {name}()"
+            elif statement.value is not None:
+                value = _plain(statement.value)
+            if value:
+                message = f"returns {value}{source}, {happens}"
+                yield self.report(module.location(statement), message)
 
     def _check_name(
         self, file: RclpyFile, function: FunctionNode, methods: Mapping[str, FunctionNode]
@@ -256,6 +263,17 @@ def _result_of(file: RclpyFile, call: ast.Call) -> tuple[str, str]:
     values = [statement.value for statement in returned(function)]
     if may_end(function) or is_generator(function) or not values:
         return "", ""
-    texts = [ast.unparse(value) for value in values if isinstance(value, ast.Constant)]
-    is_known = len(texts) == len(values)
-    return function.name, " or ".join(dict.fromkeys(texts)) if is_known else ""
+    texts = [_plain(value) for value in values if value is not None]
+    return function.name, " or ".join(dict.fromkeys(texts)) if len(texts) == len(values) and all(
+        texts
+    ) else ""
+
+
+def _plain(value: ast.expr) -> str:
+    """Describe a constant, or the bool of a comparison; empty for other values."""
+    if isinstance(value, ast.Constant):
+        return ast.unparse(value)
+    is_bool = isinstance(value, ast.Compare) or (
+        isinstance(value, ast.UnaryOp) and isinstance(value.op, ast.Not)
+    )
+    return "a bool" if is_bool else ""

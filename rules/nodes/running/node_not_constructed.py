@@ -282,7 +282,7 @@ def _ending(package: Package, file: RclpyFile, node: NodeClass) -> tuple[ast.Cal
         else []
     )
     for base in node.node.bases[: node.base_index] if calls == [call] else ():
-        module, _, name = (file.module.qualified_name(base) or "").rpartition(".")
+        module, _, name = (file.module.qualified_name(base) or ast.unparse(base)).rpartition(".")
         is_own = bool(module) and file.is_own_module(module)
         path = file_of(package, module) if is_own else "" if module else file.module.path
         ends = _ends_chain(package, path, name) if path else None

@@ -109,6 +109,17 @@ class SpunWrongly(RclpyRule):
             "both to an executor",
         ),
         Example(
+            "two nodes, in a loop",
+            {
+                "talker.py": _NODE.format("    for item in (node, Talker()):\n")
+                + "        rclpy.spin(item)\n",
+                "again.py": _NODE.format("    for item in (node, Talker()):\n")
+                + "        rclpy.spin(item)\n        rclpy.init()\n",
+            },
+            "talker.py:15:9: the first spin of this loop returns only at shutdown: the other "
+            "nodes are never spun; add all to an executor",
+        ),
+        Example(
             "a node that a thread spins",
             {
                 "talker.py": "import threading\n"
@@ -281,13 +292,7 @@ def _problem(file: RclpyFile, call: RclpyCall, shutdowns: Shutdowns) -> str:
     other = shutdowns.before(call.call)
     if other is not None:
         return f"rclpy is already shut down in line {other.location.line}: nothing is spun"
-    line = _spun_before(file, call)
-    if line:
-        return (
-            f"the spin in line {line} returns only at shutdown: this node is never spun; add both "
-            f"to an executor"
-        )
-    return ""
+    return _spun_too_late(file, call, node)
 
 
 def _spinning_threads(file: RclpyFile) -> Iterator[tuple[ast.Call, str]]:
@@ -324,8 +329,13 @@ def _share_scope(file: RclpyFile, thread: ast.Call, call: ast.Call) -> bool:
     )
 
 
-def _spun_before(file: RclpyFile, call: RclpyCall) -> int:
-    """Return the line of an earlier call in the same block that spins until shutdown."""
+def _spun_too_late(file: RclpyFile, call: RclpyCall, node: ast.expr) -> str:
+    """Return the message for a call that comes after another one that spins until shutdown."""
+    if _is_in_loop(file, call, node):
+        return (
+            "the first spin of this loop returns only at shutdown: the other nodes are never spun; "
+            "add all to an executor"
+        )
     statement = file.module.parent(call.call)
     block = file.module.parent(statement) if isinstance(statement, ast.Expr) else None
     for other in file.spin_calls if call.name == "spin" else ():
@@ -333,8 +343,22 @@ def _spun_before(file: RclpyFile, call: RclpyCall) -> int:
         if other.name != "spin" or not isinstance(before, ast.Expr) or before is statement:
             continue
         if file.module.parent(before) is block and before.lineno < call.call.lineno:
-            return before.lineno if not _is_again(file, before, call.call) else 0
-    return 0
+            return (
+                f"the spin in line {before.lineno} returns only at shutdown: this node is never "
+                f"spun; add both to an executor"
+                if not _is_again(file, before, call.call)
+                else ""
+            )
+    return ""
+
+
+def _is_in_loop(file: RclpyFile, call: RclpyCall, node: ast.expr) -> bool:
+    """Return whether a call spins one node after the other, each until shutdown."""
+    loop = file.module.parent(file.module.parent(call.call) or call.call)
+    if call.name != "spin" or not isinstance(loop, ast.For):
+        return False
+    is_each = isinstance(node, ast.Name) and ast.unparse(loop.target) == node.id
+    return is_each and not any(loop in file.module.parents(x.call) for x in file.init_calls)
 
 
 def _is_again(file: RclpyFile, before: ast.stmt, call: ast.Call) -> bool:
