@@ -6,7 +6,10 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, RclpyRule, Report, Severity
+from scaffold.api.programs import phases_of
 from scaffold.api.rclpy import RclpyCall, RclpyFile
+
+from ._interrupts import leaves, run_after_interrupt, run_after_return
 
 _MAIN = (
     "import rclpy\n\n\n"
@@ -15,13 +18,30 @@ _MAIN = (
     "    except KeyboardInterrupt:\n        pass\n    finally:\n        rclpy.{}()\n"
 )
 _AFTER = _MAIN.replace("pass\n    finally:\n        rclpy", "{}\n    rclpy")
+_AROUND = (
+    "import rclpy\n\n\n"
+    "def main():\n    rclpy.init()\n    try:\n        try:\n"
+    "            rclpy.spin(rclpy.create_node('talker'))\n"
+    "        except KeyboardInterrupt:\n            pass\n"
+    "    finally:\n        rclpy.shutdown()\n"
+)
+_CALLBACK = (
+    "import rclpy\nfrom rclpy.node import Node\n\n\n"
+    "class Talker(Node):\n"
+    "    def __init__(self):\n        super().__init__('talker')\n"
+    "        self.create_timer(1.0, self.finish)\n\n"
+    "    def finish(self):\n        {}\n\n\n"
+    "def main():\n    rclpy.init()\n    node = Talker()\n    rclpy.spin(node)\n"
+    "    rclpy.shutdown()\n"
+)
 
 
 class ShutdownRepeated(RclpyRule):
-    """``rclpy.shutdown()`` runs after a signal has already shut rclpy down.
+    """``rclpy.shutdown()`` runs after a signal or a callback has already shut rclpy down.
 
     **Why.** The handler of SIGINT and SIGTERM calls it first: ``RCLError: rcl_shutdown already
-    called on the given context``, and the node exits with an error.
+    called on the given context``, and the node exits with an error. After a callback that ends the
+    program it is a ``RuntimeError: Context must be initialized before it can be shutdown``.
 
     **Fix.** Write ``rclpy.try_shutdown()``.
 
@@ -53,6 +73,30 @@ class ShutdownRepeated(RclpyRule):
             ),
             fixed={"talker.py": _AFTER.format("pass", "try_shutdown")},
         ),
+        Example(
+            "around the try",
+            {"talker.py": _AROUND},
+            Report(
+                "12:9",
+                "rclpy is already shut down after Ctrl-C: RCLError; use try_shutdown()",
+                fix="Replace with try_shutdown()",
+            ),
+            fixed={"talker.py": _AROUND.replace(".shutdown", ".try_shutdown")},
+        ),
+        Example(
+            "in a callback, before the end of the program",
+            {
+                "talker.py": _CALLBACK.format("rclpy.shutdown()"),
+                "other.py": _CALLBACK.format("raise SystemExit"),
+            },
+            Report(
+                "talker.py:18:5",
+                "rclpy is already shut down by the callback in line 11: RuntimeError; use "
+                "try_shutdown()",
+                fix="Replace with try_shutdown()",
+            ),
+            fixed={"talker.py": _CALLBACK.format("rclpy.shutdown()")[:-11] + "try_shutdown()\n"},
+        ),
         Example("after a handler that returns", {"talker.py": _AFTER.format("return", "shutdown")}),
         Example(
             "in the handler",
@@ -73,11 +117,8 @@ class ShutdownRepeated(RclpyRule):
         for call in file.shutdown_calls:
             if call.name != "shutdown" or call.asks_ok or call.call.args or call.call.keywords:
                 continue
-            if self._is_caught(call.handlers):
-                continue
-            spins = [spin for spin in file.spin_calls if spin.function is call.function]
-            spins = [spin for spin in spins if spin.catches_keyboard_interrupt]
-            if not any(call.in_finally or _follows(file, call, spin) for spin in spins):
+            earlier = _shut_down_by(file, call)
+            if not earlier or not call.handlers.isdisjoint({"Exception", "BaseException"}):
                 continue
             _, end = file.module.span(call.call.func)
             start = end - len("shutdown")
@@ -85,46 +126,22 @@ class ShutdownRepeated(RclpyRule):
             fix = None
             if file.module.source.text[start:end] == "shutdown":
                 fix = Fix("Replace with try_shutdown()", (edit,))
-            message = "rclpy is already shut down after Ctrl-C: RCLError; use try_shutdown()"
+            message = f"rclpy is already shut down {earlier}; use try_shutdown()"
             yield self.report(call, message, fix, cause="unclean shutdown")
 
-    def _is_caught(self, handlers: frozenset[str]) -> bool:
-        return not handlers.isdisjoint({"Exception", "BaseException"})
 
-
-def _follows(file: RclpyFile, call: RclpyCall, spin: RclpyCall) -> bool:
-    """Return whether a shutdown runs once the exception of Ctrl-C has been caught."""
+def _shut_down_by(file: RclpyFile, call: RclpyCall) -> str:
+    """Describe what has shut down rclpy before a call does, and the error; empty if unknown."""
     statement = file.module.parent(call.call)
-    if statement is None:
-        return False
-    for parent in file.module.parents(spin.call):
-        if not isinstance(parent, ast.Try):
+    around = {statement, *(file.module.parents(call.call) if call.in_finally else ())}
+    spins = [spin for spin in file.spin_calls if spin.function is call.function]
+    caught = [spin for spin in spins if spin.catches_keyboard_interrupt]
+    if any(after in around for spin in caught for after in run_after_interrupt(file, spin)):
+        return "after Ctrl-C: RCLError"
+    for other in file.shutdown_calls:
+        is_last = not any(map(leaves, ast.walk(other.function))) if other.function else False
+        if other is call or not is_last or other.function not in phases_of(file).running:
             continue
-        handlers = [handler for handler in parent.handlers if _catches_interrupt(file, handler)]
-        if not handlers:
-            continue
-        if statement in handlers[0].body:
-            return True
-        block, number = file.module.index.place(parent)
-        other, later = file.module.index.place(statement)
-        is_same = file.module.parent(parent) is file.module.parent(statement) and block == other
-        return is_same and later > number and not any(map(_leaves_function, ast.walk(handlers[0])))
-    return False
-
-
-def _catches_interrupt(file: RclpyFile, handler: ast.ExceptHandler) -> bool:
-    if handler.type is None:
-        return True
-    caught = file.evaluator.single_value(handler.type)
-    types = caught.elts if isinstance(caught, ast.Tuple) else [caught]
-    names = {name for type_ in types for name in file.module.qualified_names(type_)}
-    return not names.isdisjoint({"KeyboardInterrupt", "BaseException"})
-
-
-def _leaves_function(node: ast.AST) -> bool:
-    match node:
-        case ast.Return() | ast.Raise() | ast.Name(id="exit" | "quit"):
-            return True
-        case ast.Attribute(attr="exit" | "_exit" | "shutdown" | "try_shutdown"):
-            return True
-    return False
+        if any(after in around for spin in spins for after in run_after_return(file, spin)):
+            return f"by the callback in line {other.location.line}: RuntimeError"
+    return ""
