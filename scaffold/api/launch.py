@@ -12,6 +12,7 @@ from scaffold.model.launch.actions import (
     function_of,
 )
 from scaffold.model.launch.calls import LaunchCall
+from scaffold.model.launch.evaluation.conditions_in_markup import substitution_words
 from scaffold.model.launch.evaluation.configurations import (
     BY_LAUNCH,
     is_named_elsewhere,
@@ -31,6 +32,7 @@ from scaffold.model.launch.evaluation.share_paths import (
 from scaffold.model.launch.files import DATA_DIRECTORIES, data_files, is_named, launch_files
 from scaffold.model.launch.includes import Included, given_arguments, included
 from scaffold.model.launch.markup_file import (
+    MarkupElement,
     MarkupFile,
     MarkupNode,
     is_known,
@@ -92,6 +94,7 @@ __all__ = [
     "Included",
     "LaunchCall",
     "LaunchFile",
+    "MarkupElement",
     "MarkupFile",
     "MarkupNode",
     "NamedPath",
@@ -140,6 +143,7 @@ __all__ = [
     "start_of_value",
     "started_nodes",
     "static_transforms",
+    "substitution_words",
     "unread_arguments",
     "use_of",
     "values_in_files",

@@ -14,12 +14,17 @@ from scaffold.api import (
     Report,
     Rule,
     Severity,
-    ViewError,
     listed_names,
 )
-from scaffold.api.formats import Element, xml_reader
 from scaffold.api.install import share_of
-from scaffold.api.launch import BY_LAUNCH, markup_files, may_be_set_elsewhere
+from scaffold.api.launch import (
+    BY_LAUNCH,
+    MarkupElement,
+    MarkupFile,
+    markup_files,
+    may_be_set_elsewhere,
+    substitution_words,
+)
 
 from ._markup import ACTIONS, OF_PYTHON, PARTS, REQUIRED, SUBSTITUTIONS, attributes_of
 
@@ -38,6 +43,10 @@ _SUBSTITUTIONS: Mapping[str, str] = {
     "find": "$(find-pkg-share package)",
     "optenv": "$(env NAME default)",
 }
+_LISTS = frozenset({"children", "choice", "launch"})
+"""Keys of YAML besides those of actions and their parts."""
+_MOST_OF_EVAL = 2
+"""An expression, and the modules that it uses."""
 _CAUSE = "launch files of ROS 1"
 _RIGHT = (
     "<launch>\n  <arg name='robot' default='a'><choice value='a'/></arg>\n"
@@ -149,93 +158,135 @@ class MarkupRefused(Rule):
                 severity=Severity.WARNING,
             ),
         ),
+        Example(
+            "an expression without quotes",
+            {"launch/a.launch.xml": _RIGHT.replace("&quot;1 &lt; 2&quot;", "$(var robot) == a")},
+            "4:38: $(eval ...) takes one expression: put it in quotes",
+        ),
+        Example(
+            "a configuration that is set too late",
+            {
+                "launch/a.launch.xml": _RIGHT.replace(
+                    "</launch>", "<arg name='b'/></launch>"
+                ).replace("$(var robot)", "$(var b)")
+            },
+            "3:27: $(var b) is read before the file sets it: the launch stops",
+        ),
+        Example(
+            "YAML with all that it may have",
+            {
+                "launch/a.launch.yaml": "launch:\n- arg:\n    name: rate\n    default: '1'\n"
+                "- group:\n  - push_ros_namespace:\n      namespace: a\n  - node:\n"
+                "      pkg: talker\n      exec: talk\n      param:\n"
+                "      - name: rate\n        value: $(var rate)\n"
+            },
+        ),
+        Example(
+            "keys and a configuration that YAML does not know",
+            {
+                "launch/a.launch.yaml": "launch:\n- args:\n    name: rate\n- node:\n"
+                "    pkg: talker\n    exec: talk\n    params:\n"
+                "    - name: rate\n      value: $(var rate)\n"
+            },
+            "2:3: 'launch' has no key 'args': the launch stops; did you mean 'arg'?",
+            "7:5: 'node' has no key 'params': the launch stops; did you mean 'param'?",
+            "9:14: $(var rate) is never set; declared here: nothing",
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         if not package.build_type.startswith("ament"):
             return
-        yield from self._check_yaml(package)
-        for path in package.files:
-            if not path.endswith(".launch.xml") or {"test", "tests"} & set(path.split("/")):
-                continue
-            try:
-                document = xml_reader.parse(xml_reader.decode(path, package.data(path)))
-            except ViewError:
-                continue
-            share = share_of(package)
-            is_installed = not share.complete or path in share.files.values()
+        share = share_of(package)
+        for file in markup_files(package):
+            is_installed = not share.complete or file.path in share.files.values()
             severity = Severity.ERROR if is_installed else Severity.WARNING
-            for element in document.root.descendants():
-                for at, problem in _problems(element):
+            for element in file.elements:
+                for at, problem in _problems(element, is_xml=file.path.endswith(".xml")):
                     cause = _CAUSE if "ROS 1" in problem else ""
                     yield self.report(at, problem, severity=severity, cause=cause)
-            for at, problem in _unset(package, path, document.root):
+            for at, problem in _unset(package, file):
                 yield self.report(at, problem, severity=severity)
 
-    def _check_yaml(self, package: Package) -> Iterator[Diagnostic]:
-        """Check for keys that are arguments of launch files in Python."""
-        for file in markup_files(package):
-            if file.path.endswith(".xml"):
-                continue
-            for element in file.elements:
-                known = attributes_of(element.tag) if element.tag in ACTIONS else None
-                for name, key in element.attributes.items():
-                    if known is not None and name in OF_PYTHON and name not in known:
-                        message = f"{element.tag!r} has no key {name!r}, which belongs to Python"
-                        message = f"{message}; YAML has {_in_yaml(OF_PYTHON[name])}"
-                        yield self.report(key.name_location, message)
 
-
-def _in_yaml(markup: str) -> str:
-    """Return the key of YAML for an attribute or element of XML."""
-    return markup.removeprefix("<").split(" ")[0].rstrip("/>")
-
-
-def _unset(package: Package, path: str, root: Element) -> Iterator[tuple[Location, str]]:
-    """Yield the configurations that are read and that nothing sets, once each."""
-    elements = list(root.descendants())
-    setters = [element for element in elements if element.tag in {"arg", "let"}]
-    names = {
-        setter.attributes["name"].value for setter in setters if "name" in setter.attributes
-    } | BY_LAUNCH
+def _unset(package: Package, file: MarkupFile) -> Iterator[tuple[Location, str]]:
+    """Yield the configurations that are read before something sets them, once each."""
+    elements = sorted(file.elements, key=lambda item: (item.location.line, item.location.column))
+    setters = [item.attributes["name"].value for item in elements if _is_setter(item)]
+    names = {*setters} | BY_LAUNCH
     has_includes = any(element.tag == "include" for element in elements)
+    is_set = set(BY_LAUNCH)
     for element in elements:
         for attribute in element.attributes.values():
             for name in re.findall(r"\$\(var ([\w-]+)\)", attribute.value):
-                is_open = has_includes and not _closest(name, names)
-                if name in names or is_open or may_be_set_elsewhere(package, path, name):
+                if name in is_set or may_be_set_elsewhere(package, file.path, name):
                     continue
-                names.add(name)
-                declared = listed_names(names - BY_LAUNCH - {name}, name, "nothing")
-                yield attribute.location, f"$(var {name}) is never set; declared here: {declared}"
+                is_set.add(name)
+                if name in names:
+                    problem = f"$(var {name}) is read before the file sets it: the launch stops"
+                    yield attribute.location, problem
+                elif not has_includes or _closest(name, names):
+                    declared = listed_names(names - BY_LAUNCH, name, "nothing")
+                    problem = f"$(var {name}) is never set; declared here: {declared}"
+                    yield attribute.location, problem
+        if _is_setter(element):
+            is_set.add(element.attributes["name"].value)
+        elif element.tag == "include":
+            is_set |= names  # perhaps by the included file
 
 
-def _problems(element: Element) -> Iterator[tuple[Location, str]]:
-    of_ros1 = _TAGS.get(element.tag)
-    if of_ros1 is not None:
-        yield (
-            element.name_location,
-            f"<{element.tag}> is ROS 1 syntax: the launch stops; use {of_ros1}",
-        )
-        return
+def _is_setter(element: MarkupElement) -> bool:
+    return element.tag in {"arg", "let"} and "name" in element.attributes
+
+
+def _problems(element: MarkupElement, *, is_xml: bool) -> Iterator[tuple[Location, str]]:
     known = attributes_of(element.tag)
-    if known is None:
-        closest = _closest(element.tag, [*ACTIONS, *PARTS])
-        if closest:
-            yield (
-                element.name_location,
-                f"unknown element <{element.tag}>: the launch stops; did you mean <{closest}>?",
-            )
-    else:
+    if not is_xml:
+        yield from _of_keys(element, known)
+    elif element.tag in _TAGS:
+        use = _TAGS[element.tag]
+        yield element.location, f"<{element.tag}> is ROS 1 syntax: the launch stops; use {use}"
+        return
+    elif known is not None:
         yield from _of_attributes(element, known)
+    elif closest := _closest(element.tag, [*ACTIONS, *PARTS]):
+        problem = f"unknown element <{element.tag}>: the launch stops; did you mean <{closest}>?"
+        yield element.location, problem
     for attribute in element.attributes.values():
         for kind in re.findall(r"(?<!\\)\$\(([\w-]+)[ )]", attribute.value):
             problem = _of_substitution(kind)
             if problem:
                 yield attribute.location, problem
+        for name, *words in substitution_words(attribute.value):
+            if name == "eval" and len(words) > _MOST_OF_EVAL:
+                yield attribute.location, "$(eval ...) takes one expression: put it in quotes"
 
 
-def _of_attributes(element: Element, known: frozenset[str]) -> Iterator[tuple[Location, str]]:
+def _of_keys(
+    element: MarkupElement, known: frozenset[str] | None
+) -> Iterator[tuple[Location, str]]:
+    """Yield the keys of YAML that an action must not have, also among the actions of a list."""
+    children = {*ACTIONS, *PARTS, *_LISTS}
+    places = {name: key.name_location for name, key in element.attributes.items()}
+    for name, at in (places | element.nested).items():
+        if known is None and element.tag not in _LISTS:
+            continue
+        is_of_python = element.tag in ACTIONS and name in OF_PYTHON and name in element.attributes
+        if name in (known or ()) or (name in children and not is_of_python):
+            continue
+        closest = _closest(name, {*(known or ()), *children})
+        if is_of_python:
+            use = OF_PYTHON[name].removeprefix("<").split(" ")[0].rstrip("/>")
+            problem = f"{element.tag!r} has no key {name!r}, which belongs to Python"
+            yield at, f"{problem}; YAML has {use}"
+        elif closest:
+            yield (
+                at,
+                f"{element.tag!r} has no key {name!r}: the launch stops; did you mean {closest!r}?",
+            )
+
+
+def _of_attributes(element: MarkupElement, known: frozenset[str]) -> Iterator[tuple[Location, str]]:
     """Yield the attributes that an element must not have, else those that it lacks."""
     tag, given = element.tag, element.attributes
     unknown = [name for name in given if name.removesuffix("-sep") not in known]
@@ -248,7 +299,7 @@ def _of_attributes(element: Element, known: frozenset[str]) -> Iterator[tuple[Lo
         yield given[name].location, problem
     missing = [name for name in REQUIRED.get(tag, ()) if name not in given]
     if missing and not unknown:
-        yield element.name_location, f"<{tag}> needs the attribute {missing[0]!r}"
+        yield element.location, f"<{tag}> needs the attribute {missing[0]!r}"
 
 
 def _hint(name: str, known: frozenset[str]) -> str:

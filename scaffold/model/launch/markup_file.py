@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 _FIND = r"\$\(find-pkg-share ([\w-]+)\)((?:/[\w.+-]+)*)(.?)"
 
 
-class _Element(NamedTuple):
+class MarkupElement(NamedTuple):
     """An element of a launch file."""
 
     tag: str
@@ -32,6 +32,8 @@ class _Element(NamedTuple):
     remappings: list[tuple[Attribute, Attribute | None]]
     """The remapped names, with their targets."""
     has_parameter_files: bool
+    nested: dict[str, Location]
+    """The keys of YAML whose values are lists or mappings: what XML has as elements."""
 
 
 _ARGUMENTS = frozenset({"args", "ros_args"})
@@ -77,7 +79,7 @@ class MarkupFile(NamedTuple):
     """The command lines of ``<executable cmd="…"/>``."""
     containers: list[MarkupNode]
     """Each ``<node_container pkg="…" exec="…"/>``."""
-    elements: list[_Element]
+    elements: list[MarkupElement]
     """All elements of the file."""
 
     def default_of(self, argument: str) -> Attribute | None:
@@ -133,7 +135,7 @@ def _read(package: Package, path: str) -> MarkupFile | None:
     return MarkupFile(path, nodes, paths, attributes, commands, containers, elements)
 
 
-def _node(path: str, element: _Element) -> MarkupNode:
+def _node(path: str, element: MarkupElement) -> MarkupNode:
     given = element.attributes
     package, executable, name = (given.get(key) for key in ("pkg", "exec", "name"))
     pairs = [
@@ -158,7 +160,7 @@ def _node(path: str, element: _Element) -> MarkupNode:
     )
 
 
-def _elements(package: Package, path: str) -> list[_Element]:
+def _elements(package: Package, path: str) -> list[MarkupElement]:
     """Return all elements of a launch file."""
     if path.endswith(".xml"):
         root = _document(package, path).root
@@ -167,27 +169,28 @@ def _elements(package: Package, path: str) -> list[_Element]:
     return [_of_yaml(tag, node) for tag, node in yaml_tree.mappings(roots)]
 
 
-def _of_xml(element: Element) -> _Element:
+def _of_xml(element: Element) -> MarkupElement:
     parameters = [child.attributes for child in element.children if child.tag == "param"]
     remaps = [child.attributes for child in element.children if child.tag == "remap"]
-    return _Element(
+    return MarkupElement(
         element.tag,
         element.name_location,
         element.attributes,
         parameters,
         _renamed(remaps),
         any("name" not in given for given in parameters),
+        {},
     )
 
 
-def _of_yaml(tag: str, node: Mapping) -> _Element:
+def _of_yaml(tag: str, node: Mapping) -> MarkupElement:
     children: dict[str, list[Mapping]] = {"param": [], "remap": []}
     for key, value in node.pairs:
         if key.text in children and isinstance(value, Sequence):
             children[key.text] += [item for item in value.items if isinstance(item, Mapping)]
     parameters = [dict(_scalars(item)) for item in children["param"] if _is_plain(item)]
     remaps = [dict(_scalars(item)) for item in children["remap"]]
-    return _Element(
+    return MarkupElement(
         tag,
         node.location,
         dict(_scalars(node)),
@@ -195,6 +198,7 @@ def _of_yaml(tag: str, node: Mapping) -> _Element:
         _renamed(remaps),
         len(parameters) < len(children["param"])
         or any("name" not in given for given in parameters),
+        {key.text: key.location for key, value in node.pairs if not isinstance(value, Scalar)},
     )
 
 

@@ -38,7 +38,7 @@ class Variables:
                 yield UNKNOWN
                 return
             yield Text(value[at:start])
-            name, *operands = [*_substitution_words(value[start + 2 : end])] or [""]
+            name, *operands = [*_words(value[start + 2 : end])] or [""]
             if name == "var" and operands:
                 yield self._variable(operands[0], depth)
             else:
@@ -51,6 +51,16 @@ class Variables:
         values = self._given.get(name, ())
         text = self.text(values[0], depth + 1) if len(values) == 1 else UNKNOWN
         return text if text.is_asked else UNKNOWN
+
+
+def substitution_words(value: str) -> Iterator[list[str]]:
+    """Yield the words of each substitution of an attribute, those in others left out."""
+    at = 0
+    while (start := value.find("$(", at)) >= 0:
+        at = _closing(value, start + 2)
+        if at < 0:
+            return
+        yield [*_words(value[start + 2 : at])]
 
 
 def _closing(value: str, at: int) -> int:
@@ -75,7 +85,7 @@ def _closing(value: str, at: int) -> int:
     return -1
 
 
-def _substitution_words(value: str) -> Iterator[str]:
+def _words(value: str) -> Iterator[str]:
     """Yield the name and the arguments of a substitution, without their quotes."""
     word, quote = "", ""
     at = 0
