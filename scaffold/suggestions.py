@@ -22,7 +22,7 @@ View = TypeVar("View")
 
 
 class Memory(Protocol):
-    """What keeps values as long as a package is checked: the package itself."""
+    """What keeps values as long as it is unchanged: a package, or a file of it."""
 
     def remember(self, key: object, build: Callable[[], View]) -> View:
         """Return the result of ``build``, which is called once per key."""

@@ -1,4 +1,4 @@
-"""Results that are computed once for a package, until its files change."""
+"""Results that are computed once for a package, or a file with rclpy code, until files change."""
 
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ Store = TypeVar("Store", bound=Memory)
 def remembered(
     function: Callable[Concatenate[Store, Words], Value],
 ) -> Callable[Concatenate[Store, Words], Value]:
-    """Decorate a function of a package and hashable arguments to call it once; see ``remember``."""
+    """Decorate a function of a store and hashable arguments to call it once; see ``remember``."""
 
     @wraps(function)
-    def ask(package: Store, /, *words: Words.args, **named: Words.kwargs) -> Value:
+    def ask(store: Store, /, *words: Words.args, **named: Words.kwargs) -> Value:
         key = (function, *words, *named.items())
-        return package.remember(key, lambda: function(package, *words, **named))
+        return store.remember(key, lambda: function(store, *words, **named))
 
     return ask
 
@@ -33,7 +33,7 @@ def remembered_list(
 
     @remembered
     @wraps(function)
-    def items(package: Store, /, *words: Words.args, **named: Words.kwargs) -> list[Value]:
-        return [*function(package, *words, **named)]
+    def items(store: Store, /, *words: Words.args, **named: Words.kwargs) -> list[Value]:
+        return [*function(store, *words, **named)]
 
     return items

@@ -26,7 +26,7 @@ from scaffold.model.rclpy.entities import (
     Timer,
 )
 from scaffold.model.rclpy.nodes import NodeClass
-from scaffold.model.rclpy.per_file import per_file
+from scaffold.model.remembered import remembered
 from scaffold.record import NamedTuple
 from scaffold.source import Location, ViewError
 
@@ -70,14 +70,14 @@ def blocks_node(file: RclpyFile, executed: Executed) -> bool:
     return blocks_others(file, executed.entity)
 
 
-@per_file
+@remembered
 def in_callbacks(file: RclpyFile) -> Sequence[Executed]:
     """Return the functions called by callbacks of timers, topics and services, each once."""
     called = _callbacks_of(file, (Timer, Subscription, Synchronizer, Service))
     return tuple(_reached(file, called, set()))
 
 
-@per_file
+@remembered
 def in_tasks(file: RclpyFile) -> Sequence[Executed]:
     """Return the functions that execute goals, or are called when a future is done, each once.
 
@@ -135,7 +135,7 @@ def _reached(
                 yield Executed(function, origin, entity)
 
 
-@per_file
+@remembered
 def in_constructors(file: RclpyFile) -> Sequence[Executed]:
     """Return the functions called by constructors of nodes, each once."""
     result: list[Executed] = []
@@ -147,7 +147,7 @@ def in_constructors(file: RclpyFile) -> Sequence[Executed]:
     return result
 
 
-@per_file
+@remembered
 def in_helpers(file: RclpyFile) -> Sequence[Executed]:
     """Return the functions run by constructors of classes that get a node, each once.
 

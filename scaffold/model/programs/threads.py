@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from scaffold.model.rclpy.nodes import NodeClass
-from scaffold.model.rclpy.per_file import per_file
+from scaffold.model.remembered import remembered
 
 if TYPE_CHECKING:
     from scaffold.model.python.scopes import FunctionNode
@@ -23,7 +23,7 @@ _SPINNING = ("thread", "concurrent", "process", "async", "pool", "event", "group
 """Words in the names of libraries that may spin nodes."""
 
 
-@per_file
+@remembered
 def names_other_executor(file: RclpyFile) -> bool:
     """Return whether a file mentions a multithreaded executor."""
     return any(
@@ -47,7 +47,7 @@ def names_callback_group(file: RclpyFile) -> bool:
     return file.module.mentions("CallbackGroup", "callback_group")
 
 
-@per_file
+@remembered
 def spins_elsewhere(file: RclpyFile) -> bool:
     """Return whether a file may spin a node other than with a plain call.
 

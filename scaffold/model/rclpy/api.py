@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from scaffold import distributions
 from scaffold.model.rclpy.parameters.objects import is_listed_parameter
-from scaffold.model.rclpy.per_file import per_file
+from scaffold.model.remembered import remembered
 
 if TYPE_CHECKING:
     from scaffold.distributions import Distribution
@@ -113,7 +113,7 @@ def class_of(file: RclpyFile, node: ast.expr, depth: int = 0) -> str | None:
     return classes.get(node)
 
 
-@per_file
+@remembered
 def _classes(_: RclpyFile) -> dict[ast.expr, str | None]:
     """Return the classes that were found so far."""
     return {}
@@ -182,7 +182,7 @@ def _class_of_argument(file: RclpyFile, node: ast.expr, depth: int) -> str | Non
     return class_of(file, future, depth + 1) if future is not None else None
 
 
-@per_file
+@remembered
 def _goal_arguments(file: RclpyFile) -> set[ast.arg]:
     """Return the function parameters that receive goal handles from action servers."""
     result: set[ast.arg] = set()
@@ -204,7 +204,7 @@ def future_given(file: RclpyFile, node: ast.expr) -> ast.expr | None:
     return _futures(file).get(argument) if argument is not None else None
 
 
-@per_file
+@remembered
 def _futures(file: RclpyFile) -> Mapping[ast.arg, ast.expr]:
     """Return the futures passed to done callbacks, by parameter."""
     result: dict[ast.arg, ast.expr] = {}

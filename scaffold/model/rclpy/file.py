@@ -32,7 +32,7 @@ from scaffold.model.rclpy.entities import (
 )
 from scaffold.model.rclpy.evaluation.evaluator import NodeEvaluator
 from scaffold.model.rclpy.nodes import NodeClass, NodeDefinition, NodeObject
-from scaffold.model.rclpy.own_modules import Modules, OwnModules
+from scaffold.model.rclpy.own_modules import Modules, OwnModules, View
 from scaffold.model.rclpy.parameters.declarations import Declarations
 from scaffold.model.rclpy.running import callbacks as node_callbacks
 from scaffold.model.rclpy.running.init_and_spin import RclpyCall, rclpy_calls
@@ -87,12 +87,18 @@ class RclpyFile:
             module, self._default_of, self.related_classes, self._own.constant
         )
         self.declarations = Declarations(module, self.evaluator, self.owner_of, self.method_of)
-        self.results: dict[Callable[[RclpyFile], object], Any] = {}
-        """The results of functions that are decorated with `per_file`."""
+        self._results: dict[object, Any] = {}
         self._creation = Creation(self)
         self._owners: dict[ast.expr, NodeDefinition | None] = {}
         self._callbacks: dict[ast.expr, Callback] = {}
         self._base_depth = 0
+
+    def remember(self, key: object, build: Callable[[], View]) -> View:
+        """Return the result of ``build``, which is called once per key; see `remembered`."""
+        if key not in self._results:
+            self._results[key] = build()
+        result: View = self._results[key]
+        return result
 
     @cached_property
     def uses_rclpy(self) -> bool:

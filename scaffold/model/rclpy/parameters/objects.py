@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from scaffold.model.python.evaluation.given_arguments import arguments_for
 from scaffold.model.rclpy.entities import parameter_type
-from scaffold.model.rclpy.per_file import per_file
+from scaffold.model.remembered import remembered
 from scaffold.record import NamedTuple
 
 if TYPE_CHECKING:
@@ -71,7 +71,7 @@ def is_listed_parameter(file: RclpyFile, node: ast.expr) -> bool:
     )
 
 
-@per_file
+@remembered
 def callback_arguments(file: RclpyFile) -> dict[ast.arg, FunctionNode | ast.Lambda]:
     """Return the functions that rclpy calls with a list of parameters, by argument."""
     result: dict[ast.arg, FunctionNode | ast.Lambda] = {}
