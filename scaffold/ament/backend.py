@@ -14,7 +14,7 @@ from scaffold.ament import ruff
 from scaffold.ament.codes import CODES
 from scaffold.ament.files import select
 from scaffold.ament.finding import CRASHED, TOO_LARGE, UNFOLLOWED, UNPARSABLE, Finding
-from scaffold.ament.findings_cache import Cache
+from scaffold.ament.findings_cache import StyleCache
 from scaffold.ament.flake8.options import AMENT
 from scaffold.ament.linters import of_target
 from scaffold.ament.settings import Note, PackageSettings, Settings, settings_of
@@ -114,7 +114,7 @@ class StyleCheck:
         self._notes: dict[int, list[Diagnostic]] = {}
         self._is_wanted = is_wanted
         self._run: ruff.Run | None = None
-        self._cache = Cache.of_user(_identity)
+        self._cache = StyleCache(_identity)
         self._files = {id(package): self._read(package) for package in packages}
         self._packages = list(packages)  # keeps their ids from being reused
         wanted = [file for files in self._files.values() for file in files if file.findings is None]
@@ -150,6 +150,8 @@ class StyleCheck:
                 counts[finding.code] = count = counts.get(finding.code, 0) + 1
                 if count <= MAX_FINDINGS + 1:
                     diagnostics.append(_diagnostic(package, file.path, finding))
+        if not self._files:
+            self._cache.trim()
         return by_file
 
     def _findings(self, file: _File, package: Package) -> list[Finding]:
@@ -169,7 +171,7 @@ class StyleCheck:
         except Exception as error:  # noqa: BLE001  one bad file must not end the run for all
             file.ran_out_of_time = isinstance(error, OutOfTimeError)
             return [_failure(error, file.linters)]
-        if self._cache is not None and file.key:
+        if file.key:
             self._cache.put(file.key, findings)
         return findings
 
@@ -221,7 +223,7 @@ class StyleCheck:
                 files.append(_too_large(path, settings, reason))
                 continue
             file = _File(path, data, settings)
-            if self._cache is not None:
+            if self._cache.is_enabled:
                 key = [(item.linters, item.key) for item in settings]
                 file.key = self._cache.key(path, key, data)
                 file.findings = self._cache.get(file.key)

@@ -1,37 +1,27 @@
-"""A cache of style findings by file content.
-
-One small file per checked file, named after a digest of its bytes and of everything else that the
-findings depend on. A cache that cannot be read or written is ignored.
-"""
+"""A cache of style findings, keyed by the content of a file and what else they depend on."""
 
 from __future__ import annotations
 
-import marshal
-import os
 from collections.abc import Callable, Sequence
 
 from scaffold.ament.finding import Finding
 from scaffold.ament.flake8.builtins import hidden_module
-from scaffold.files import cache
 from scaffold.files.disk import digest
+from scaffold.files.values import ValueCache
 
-MAX_ENTRIES = 20_000
-KEPT_ENTRIES = 15_000
 _MAGIC = b"scaffold-style-1\n"
 
 
-class Cache:
-    """A directory of findings."""
+class StyleCache(ValueCache):
+    """The style findings in files.
 
-    def __init__(self, directory: str, depends_on: str) -> None:
-        self._directory = directory
-        self._salt = depends_on.encode("utf-8", "surrogateescape")
+    Args:
+        depends_on: Returns the further dependencies besides the files: the linters.
+    """
 
-    @classmethod
-    def of_user(cls, depends_on: Callable[[], str]) -> Cache | None:
-        """Return the user's cache, unless it is disabled or there is no home directory."""
-        directory = cache.directory("style")
-        return None if directory is None else cls(directory, depends_on())
+    def __init__(self, depends_on: Callable[[], str]) -> None:
+        super().__init__("styles", _MAGIC)
+        self._salt = depends_on().encode("utf-8", "surrogateescape") if self.is_enabled else b""
 
     def key(self, path: str, settings: Sequence[tuple[int, str]], data: bytes) -> str:
         """Return the key of a file, from its bytes and other inputs of rules.
@@ -49,26 +39,9 @@ class Cache:
 
     def get(self, key: str) -> list[Finding] | None:
         """Return the findings stored under a key."""
-        data = cache.read_sealed(self._path(key), _MAGIC)
-        return None if data is None else [Finding(*load) for load in marshal.loads(data)]  # noqa: S302  own files
+        stored = self.get_value(key)
+        return None if stored is None else [Finding(*load) for load in stored]
 
     def put(self, key: str, findings: Sequence[Finding]) -> None:
         """Store findings."""
-        cache.write_sealed(self._path(key), _MAGIC, marshal.dumps([*map(tuple, findings)]))
-
-    def trim(self) -> None:
-        """Drop the oldest entries when there are too many."""
-        try:
-            entries = [
-                (entry.stat().st_mtime, entry.path)
-                for shard in os.scandir(self._directory)
-                for entry in os.scandir(shard.path)
-            ]
-            if len(entries) > MAX_ENTRIES:
-                for _, path in sorted(entries)[:-KEPT_ENTRIES]:
-                    os.unlink(path)
-        except OSError:
-            return
-
-    def _path(self, key: str) -> str:
-        return os.path.join(self._directory, key[:2], key[2:])
+        self.put_value(key, [*map(tuple, findings)])

@@ -16,7 +16,7 @@ from scaffold.model.package import Package
 from scaffold.model.python.module import is_collected
 from scaffold.model.reads import Reads, recorded
 from scaffold.types import environment, python_modules, ty
-from scaffold.types.findings_cache import Cache, Reported
+from scaffold.types.findings_cache import ReportCache, Reported
 from scaffold.types.own_code import (
     is_about_own,
     own_name,
@@ -148,9 +148,9 @@ class TypeCheck:
         return names - INCOMPLETE - partial_libraries()
 
     @cached_property
-    def _cache(self) -> Cache:
+    def _cache(self) -> ReportCache:
         target = environment.identity(distributions.target())
-        return Cache(f"{ty.identity()} {target} {sys.version_info[:2]}")
+        return ReportCache(f"{ty.identity()} {target} {sys.version_info[:2]}")
 
     def _add(self, package: Package, path: str) -> None:
         """Look up the cached reports of a file, and schedule it for the type checker otherwise."""
@@ -195,12 +195,12 @@ class TypeCheck:
         for caller in callers:
             if caller.place not in self._types and caller.place not in self._passing:
                 reached = of_callers[caller.place]
-                types = self._cache.get_plain(self._cache.key(caller, reached, "passed"))
+                types = self._cache.get_value(self._cache.key(caller, reached, "passed"))
                 if types is None:
                     self._passing[caller.place] = reached
                 else:
                     self._types[caller.place] = types
-        file.silent_for = (self._cache.get_plain(file.own_key) or "") if callers else ""
+        file.silent_for = (self._cache.get_value(file.own_key) or "") if callers else ""
         if not file.silent_for:
             return False
         if any(caller.place in self._passing for caller in callers):
@@ -308,16 +308,15 @@ class TypeCheck:
         assert self._project is not None  # noqa: S101  it has been started
         for place, reached in self._passing.items():
             types = self._types[place] = self._project.passed_types(place, reached)
-            self._cache.put_plain(self._cache.key(reached[place], reached, "passed"), types)
+            self._cache.put_value(self._cache.key(reached[place], reached, "passed"), types)
 
     def _store(self, files: Collection[_File]) -> None:
         """Cache the reports about the files that were checked."""
         for file in files:
             self._cache.put(file.key, Reported(file.diagnostics or (), file.is_confirmed))
             if file.is_silent and file.checked.callers:
-                self._cache.put_plain(file.own_key, self._signature(file))
-        if files:
-            self._cache.trim()
+                self._cache.put_value(file.own_key, self._signature(file))
+        self._cache.trim()
 
     def _confirm(self) -> list[_File]:
         """Keep the reports that also appear without the annotations of the user's code.

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from scaffold.record import NamedTuple
-from scaffold.types.findings_cache import Cache
+from scaffold.types.findings_cache import ReportCache
 from scaffold.types.rewriting import parameter_values
 from scaffold.types.rewriting.added_lines import Extended
 from scaffold.types.rewriting.arguments import with_arguments
@@ -37,7 +37,7 @@ Rewrite = Callable[[Source], Rewritten]
 """Rewrites a file."""
 
 
-def rewriting(cache: Cache, *, is_annotated: bool) -> Rewrite:
+def rewriting(cache: ReportCache, *, is_annotated: bool) -> Rewrite:
     """Return a function that rewrites files; stubs are unchanged.
 
     Args:
@@ -51,13 +51,13 @@ def rewriting(cache: Cache, *, is_annotated: bool) -> Rewrite:
         about = "annotated" if is_annotated else "unannotated"
         others = " ".join(sorted(other_roots(source.package, source.data)))
         key = cache.key(source, {source.place: source}, f"{about} {others}")
-        stored = cache.get_plain(key)
+        stored = cache.get_value(key)
         if stored is not None:
             text, data, added, passed = stored
             return Rewritten(text, Extended(data, added, [Passed(*call) for call in passed]))
         result = Rewritten.of(source, is_annotated=is_annotated)
         text, (data, added, passed) = result
-        cache.put_plain(key, (text, data, [*added], [(*call,) for call in passed]))
+        cache.put_value(key, (text, data, [*added], [(*call,) for call in passed]))
         return result
 
     return rewrite
