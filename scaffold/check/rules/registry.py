@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Sequence
+from functools import cache
 from importlib.machinery import ModuleSpec, SourceFileLoader
 from types import CodeType, ModuleType
 
@@ -30,18 +31,31 @@ def load(roots: Sequence[str]) -> list[type[Rule]]:
     taken: dict[str, type[Rule]] = {}
     for rule in AMENT_RULES:
         taken[rule.code] = taken[rule.name] = rule
+    own = os.path.join(content.built_in(), "rules")
     for root in roots:
-        prefix = f"scaffold_content_{digest(os.fsencode(os.path.abspath(root)))[:8]}"
-        files = _rule_files(root)
-        codes = rule_bytecode.codes(root, [path for _, path in files], _compile)
-        for (names, path), code in zip(files, codes, strict=True):
-            rule = _load_file((prefix, *names), path, code)
+        for rule in _own_rules(root) if root == own else _rules_below(root):
             other = taken.get(rule.code) or taken.get(rule.name)
             if other is not None:
-                where = sys.modules[other.__module__].__file__
+                path, where = (sys.modules[kind.__module__].__file__ for kind in (rule, other))
                 raise ContentError(f"{path}: {rule.code} {rule.name} is taken by {where}")
             rules[rule.code] = taken[rule.code] = taken[rule.name] = rule
     return [rules[code] for code in sorted(rules)]
+
+
+def _rules_below(root: str) -> list[type[Rule]]:
+    prefix = f"scaffold_content_{digest(os.fsencode(os.path.abspath(root)))[:8]}"
+    files = _rule_files(root)
+    codes = rule_bytecode.codes(root, [path for _, path in files], _compile)
+    return [
+        _load_file((prefix, *names), path, code)
+        for (names, path), code in zip(files, codes, strict=True)
+    ]
+
+
+@cache
+def _own_rules(root: str) -> list[type[Rule]]:
+    """Return the rules of this installation, whose files do not change while it runs."""
+    return _rules_below(root)
 
 
 def _rule_files(root: str) -> list[tuple[tuple[str, ...], str]]:
