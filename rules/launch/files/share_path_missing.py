@@ -233,6 +233,49 @@ class SharePathMissing(Rule):
             },
         ),
         Example(
+            "a file that a function of the launch file writes and returns",
+            {
+                **_FILES,
+                "launch/a.launch.py": _LAUNCH.format("'config', 'talker.yaml'")
+                .replace(
+                    "def generate",
+                    "def make_lights(share, number):\n"
+                    "    path = Path(share) / 'config' / 'lights.json'\n"
+                    "    path.write_text(str(number))\n    return path\n\n\ndef generate",
+                )
+                .replace("import os\n", "import os\nfrom pathlib import Path\n")
+                .replace("    return L", "    lights = make_lights(share, 3)\n    return L")
+                .replace("'talk',", "'talk', arguments=[str(lights)],"),
+            },
+        ),
+        Example(
+            "a file of this name that it writes somewhere else",
+            {
+                **_FILES,
+                "launch/a.launch.py": _LAUNCH.format("'config', 'talker.yaml'").replace(
+                    "    return",
+                    "    lights = open(os.path.join(share, 'config', 'lights.txt')).read()\n"
+                    "    with open('/tmp/lights.txt', 'w') as stream:\n"
+                    "        stream.write(lights)\n    return",
+                ),
+            },
+            "launch/a.launch.py:10:19: share/talker/config/lights.txt does not exist: talker has "
+            "no such file",
+        ),
+        Example(
+            "a file of a nested package whose directory is installed",
+            {
+                "package.xml": '<package format="3"><name>talker</name>'
+                "<export><build_type>ament_cmake</build_type></export></package>\n",
+                "CMakeLists.txt": "project(talker)\nfind_package(ament_cmake REQUIRED)\n"
+                "install(DIRECTORY launch robots/arm/launch DESTINATION share/talker)\n"
+                "ament_package()\n",
+                "launch/a.launch.py": _LAUNCH.format("'launch', 'arm.yaml'"),
+                "robots/arm/package.xml": '<package format="3"><name>arm</name></package>\n',
+                "robots/arm/launch/arm.yaml": "",
+            },
+        ),
+        Example(
             "a file that a shell command writes; a format string",
             {
                 **_FILES,

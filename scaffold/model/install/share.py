@@ -28,7 +28,8 @@ class Share(NamedTuple):
     complete: bool
     """Whether these are all, except those in ``unread``."""
     unread: Sequence[str] = ()
-    """Prefixes of paths in directories ignored by git, such as products of other tools."""
+    """Prefixes of paths in directories whose files are not listed: those ignored by git, such as
+    products of other tools, and those of nested packages."""
 
     def has(self, path: str) -> bool:
         """Return whether a file or a directory exists."""
@@ -84,9 +85,15 @@ def _by_cmake(package: Package) -> Share | None:
             complete = complete and item.path is not None
             installed = [*installed_files(package, install, item)]
             files |= {posixpath.join(below, name): source for name, source in installed}
-            if item.path and not installed and is_untracked(package, item.path):
+            if _is_unlisted(package, item.path or "", installed):
                 unread.append(posixpath.join(below, "", _base(item)))
     return Share(files, complete, unread)
+
+
+def _is_unlisted(package: Package, path: str, installed: Sequence[object]) -> bool:
+    """Return whether a path is in a nested package, or has no files but those ignored by git."""
+    is_nested = any(f"{path}/".startswith(f"{nested}/") for nested in package.tree.nested)
+    return is_nested or (bool(path) and not installed and is_untracked(package, path))
 
 
 def installed_files(

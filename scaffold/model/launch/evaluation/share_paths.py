@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 import posixpath
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
 from difflib import SequenceMatcher, get_close_matches
 from typing import TYPE_CHECKING
@@ -14,15 +14,18 @@ from scaffold import lazy_re
 from scaffold.model.discovery.gitignore import is_untracked
 from scaffold.model.facts import fact
 from scaffold.model.install.share import Share, share_of
+from scaffold.model.launch.evaluation.evaluator import share_path
 from scaffold.model.launch.evaluation.module_paths import NamedPath, paths_of_module
 from scaffold.model.launch.files import DATA_DIRECTORIES
 from scaffold.model.launch.markup_file import markup_files
 from scaffold.model.launch.python_file import LaunchFile, SharePath, launch_paths
 from scaffold.model.launch.unused.unlaunched import covers, is_never_used
+from scaffold.model.python.evaluation.values import UNKNOWN
 from scaffold.source import ViewError
 
 if TYPE_CHECKING:
     from scaffold.model.package import Package
+    from scaffold.model.python.module import PythonModule
     from scaffold.source import Location
 
 
@@ -82,14 +85,15 @@ def _images_of_maps(package: Package) -> Iterator[NamedPath]:
 @fact
 def _paths_of_launch_file(package: Package, path: str) -> tuple[NamedPath, ...]:
     launch = LaunchFile.of(package, path)
+    made = [*_made_files(launch)]
     return tuple(
         named
-        for share_path in launch.share_paths
-        if not launch.is_optional(share_path.node)
-        and not _is_given_to_unknown(launch, share_path.node)
-        and not is_never_used(launch, share_path.node)
-        and not _is_written(launch, share_path.node)
-        for named in _as_installed(package, launch, share_path)
+        for path_below in launch.share_paths
+        if not launch.is_optional(path_below.node)
+        and not _is_given_to_unknown(launch, path_below.node)
+        and not is_never_used(launch, path_below.node)
+        and not _is_written(launch, path_below, made)
+        for named in _as_installed(package, launch, path_below)
     )
 
 
@@ -145,26 +149,49 @@ def _is_given_to_unknown(launch: LaunchFile, node: ast.expr) -> bool:
     return any(isinstance(item, ast.Name) and item.id == "getattr" for item in made)
 
 
-def _is_written(launch: LaunchFile, node: ast.expr) -> bool:
+def _is_written(
+    launch: LaunchFile, path: SharePath, made: Sequence[tuple[object, set[str]]]
+) -> bool:
     """Return whether a launch file writes the file itself, ``open(path, 'w')``, or tests for it."""
+    node = path.node
     holder = launch.module.parent(node)
     if isinstance(holder, ast.Dict) and _is_for_output(holder, node):
         return True
     if isinstance(holder, ast.List) and _is_redirected_to(holder, node):
         return True
-    targets = holder.targets if isinstance(holder, ast.Assign) else ()
-    names = {target.id for target in targets if isinstance(target, ast.Name)}
-    for call in launch.module.walk(ast.Call) if names else ():
-        match call:
-            case ast.Call(
-                func=ast.Name(id="open"), args=[ast.Name(id=name), ast.Constant(value=mode), *_]
-            ) if name in names and str(mode)[:1] in "wax":
-                return True
-            case ast.Call(args=[ast.Name(id=name), *_]) if (
-                name in names and launch.module.qualified_name(call.func) in _OF_MADE_FILES
-            ):
-                return True
-    return False
+    return any(
+        _name(path.path) in names
+        if written is UNKNOWN
+        else share_path(written) == (path.package, path.path)
+        for written, names in made
+    )
+
+
+def _made_files(launch: LaunchFile) -> Iterator[tuple[object, set[str]]]:
+    """Yield the files that a launch file writes, removes or tests for.
+
+    Each with the texts that its path is made of, by which it is known if the whole is unknown.
+    """
+    module = launch.module
+    for call in module.walk(ast.Call):
+        path = _made_path(module, call)
+        if path is not None:
+            values = [item.value for item in module.index.bindings_of(path) if item.value]
+            parts = (part for value in values or [path] for part in ast.walk(value))
+            texts = (part.value for part in parts if isinstance(part, ast.Constant))
+            yield launch.evaluator.joined_text(path), {_name(str(text)) for text in texts}
+
+
+def _made_path(module: PythonModule, call: ast.Call) -> ast.expr | None:
+    """Return the path of a file that a call writes, removes or tests for."""
+    match call:
+        case ast.Call(func=ast.Name(id="open"), args=[path, ast.Constant(value=mode), *_]):
+            return path if str(mode)[:1] in {*"wax"} else None
+        case ast.Call(func=ast.Attribute(value=path, attr="write_text" | "write_bytes")):
+            return path
+        case ast.Call(args=[path, *_]):
+            return path if module.qualified_name(call.func) in _OF_MADE_FILES else None
+    return None
 
 
 def _is_redirected_to(command: ast.List, path: ast.expr) -> bool:
