@@ -134,6 +134,16 @@ class FoundUndeclared(Rule):
             },
         ),
         Example(
+            "found in an installed function that only other packages call",
+            {
+                "package.xml": _MANIFEST.format(""),
+                "CMakeLists.txt": "project(talker)\nfind_package(rclcpp REQUIRED)\n"
+                "include(cmake/talker_lint.cmake)\n",
+                "cmake/talker_lint.cmake": "function(talker_lint)\n"
+                "  find_package(ament_cmake_clang_tidy REQUIRED)\nendfunction()\n",
+            },
+        ),
+        Example(
             "looked for with one version of Gazebo only",
             {
                 "package.xml": _MANIFEST.format(""),
@@ -373,6 +383,8 @@ def _undeclared(package: Package) -> Iterator[FoundPackage]:
     names |= dependencies.direct | _built_with(package)
     for found in package.cmake.found_packages:
         name, neighbor = found.name, package.workspace.get(found.name)
+        if not package.cmake.is_called(found.command):
+            continue  # other packages call the function, which is installed
         if name == "rosidl_default_generators" and package.cmake.find("rosidl_generate_interfaces"):
             continue  # interface-declarations-missing reports it, with other missing ones
         if name in names or f"lib{name}-dev" in direct:  # the system package that contains it
