@@ -217,6 +217,7 @@ _BROUGHT = {
     "python3-pydantic": "python3-typing-extensions",
     "python3-pyqtgraph": "python3-numpy python3-pyqt5",
     "python3-rasterio": "python3-click python3-numpy",
+    "python3-requests": "python3-certifi python3-urllib3",
     "python3-scipy": "python3-numpy",
     "python3-seaborn": "python3-matplotlib python3-numpy python3-pandas",
     "python3-shapely": "python3-numpy",

@@ -48,6 +48,10 @@ def _manifest(*lines: str) -> str:
     return _MANIFEST.format(text)
 
 
+_TESTS = re.compile(r"test[^/]*\.py|\*\.py|(?:^|/)tests?/?$")
+"""Matches a test file, a pattern of Python files, or a directory of tests."""
+
+
 class ImportUndeclared(Rule):
     """Python code imports a package that package.xml does not declare.
 
@@ -70,7 +74,7 @@ class ImportUndeclared(Rule):
         "requirements.txt or pyproject.toml), with colcon or rosdep, to build the workspace, as a "
         "package of it, with ros_base, or by an unknown dependency; or it is for the Python of "
         "another program, such as Isaac Sim; or `colcon test` does not run the test, because "
-        "setup.py does not declare pytest",
+        "setup.py does not declare pytest or CMakeLists.txt names no test",
     }
     examples = (
         Example(
@@ -739,6 +743,60 @@ class ImportUndeclared(Rule):
             neighbors={"hand": {"package.xml": _MANIFEST.format("").replace("talker", "hand")}},
         ),
         Example(
+            "by a test that CMakeLists.txt registers",
+            {
+                "package.xml": _manifest("<buildtool_depend>ament_cmake</buildtool_depend>"),
+                "CMakeLists.txt": "project(talker)\nfind_package(ament_cmake REQUIRED)\n"
+                "find_package(ament_cmake_pytest REQUIRED)\n"
+                "ament_add_pytest_test(limits test/test_limits.py)\nament_package()\n",
+                "test/test_limits.py": "import requests\n\n\n"
+                "def test_limits():\n    assert requests\n",
+            },
+            Report(
+                "test/test_limits.py:1:1",
+                "imports 'requests', which package.xml does not declare; add "
+                "<test_depend>python3-requests</test_depend>",
+                fix="Declare python3-requests",
+            ),
+            fixed={
+                "package.xml": _manifest(
+                    "<buildtool_depend>ament_cmake</buildtool_depend>",
+                    "<test_depend>python3-requests</test_depend>",
+                )
+            },
+        ),
+        Example(
+            "by a test that CMakeLists.txt does not name",
+            {
+                "package.xml": _manifest("<buildtool_depend>ament_cmake</buildtool_depend>"),
+                "CMakeLists.txt": "project(talker)\nfind_package(ament_cmake REQUIRED)\n"
+                "ament_package()\n",
+                "test/test_limits.py": "import requests\n\n\n"
+                "def test_limits():\n    assert requests\n",
+            },
+            Report(
+                "test/test_limits.py:1:1",
+                "imports 'requests', which package.xml does not declare; add "
+                "<test_depend>python3-requests</test_depend>",
+                fix="Declare python3-requests",
+                severity=Severity.WARNING,
+            ),
+            fixed={
+                "package.xml": _manifest(
+                    "<buildtool_depend>ament_cmake</buildtool_depend>",
+                    "<test_depend>python3-requests</test_depend>",
+                )
+            },
+        ),
+        Example(
+            "a library that comes with a declared one",
+            {
+                "package.xml": _manifest("python3-requests"),
+                "talker/__init__.py": "",
+                "talker/fetch.py": "import requests\nimport urllib3\n",
+            },
+        ),
+        Example(
             "by a test, if setup.py does not declare pytest",
             {
                 "package.xml": _manifest("<export><build_type>ament_python</build_type></export>"),
@@ -868,7 +926,13 @@ def _adds_sources(package: Package, need: requirements.Requirement) -> bool:
 
 
 def _runs_no_test(package: Package) -> bool:
-    """Return whether colcon runs no test, because setup.py does not declare pytest."""
+    """Return whether colcon runs no Python test.
+
+    Because setup.py does not declare pytest, or CMakeLists.txt names no test file or directory.
+    """
+    if package.build_type == "ament_cmake":
+        values = (value for command in package.cmake.commands for value in command.values)
+        return not any(map(_TESTS.search, values))
     return lacks_pytest(package) and not any(file.classes for file in test_modules(package))
 
 
