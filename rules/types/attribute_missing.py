@@ -1029,6 +1029,33 @@ class AttributeMissing(TypeRule):
             },
         ),
         Example(
+            "method of all derived classes of a base that only its own file creates",
+            {
+                "package.xml": "<package><name>rover</name></package>\n",
+                "rover/__init__.py": "",
+                "rover/odometry.py": _ODOMETRY + "\n\ndef make():\n    return Odometry()\n",
+                "rover/wheels.py": _WHEELS.format("restart"),
+                "rover/drive.py": _RESTART,
+            },
+        ),
+        Example(
+            "method of a derived class, of an object of the base",
+            {
+                "package.xml": "<package><name>rover</name></package>\n",
+                "rover/__init__.py": "",
+                "rover/odometry.py": _ODOMETRY,
+                "rover/wheels.py": _WHEELS.format("restart"),
+                "rover/drive.py": _RESTART.replace("odometry: Odometry", "number").replace(
+                    "odometry.restart", "Odometry().restart"
+                ),
+            },
+            Report(
+                "rover/drive.py:13:9",
+                "Odometry has no 'restart': AttributeError; did you mean 'reset'?",
+                unsafe_fix="Replace with 'reset'",
+            ),
+        ),
+        Example(
             "method that neither an annotated base nor its derived class has",
             {
                 "package.xml": "<package><name>rover</name></package>\n",

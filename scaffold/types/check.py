@@ -288,9 +288,9 @@ class TypeCheck:
         """Read the reports about files, and keep the relevant ones."""
         assert self._project is not None  # noqa: S101  it has been started
         for file in files:
-            reached = file.checked.reached
+            source, reached = file.checked.source, file.checked.reached
             reported = [
-                with_own_name(item, file.checked.source, reached.values())
+                with_own_name(item, source, reached.values())
                 for item in self._project.reports(file.checked)
             ]
             stubbed = self._stubbed - _roots(reached, are_stubs=False)
@@ -298,7 +298,7 @@ class TypeCheck:
             file.diagnostics = [
                 with_own_marked(item, reached.values())
                 for item in reported
-                if _is_library_report(item, stubbed) or is_about_own(item, reached.values())
+                if _is_library_report(item, stubbed) or is_about_own(item, source, reached.values())
             ]
             file.is_confirmed = not any(map(_may_be_annotated, file.diagnostics))
             file.is_silent = not (file.diagnostics or any(map(own_name, reported)))

@@ -62,8 +62,14 @@ _DECORATORS = frozenset({b"dataclass", b"final", b"total_ordering"})
 """Decorators of classes that add no other attributes."""
 
 
-def is_about_own(item: TyDiagnostic, sources: Iterable[Source]) -> bool:
-    """Return whether a report is about a class or a function that one of the files defines."""
+def is_about_own(item: TyDiagnostic, source: Source, sources: Iterable[Source]) -> bool:
+    """Return whether a report is about a class or a function that one of the files defines.
+
+    Args:
+        item: The report.
+        source: The file that it is about.
+        sources: That file and all that it imports.
+    """
     module = _MODULE.fullmatch(item.message)
     if module is not None and item.kind == "missing-attribute":
         return _is_lacking(module[1], sources)
@@ -75,7 +81,8 @@ def is_about_own(item: TyDiagnostic, sources: Iterable[Source]) -> bool:
     if not defining or any(_CHANGING.search(data) for data in _with_bases(name, files)):
         return False
     if item.kind == "missing-attribute" and (
-        any(_is_decorated(name, data) for data in defining) or _is_of_derived(item, name, files)
+        any(_is_decorated(name, data) for data in defining)
+        or _is_of_derived(item, name, source.data, files)
     ):
         return False
     return item.kind in _CALLS or len(defining) == 1  # otherwise the object may be of another class
@@ -195,19 +202,24 @@ def _is_decorated(name: bytes, data: bytes) -> bool:
     return False
 
 
-def _is_of_derived(item: TyDiagnostic, class_: bytes, files: Sequence[bytes]) -> bool:
-    """Return whether every derived class has an attribute, and nothing creates the base itself."""
+def _is_of_derived(item: TyDiagnostic, class_: bytes, data: bytes, files: Sequence[bytes]) -> bool:
+    """Return whether an object may be of a derived class: each of them has the attribute.
+
+    Not if the base itself is created: by the file, or by any for ``self``. Other files may pass
+    objects of either class.
+    """
     matched = _OWNER.fullmatch(item.message)
     if matched is None:
         return False
     derived = re.compile(rb"^[ \t]*class \w+\([^()]*\b%b\b[^()]*\)" % class_, re.MULTILINE)
     made = re.compile(rb"(?<!class )\b%b\(" % class_)
     attribute = re.compile(rb"\b(?:def |self\.)%b\b" % matched[2].encode())
-    with_derived = [data for data in files if derived.search(data)]
+    with_derived = [file for file in files if derived.search(file)]
+    creating = files if _definition(class_).search(data) else [data]
     return (
         bool(with_derived)
-        and all(attribute.search(data) for data in with_derived)
-        and not any(made.search(data) for data in files)
+        and all(attribute.search(file) for file in with_derived)
+        and not any(made.search(file) for file in creating)
     )
 
 
