@@ -8,6 +8,7 @@ from __future__ import annotations
 from scaffold.check.rules.file_rules import LaunchRule, MessageRule, PythonRule, RclpyRule, TestRule
 from scaffold.check.rules.rule import Example, Report, Rule
 from scaffold.check.rules.type_rules import TypeRule
+from scaffold.closure import closure
 from scaffold.diagnostic import Diagnostic, Effect, Severity
 from scaffold.edits import CreateFile, Edit, Fix, MakeExecutable, Remove, Safety
 from scaffold.model.facts import fact
@@ -41,6 +42,7 @@ __all__ = [
     "TypeRule",
     "ViewError",
     "closest_name",
+    "closure",
     "fact",
     "listed_names",
 ]

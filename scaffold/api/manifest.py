@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from scaffold.model.contents import requirements
 from scaffold.model.contents.build_requirements import is_installed_to_build
-from scaffold.model.contents.declared import declared
+from scaffold.model.contents.declared import brought_by, declared
 from scaffold.model.contents.package_name import name_used_elsewhere
 from scaffold.model.contents.requirements import required_packages
 from scaffold.model.discovery.declaring import declaring, way_back
@@ -26,6 +26,7 @@ __all__ = [
     "ConditionError",
     "Constant",
     "Manifest",
+    "brought_by",
     "constants",
     "declared",
     "declaring",

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Iterable, Mapping
 
+from scaffold.closure import closure
 from scaffold.model.released import has_rosdep_rule, is_released, is_rosdep_key
 
 _ROS_PACKAGES = """
@@ -325,13 +326,7 @@ def keys_brought(keys: Iterable[str]) -> set[str]:
     Args:
         keys: The declared keys.
     """
-    result: set[str] = set()
-    pending = [*keys]
-    for key in pending:  # extended during the loop
-        brought = {*_BROUGHT.get(key, "").split()} - result
-        result |= brought
-        pending += sorted(brought)
-    return result
+    return closure(keys, lambda key: _BROUGHT.get(key, "").split())
 
 
 def module_keys() -> frozenset[str]:

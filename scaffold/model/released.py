@@ -6,6 +6,7 @@ import os
 from collections.abc import Iterable, Mapping, Sequence
 from functools import cache
 
+from scaffold.closure import closure
 from scaffold.distributions import ALIASES, DATA, target
 
 
@@ -62,10 +63,4 @@ def dependencies(name: str) -> Iterable[str]:
 
 def transitive_dependencies(names: Iterable[str]) -> set[str]:
     """Return the transitive dependencies of declared packages."""
-    result: set[str] = set()
-    pending = list(names)
-    while pending:
-        brought = set(dependencies(pending.pop())) - result
-        result |= brought
-        pending += brought
-    return result
+    return closure(names, dependencies)

@@ -15,11 +15,12 @@ from scaffold.api import (
     Rule,
     Severity,
     ViewError,
+    closure,
 )
 from scaffold.api.catalog import ROS_PACKAGES, transitive_dependencies
 from scaffold.api.cmake import FoundPackage
 from scaffold.api.distributions import removed_package, target
-from scaffold.api.manifest import declared, declaring
+from scaffold.api.manifest import brought_by, declared, declaring
 
 _MANIFEST = '<package format="3">\n  <name>talker</name>\n  <depend>rclcpp</depend>\n{}</package>\n'
 _LISTS = "project(talker)\nfind_package(rclcpp REQUIRED)\nfind_package({} REQUIRED)\n"
@@ -426,24 +427,8 @@ def _tag(found: FoundPackage) -> str:
 def _transitive_dependencies(package: Package) -> set[str]:
     """Return the transitive build and test dependencies."""
     manifest = package.manifest
-    result: set[str] = set()
-    pending = [
-        *manifest.build_names,
-        *manifest.test_names,
-        *(
-            dependency.name
-            for dependency in manifest.dependencies
-            if dependency.kind.startswith("buildtool")
-        ),
-    ]
-    while pending:
-        name = pending.pop()
-        if name not in result:
-            result.add(name)
-            neighbor = package.workspace.get(name)
-            try:
-                pending += neighbor.manifest.run_names if neighbor is not None else ()
-            except ViewError:
-                continue
+    tools = {item.name for item in manifest.dependencies if item.kind.startswith("buildtool")}
+    direct = manifest.build_names | manifest.test_names | tools
+    result = direct | closure(direct, lambda name: brought_by(package, name))
     # A package with messages depends on everything that is needed to use them.
     return result | transitive_dependencies(result) | {"rosidl_default_runtime"}

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Effect, Example, Location, Package, Rule
+from scaffold.api import Diagnostic, Effect, Example, Location, Package, Rule, closure
 from scaffold.api.distributions import removed_interface
 from scaffold.api.interfaces import Definitions, FieldType, closest_word, interface_files
 
@@ -125,7 +125,7 @@ class FieldTypeUnusable(Rule):
             for type_, at in inner.items():
                 if type_ == name:
                     yield self.report(at, f"message {name!r} contains itself: the build stops")
-                elif name in _contained_messages(held, type_):
+                elif name in closure([type_], lambda inner: held.get(inner, ())):
                     message = f"message {name!r} contains {type_!r}, which contains {name!r}: "
                     message += "the build stops"
                     yield self.report(at, message)
@@ -145,15 +145,3 @@ def _problem(definitions: Definitions, type_: FieldType, written: str, own: str)
     else:
         hint = closest_word(type_.name, names)
     return f"type {written!r}: {type_.package} has no message {type_.name!r}{hint}"
-
-
-def _contained_messages(held: Mapping[str, Mapping[str, Location]], name: str) -> set[str]:
-    """Return the messages of the package that a message contains, directly or not."""
-    reached: set[str] = set()
-    pending = [name]
-    while pending:
-        for inner in held.get(pending.pop(), ()):
-            if inner not in reached:
-                reached.add(inner)
-                pending.append(inner)
-    return reached

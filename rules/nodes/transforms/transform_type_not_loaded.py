@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, MessageRule, Package
+from scaffold.api import Diagnostic, Example, MessageRule, Package, closure
 from scaffold.api.messages import MessageTypes
 from scaffold.api.rclpy import CONVERSIONS, lookups_in
 
@@ -106,15 +106,13 @@ def _connected_modules(package: Package, path: str) -> set[str]:
         }
         for module in package.modules()
     }
-    result = {path}
-    pending = [path]
-    while pending:
-        current = pending.pop()
-        for other in uses.keys() - result:
-            if _import_name(other) in uses.get(current, ()) or _import_name(current) in uses[other]:
-                result.add(other)
-                pending.append(other)
-    return result
+
+    def connected(current: str) -> Iterator[str]:
+        for other, used in uses.items():
+            if _import_name(other) in uses.get(current, ()) or _import_name(current) in used:
+                yield other
+
+    return {path, *closure([path], connected)}
 
 
 def _import_name(path: str) -> str:

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Iterable
 from typing import TYPE_CHECKING
 
+from scaffold.closure import closure
 from scaffold.model.catalog import keys_brought
 from scaffold.model.released import transitive_dependencies
 from scaffold.source import ViewError
@@ -33,18 +34,19 @@ def is_installed_to_build(package: Package, keys: Collection[str]) -> bool:
 
 
 def _to_build(package: Package) -> frozenset[str]:
-    result: set[str] = {*_OF_TOOLS}
-    pending = [package.name]
-    kinds = ["build", "build_export", "run", "test"]
-    while pending:
-        name = pending.pop()
-        neighbor = package if name == package.name else package.workspace.get(name)
-        try:
-            names = set() if neighbor is None else neighbor.manifest.names_for(*kinds)
-        except ViewError:
-            continue
-        kinds = ["build", "build_export", "run"]
-        pending += names - result
-        result |= names
+    own = _names_for(package, "build", "build_export", "run", "test")
+
+    def required(name: str) -> Iterable[str]:
+        neighbor = package.workspace.get(name)
+        return _names_for(neighbor, "build", "build_export", "run") if neighbor is not None else ()
+
+    result = {*_OF_TOOLS, *own, *closure(own, required)}
     result |= transitive_dependencies(result)
     return frozenset(result | keys_brought(result))
+
+
+def _names_for(package: Package, *kinds: str) -> Iterable[str]:
+    try:
+        return package.manifest.names_for(*kinds)
+    except ViewError:
+        return ()

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import sys
+from functools import partial
 from typing import TYPE_CHECKING
 
+from scaffold.closure import closure
 from scaffold.model.catalog import (
     LIBRARY_KEYS,
     OTHER_NAMES,
@@ -93,19 +95,7 @@ def declared(package: Package, *, for_tests: bool) -> Declared:
     direct |= {*package.workspace.policy.implicit}
     if for_tests:
         direct |= manifest.test_names | manifest.build_names
-    along = transitive_dependencies(direct)
-    seen = {package.name}
-    pending = sorted(direct)
-    while pending:
-        name = pending.pop()
-        if name in seen:
-            continue
-        seen.add(name)
-        neighbor = package.workspace.get(name)
-        if neighbor is not None:
-            brought = _run_names(neighbor)
-            along |= brought
-            pending += sorted(brought)
+    along = transitive_dependencies(direct) | closure(direct, partial(brought_by, package))
     along |= transitive_dependencies(along)
     unknown = frozenset(name for name in direct | along if _is_unknown(package, name))
     return Declared(direct, along | keys_brought(direct | along), unknown)
@@ -147,8 +137,10 @@ def _has_messages(name: str) -> bool:
     return name.endswith(_OF_MESSAGES) and is_generated
 
 
-def _run_names(package: Package) -> set[str]:
+def brought_by(package: Package, name: str) -> set[str]:
+    """Return the run dependencies of another package of the workspace; empty if unknown."""
+    neighbor = package.workspace.get(name)
     try:
-        return package.manifest.run_names
+        return neighbor.manifest.run_names if neighbor not in {None, package} else set()
     except ViewError:
         return set()

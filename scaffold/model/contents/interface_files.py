@@ -9,6 +9,7 @@ from collections.abc import Set as AbstractSet
 from typing import TYPE_CHECKING
 
 from scaffold import lazy_re
+from scaffold.closure import closure
 from scaffold.model.cmake.rosidl import GENERATE, Generation, generations_of
 from scaffold.model.contents.ament_cmake import has_unknown_commands
 from scaffold.model.facts import fact
@@ -101,12 +102,7 @@ def names_used_in_code(package: Package) -> set[str]:
                     not_generated[name] = _names_used_in(other, path, package.name) - {name}
                 else:
                     result.update(_names_used_in(other, path, package.name))
-    pending = sorted(result & not_generated.keys())
-    for name in pending:  # extended during the loop
-        names = not_generated[name] - result
-        result |= names
-        pending += sorted(names & not_generated.keys())
-    return result
+    return result | closure(result, lambda name: not_generated.get(name, ()))
 
 
 _COMMENT = lazy_re.compile(r"^[ \t]*(?://|#(?!include)).*", re.MULTILINE)
