@@ -163,8 +163,6 @@ JAZZY = named(DEFAULT)
 _target = JAZZY
 """What this process checks for. The verdict on a package is that of one distribution, from the
 first file that is read to the last: what is remembered of packages must not outlive a change."""
-
-
 _origin: Distribution | None = None
 _kept: tuple[Distribution, ...] = ()
 

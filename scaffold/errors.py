@@ -37,8 +37,6 @@ class OutOfTimeError(Exception):
 
 EXHAUSTED: tuple[type[Exception], ...] = (RecursionError, MemoryError, OutOfTimeError)
 """Exceptions raised if a file exhausts memory, recursion or time."""
-
-
 EXHAUSTION = (
     "nested too deeply",
     "takes too long to check",

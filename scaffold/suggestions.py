@@ -16,8 +16,6 @@ MOST_ORDERED = 100
 """The maximum number of names from which the closest are listed."""
 CANDIDATES = 3
 """The number of closest names that are compared in lower case."""
-
-
 View = TypeVar("View")
 
 

@@ -54,8 +54,6 @@ _LATER: Mapping[str, str] = {
     "bitwise_left_shift": "np.left_shift()",
 }
 """Names added in NumPy 2.0; Ubuntu 24.04 (Jazzy) has 1.26."""
-
-
 _CATCHES = re.compile(r"\b(?:AttributeError|Exception|BaseException)\b")
 """Matches what a handler catches that is for versions without a name."""
 _SECOND = (2,)

@@ -12,8 +12,6 @@ MARKERS = {
     "AMENT_IGNORE": "colcon-ros and the ament tools",
     "CATKIN_IGNORE": "colcon-ros",
 }
-
-
 _COPIES = frozenset({"third_party", "thirdparty", "3rdparty", "external", "vendor"})
 """Directories of third-party code."""
 

@@ -40,8 +40,6 @@ _CREATED = (
 )
 """Packages whose node creates others, with the beginnings of their names: controllers, costmaps."""
 _MANIFEST = '<package format="3"><name>demo</name></package>\n'
-
-
 _ALIKE = 0.75
 
 

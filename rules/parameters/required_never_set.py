@@ -25,8 +25,6 @@ _STARTING = (
     "        Node(package='demo', executable='talk', name={!r}),\n"
     "        Node(package='other', executable='speak', name='speaker2'),\n    ])\n"
 )
-
-
 _FILES = {
     "package.xml": "<package><name>demo</name></package>\n",
     "setup.py": "from setuptools import setup\n\nsetup(name='demo', packages=['demo'],\n"

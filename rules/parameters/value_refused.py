@@ -33,8 +33,6 @@ _NODE = (
 _FILE_EMPTY = "talker:\n  ros__parameters:\n    names: {}\n"
 _ASKING = frozenset({"NOT_SET", "get_parameter_or", "has_parameter", "type_"})
 """Methods and attributes that tell whether a parameter has a value."""
-
-
 _REWRITTEN = re.compile("^'[^']*' (?:has no value|is the alias)")
 """Matches what RewrittenYaml of Nav2 replaces with a value."""
 _SERVERS = frozenset({"amcl", "controller_server", "local_costmap", "map_server"})

@@ -25,8 +25,6 @@ _MANIFEST = (
 )
 _SETUP = "from setuptools import setup\n\nsetup(\n    name='talker',\n    data_files=[{}],\n)\n"
 _BOTH = f"('{INDEX}', ['resource/talker']), ('share/talker', ['package.xml'])"
-
-
 _SETUP_MANIFEST = (
     "from setuptools import setup\n\nsetup(\n    name='talker',\n    data_files=[\n{}    ],\n)\n"
 )

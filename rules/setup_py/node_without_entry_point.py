@@ -25,8 +25,6 @@ _FILES = {
     "talker/node.py": _NODE,
     "talker/other.py": _NODE.replace("Talker", "Listener"),
 }
-
-
 _TEXTS = (".md", ".rst", ".sh")
 
 

@@ -23,8 +23,6 @@ _TEST = (
     "import rclpy\nfrom rclpy.node import Node\n\n\ndef test_node():\n    rclpy.init()\n"
     "    node = Node('node')\n    {}\n    assert node.get_name() == 'node'\n"
 )
-
-
 _AROUND = ("setup", "teardown")
 
 

@@ -25,8 +25,6 @@ _OWN = "    class Case:\n        def test_more(self):\n            pass\n\n    a
 _MORE = "    assert ready()\n\n    def test_more():\n        assert ready()\n"
 _CLASS = "class TextTests:\n    def test_more(self):\n        assert True\n"
 _TEST_BODIES = "{}def test_text():\n    {}\n"
-
-
 _PLUGINS = ("pytestmark", "asyncio_mode", "anyio", "pytest_pyfunc_call", "python_functions")
 """Words that indicate other ways to run tests."""
 

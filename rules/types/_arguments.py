@@ -23,8 +23,6 @@ from scaffold.api.types import (
 
 TIMEOUTS = {"can_transform": 3, "can_transform_full": 5, "transform": 2, "transform_full": 4}
 """The position of the timeout of tf2 functions with several signatures."""
-
-
 _SENT = {"bool": "False is sent", "float": "another number is sent"}
 """The conversions of unchecked values in message fields."""
 

@@ -66,8 +66,6 @@ _FLEET = (
     "        msg = Twist()\n"
     "        self.speeds['left'].publish({})\n"
 )
-
-
 _TABLE = (
     "from rclpy.node import Node\nfrom std_srvs.srv import Trigger\n\n\n"
     "class Arm(Node):\n"

@@ -37,8 +37,6 @@ _DRIVE = (
     "        self.odometry = Odometry()\n"
     "        {} = self.odometry.pose()\n"
 )
-
-
 _NUMBER = (
     "from geometry_msgs.msg import Point\nfrom rclpy.node import Node\n"
     "from rclpy.time import Time\nfrom tf2_ros import Buffer\n\n\n"

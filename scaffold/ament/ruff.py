@@ -59,8 +59,6 @@ def passes() -> Iterator[Sequence[str]]:
 
 MAX_ARGUMENTS = 100_000
 """The maximum size of file names for one process; the system limit is at least 128 KiB."""
-
-
 MOST_OF_A_LINE = 200
 """The maximum number of findings of one code on one line, of which one is shown."""
 

@@ -30,8 +30,6 @@ UNKNOWN = "\0"
 """A placeholder for an unknown argument."""
 MAX_BYTES = 200_000
 """The size limit of a configuration file."""
-
-
 _OF_BOTH = sorted(pep257.AMENT & pep257.CONVENTIONS["pep257"])
 
 

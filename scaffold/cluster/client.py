@@ -26,8 +26,6 @@ _PERIOD = 0.05
 
 Task = TypeVar("Task")
 Result = TypeVar("Result")
-
-
 Dask = Any
 """Objects of Dask, which need not be installed."""
 

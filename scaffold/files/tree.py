@@ -12,8 +12,6 @@ from scaffold.files.disk import MAX_BYTES, Disk, LargeFileError
 CMAKE_LISTS = "CMakeLists.txt"
 SETUP_PY = "setup.py"
 SETUP_CFG = "setup.cfg"
-
-
 BUILD_DIRECTORIES = frozenset({"build", "install", "log"})
 MANIFEST = "package.xml"
 ENVIRONMENT = "pyvenv.cfg"

@@ -14,8 +14,6 @@ _REFERENCE = lazy_re.compile(r"&(?:#[0-9]+|#x[0-9A-Fa-f]+|[A-Za-z_:][\w:.\-]*);"
 _NAME = lazy_re.compile(r"[^\s<>/=\"'&]+")
 _NEAR = 4096  # characters; errors further away are unrelated
 _TYPOGRAPHIC_QUOTES = "\u201c\u201d\u2018\u2019"
-
-
 Explanation = tuple[int, int, str]
 
 

@@ -33,8 +33,6 @@ _IMPORT = lazy_re.compile(r"import ([A-Z]\w*(?:, [A-Z]\w*)*)")
 
 VERSION = "0.1.0"
 """The version of a new package; 0.0.0 would be a placeholder."""
-
-
 PARAMETERS = "_parameters.yaml.jinja"
 """The template file with the parameter values of a kind of node, for launch files."""
 

@@ -21,8 +21,6 @@ LATENESS = 0.05
 """Seconds by which the first or the last message may be late."""
 PATIENCE = 2
 """Periods without a message before a topic counts as silent."""
-
-
 _SIM_TIME = "use_sim_time"
 
 

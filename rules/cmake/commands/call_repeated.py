@@ -26,8 +26,6 @@ _LISTS = (
 )
 _FILES = {"test/test_talk.py": "", "test/test_more.py": ""}
 _FIND = "find_package(rclcpp REQUIRED)\n"
-
-
 _LISTS_INTERFACES = (
     "project(my_robot)\nrosidl_generate_interfaces(${PROJECT_NAME} msg/Beat.msg)\n"
     "ament_python_install_package(%s)\n"

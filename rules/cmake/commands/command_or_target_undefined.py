@@ -63,8 +63,6 @@ _WITHOUT_CORE = ("ament_index_cpp", "ament_index_python", "launch", "launch_ros"
 
 _CALL = "project(talker)\nfind_package(ament_cmake REQUIRED)\n{}()\n"
 _LISTS = "project(talker)\n{}ament_add_pytest_test(talk test/test_talk.py)\n"
-
-
 _LISTS_TARGETS = (
     "project(talker)\nadd_executable(talk src/talk.cpp)\nament_target_dependencies({} rclcpp)\n"
 )

@@ -12,8 +12,6 @@ _WANTED = "PROJECT_NAME"
 _OTHERS = frozenset({"PACKAGE_NAME", "PKG_NAME", "PACKAGE", "PROJECT", "PROJECTNAME"})
 _KNOWN = frozenset({"CMAKE_PROJECT_NAME", "PROJECT_NAME"})
 _LISTS = "project(talker)\n{}install(FILES a.yaml DESTINATION share/${{{}}})\nament_package()\n"
-
-
 _LISTS_CLOSED = (
     "project(talker)\ninstall(PROGRAMS talker/node.py\n"
     '  DESTINATION lib/{}\n)\nset(pattern [[a${{b]] "\\${{c" \'d$\' "@${{PROJECT_NAME}}")\n'

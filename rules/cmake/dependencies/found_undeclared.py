@@ -29,13 +29,9 @@ _ELSEWHERE = (
     '  <depend condition="$ROS_DISTRO == humble">rclcpp</depend>\n'
     '  <depend condition="$SIMULATION == yes">nav_msgs</depend>\n</package>\n'
 )
-
-
 _MANIFEST_RUN_ONLY = '<package format="3">\n  <name>talker</name>\n{}</package>\n'
 _LISTS_RUN_ONLY = "project(talker)\nfind_package(std_msgs REQUIRED)\n"
 _EXEC = "  <exec_depend>std_msgs</exec_depend>\n"
-
-
 _HOLDING = frozenset({"BUILD_TESTING", "UNIX", "LINUX", "TRUE", "ON", "1"}) | frozenset(
     {"NOT", "AND", "OR", "WIN32", "APPLE", "MSVC", "ANDROID", "CMAKE_CROSSCOMPILING"}
 )

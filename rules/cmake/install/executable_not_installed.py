@@ -34,15 +34,11 @@ _LISTS = (
 )
 _DATA = "install(DIRECTORY scripts DESTINATION share/talker)\nament_package()\n"
 _FOR_USERS = ("launch.py", "launch.xml", "launch.yaml", "launch.yml", ".sh", ".md", ".rst")
-
-
 _LISTS_TARGETS = (
     "project(talker)\nfind_package(ament_cmake REQUIRED)\nadd_executable(talk src/talk.cpp)\n"
     "add_executable(listen src/listen.cpp)\n"
     "install(TARGETS talk {}DESTINATION lib/${{PROJECT_NAME}})\nament_package()\n"
 )
-
-
 _CONFIGURED = {
     "package.xml": '<package format="3"><name>talker</name><export>'
     "<build_type>ament_cmake</build_type></export></package>\n",

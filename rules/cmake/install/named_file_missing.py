@@ -60,8 +60,6 @@ _GLOB = (
     "rosidl_generate_interfaces(${PROJECT_NAME} ${files} DEPENDENCIES std_msgs)\n"
 )
 _LISTS_PACKAGE = "project(talker)\nament_python_install_package({})\n"
-
-
 _FILE_KINDS = frozenset({"FILES", "PROGRAMS"})
 _MAX_DEPTH = 4
 """More functions that call each other are not followed."""

@@ -41,8 +41,6 @@ _LAUNCH_ITEMS = (
 )
 _ALONE = frozenset({"this is a list", "this is a tuple", "this is a function", "this is None"})
 """Types that a handler accepts instead of a list."""
-
-
 _STATES = (
     *("unconfigured", "inactive", "active", "finalized", "configuring", "activating"),
     *("deactivating", "cleaningup", "shuttingdown", "errorprocessing"),

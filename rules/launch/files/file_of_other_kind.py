@@ -23,8 +23,6 @@ _LAUNCH = (
     "    return LaunchDescription([\n"
     "        IncludeLaunchDescription(PythonLaunchDescriptionSource(path)),\n    ])\n"
 )
-
-
 _LAUNCH_XACRO = (
     "import os\n\nfrom ament_index_python.packages import get_package_share_directory\n"
     "from launch import LaunchDescription\nfrom launch.substitutions import Command\n"

@@ -14,8 +14,6 @@ _LAUNCH = (
     "import launch\n"
     "SHARE = get_package_share_directory('talker')\n{}\n"
 )
-
-
 _OF_SYSTEM = frozenset({"dev", "etc", "home", "media", "mnt", "opt", "root", "tmp", "usr", "var"})
 """Directories at the root of every Linux system: a path into them is meant to be absolute."""
 

@@ -52,8 +52,6 @@ _OF_SPAWN_ENTITY = {
 """Options of gazebo_ros, with their replacements."""
 _ROBOT = rb"<(?:robot|model)\b[^>]*\bname=[\"']%b[\"']"
 _DESCRIPTIONS = (".urdf", ".xacro", ".sdf")
-
-
 _LAUNCH_DEPRECATED = (
     "from launch import LaunchDescription\n"
     "from launch_ros.actions import ComposableNodeContainer\n\n\n"

@@ -37,8 +37,6 @@ _LAUNCH = (
     "        Node(package='demo', executable='talk',{}\n"
     "             remappings=[('{}', 'other')]),\n    ])\n"
 )
-
-
 _ALWAYS = frozenset({"clock", "parameter_events", "rosout", "tf", "tf_static"})
 """Topics of any node, also through tf2."""
 

@@ -71,8 +71,6 @@ _SCAN = (
 )
 _RIGHT = ("20.0 + self.count", "[0.1] * 9", "min(self.count, 255)", "True", "f'{self.count}'")
 _FOR_INTS = {"bool": "bool", "float32": "float", "float64": "float"}
-
-
 _OF_BUFFERS = frozenset({"set_transform", "set_transform_static", "transform"})
 _CODE_TIMES = (
     "from rclpy.node import Node\nfrom sensor_msgs.msg import Temperature\n\n\n"

@@ -22,8 +22,6 @@ _KINDS = (
 )
 _LISTS_KEYWORDS = "project(my_msgs)\nrosidl_generate_interfaces(${PROJECT_NAME} msg/Beat.msg)\n"
 _LISTS_ESCAPES = "project(my_msgs)\nrosidl_generate_interfaces(${PROJECT_NAME} msg/Beat.msg)\n"
-
-
 _C_MACROS = frozenset(
     {"BUFSIZ", "CLOCKS_PER_SEC", "EOF", "EXIT_FAILURE", "EXIT_SUCCESS", "NULL", "RAND_MAX"}
     | {"SEEK_CUR", "SEEK_END", "SEEK_SET", "SIZE_MAX"}

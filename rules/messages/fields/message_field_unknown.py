@@ -24,8 +24,6 @@ _NODE = (
     "    def on_chatter(self, msg):\n"
     "        self.get_logger().info(msg.{})\n"
 )
-
-
 _NODE_WRAPPED = (
     "from example_interfaces.action import Fibonacci\nfrom rclpy.action import ActionClient\n"
     "from rclpy.node import Node\n\n\n"

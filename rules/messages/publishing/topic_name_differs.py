@@ -64,8 +64,6 @@ _ALIKE = 4
 """The minimum length of a name for which one different letter counts as a typo."""
 
 _WORD = re.compile(r"[^\W_]+")
-
-
 _FILES = {
     "package.xml": "<package><name>demo</name></package>\n",
     "setup.py": "from setuptools import setup\n\nsetup(name='demo', packages=['demo'],\n"

@@ -95,8 +95,6 @@ _SERVER = (
     "    def report(self, request):\n        pass\n\n"
     "    def execute(self):\n        pass\n"
 )
-
-
 _PARTIAL = (
     "from functools import partial\n\n"
     "from rclpy.node import Node\nfrom std_srvs.srv import SetBool\n\n\n"

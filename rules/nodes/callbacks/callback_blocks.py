@@ -66,8 +66,6 @@ _GROUPS = (
     "    executor.add_node(Talker())\n"
     "    executor.spin()\n"
 )
-
-
 _QUEUES = frozenset(
     {"multiprocessing.Queue", "queue.LifoQueue", "queue.PriorityQueue", "queue.Queue"}
     | {"queue.SimpleQueue"}

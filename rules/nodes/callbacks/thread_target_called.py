@@ -282,8 +282,6 @@ def _are_idle(
 
 _IDLE = frozenset({"daemon", "name", "join", "is_alive"})
 """Attributes that do not start a thread."""
-
-
 _ENDING = re.compile(
     r"\b(?:publish|rclpy|call|call_async|get_clock|get_parameter|sendTransform|rate|exit|_exit"
     r"|raise|break|return|yield|spin\w*|is_set|recv|accept|get)\b"

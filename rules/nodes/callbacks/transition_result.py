@@ -25,8 +25,6 @@ _NODE = (
     "        {}\n"
 )
 _RIGHT = "return super().on_activate(state)"
-
-
 _OWN_TRANSITIONS = ("on_configure", "on_activate", "on_deactivate", "on_cleanup")
 """Names that are only used for transition callbacks."""
 _MIN_METHODS = 2

@@ -53,8 +53,6 @@ _VARIABLES = (
     "        value = self.parameter.get_parameter_value()\n"
     "        self.period = value.{}\n"
 )
-
-
 _GIVING = frozenset({"get_parameter", "get_parameter_or", "declare_parameter"})
 
 

@@ -62,8 +62,6 @@ _NODE_ORDER = (
     "    def tick(self):\n"
     "        pass\n"
 )
-
-
 _SENDER = (
     "from example_interfaces.action import Fibonacci\nfrom rclpy.action import ActionClient\n"
     "from rclpy.node import Node\n\n\n"

@@ -39,8 +39,6 @@ _NODE = (
     "        super().__init__('talker')\n"
     "        self.{} = []\n"
 )
-
-
 _NODE_DESTROY = (
     "from rclpy.node import Node\n\n\n"
     "class Driver(Node):\n"

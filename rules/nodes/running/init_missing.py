@@ -27,8 +27,6 @@ _CMAKE = (
 )
 _XML = "<package><name>demo</name><export><build_type>ament_cmake</build_type></export></package>\n"
 _FILES = {"package.xml": _XML, "CMakeLists.txt": _CMAKE}
-
-
 _HARMLESS = frozenset({"rclpy", *dir(builtins)})
 
 

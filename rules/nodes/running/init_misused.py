@@ -18,8 +18,6 @@ _PARSERS = frozenset({"argparse", "click", "docopt", "optparse", "typer"})
 _MAIN_ARGUMENTS = (
     "import rclpy\n\n\ndef main(args=None):\n    rclpy.init({})\n    rclpy.shutdown()\n"
 )
-
-
 _WITH = "import rclpy\n\n\ndef main():\n    with rclpy.init():\n        pass\n"
 _PLAIN = "import rclpy\n\n\ndef main():\n    rclpy.init()\n"
 

@@ -34,8 +34,6 @@ _NODE = (
     "        {}\n\n"
     "    def answer(self, future):\n        pass\n"
 )
-
-
 _SPINNING = (
     "import rclpy\nfrom rclpy.node import Node\n\n\n"
     "class Talker(Node):\n"

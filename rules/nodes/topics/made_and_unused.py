@@ -46,8 +46,6 @@ _NODE_GROUPS = (
     "    def tick(self):\n"
     "        pass\n"
 )
-
-
 _WINDOW = (
     "import cv2\nfrom rclpy.node import Node\nfrom sensor_msgs.msg import Image\n\n\n"
     "class Show(Node):\n"

@@ -24,8 +24,6 @@ _NODE = (
     "        pass\n"
 )
 _REGISTER = "        self.sync.registerCallback(self.view)\n\n"
-
-
 _LONG = 5
 """Seconds; a larger slop is implausible and may be in milliseconds."""
 

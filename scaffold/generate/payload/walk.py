@@ -352,8 +352,6 @@ _DIAGONALS = {4: 3, 9: 4, 16: 5, 36: 7}
 """The stride of the diagonal of a square matrix, by its number of elements."""
 _COARSE = 0.1
 """The amplitude below which a quantity is not logged, as two decimals would hide it."""
-
-
 _BRIEF = ((12, 4, 2), (10, 3, 1), (8, 2, 1), (6, 2, 1), (5, 1, 1), (3, 1, 1))
 """The number of fields filled by level of brevity, for the root and for nested messages."""
 MAX_BRIEF = len(_BRIEF)

@@ -29,8 +29,6 @@ from scaffold.generate.templates.template import ENDING, MAX_BYTES
 
 _COMMENT = lazy_re.compile(r"^([ \t]*)(?:(#|//):(?: (.*))?|<!--: (.*))$", re.MULTILINE)
 """A tutorial comment: ``#: text``, ``//: text`` or ``<!--: text -->``; may be empty."""
-
-
 TOO_MUCH_MEMORY = "uses too much memory"
 
 

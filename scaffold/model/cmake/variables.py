@@ -63,8 +63,6 @@ _PARTS: Mapping[str, Callable[[str], str]] = {
 """The parts of a path that ``get_filename_component`` returns."""
 _PARTS_ARGUMENTS = len(("path", "NAME"))
 _READING_LISTS = frozenset({"LENGTH", "GET", "JOIN", "SUBLIST", "FIND"})
-
-
 Bindings = Mapping[str, str | None]
 """Values of the variables of loops, and of the parameters of functions; ``None`` if unknown."""
 

@@ -23,8 +23,6 @@ _COMPARISONS: Mapping[type[ast.cmpop], Callable[[object, object], object]] = {
     ast.Is: operator.is_,
     ast.IsNot: operator.is_not,
 }
-
-
 _USING = (ast.Call, ast.Await, ast.Name)
 """What uses a function, or may call one that does."""
 

@@ -241,8 +241,6 @@ def _newer_version(text: str, positions: Positions, error: SyntaxError) -> tuple
 
 
 _F_STRING = r"""(?<!\w)(?:[fF][rR]?|[rR][fF])(\"\"\"|'''|"|')"""
-
-
 _DEEPEST_F_STRING = 8
 
 

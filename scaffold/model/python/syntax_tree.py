@@ -23,8 +23,6 @@ _DEFAULTS_OF_TYPES = (3, 13)
 """The version whose type parameters may have defaults."""
 MAX_DEPTH = 300
 """The depth limit of syntax trees; real modules stay below 50, and visitors recurse."""
-
-
 _NO_NAMES = frozenset[str]()
 """Shared, as most expressions have none, and Python makes a new empty set each time."""
 

@@ -32,8 +32,6 @@ _TAKING = lazy_re.compile(rb"\bdef (?!main\b)\w+\((?!\s{0,9}(?:self|cls)?\s{0,9}
 _MOST_PACKAGES = 60
 """In larger workspaces, calls by other packages are not followed: each depends on all others."""
 _BOUND = lazy_re.compile(r"\b(?:def|lambda|for|as|global|nonlocal|del|import)\b")
-
-
 _CLASS = lazy_re.compile(r"^class \w+\((\w+(?:\.\w+)?)[ ]*(?:,[^()\n]*)?\):[^\n]*\n", re.MULTILINE)
 """Matches the head of a class with its first base."""
 _OF_SELF = lazy_re.compile(r"(?<![\w.])(?:(self)|super\(\))\.(\w+)\((?!\))")

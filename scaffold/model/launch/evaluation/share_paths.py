@@ -39,12 +39,8 @@ _DATABASES = (".db", ".sqlite", ".sqlite3")
 
 _PLACEHOLDER = lazy_re.compile(r"(?i:readme[^/]*|\.(?:git)?(?:keep|ignore)|\.placeholder)")
 """Matches files that keep a directory in git."""
-
-
 _OPTIONS = lazy_re.compile(r"\s-")
 """Matches the start of options after a file."""
-
-
 _IMAGE = lazy_re.compile(r"""^image:[ \t]*["']?([^\s"'#]+)""", re.MULTILINE)
 """Matches the image that the file of a map names."""
 

@@ -81,8 +81,6 @@ MAX_STEPS = 20_000
 MOST_STEPS = 300_000
 """The number of expressions visited in a file, after which each value gets only FEW_STEPS."""
 FEW_STEPS = 100
-
-
 Comprehension = ast.ListComp | ast.SetComp | ast.GeneratorExp | ast.DictComp
 
 _NO_NOTES = frozenset[str]()

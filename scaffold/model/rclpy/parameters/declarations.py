@@ -20,8 +20,6 @@ SIGNATURES = {
     "declare_parameter": ("name", "value", "descriptor", "ignore_override"),
     "declare_parameters": ("namespace", "parameters", "ignore_override"),
 }
-
-
 _CHANGING = ("clear", "pop", "popitem", "setdefault", "update")
 """The methods that change which keys a dictionary has."""
 

@@ -21,8 +21,6 @@ _RANGES = {
 }
 _TOLERANCE = 1e-6
 """``Node.PARAM_REL_TOL`` of rclpy."""
-
-
 _KEEPING = ("append", "declare_parameter", "declare_parameters", "print", "set_descriptor")
 
 

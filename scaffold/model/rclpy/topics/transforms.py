@@ -18,8 +18,6 @@ _SIGNATURES: Mapping[str, tuple[str, ...]] = {
     "transform": ("object_stamped", "target_frame", "timeout", "new_type"),
 }
 _BUFFERS = frozenset({"tf2_ros.Buffer", "tf2_ros.buffer.Buffer"})
-
-
 CONVERSIONS = frozenset({"tf2_geometry_msgs", "tf2_sensor_msgs", "tf2_kdl", "tf2_bullet", "tf2_2d"})
 """The modules that register conversions of messages for tf2 buffers on import."""
 
