@@ -11,7 +11,7 @@ from scaffold.api.formats import Scalar
 from scaffold.api.launch import started_nodes
 from scaffold.api.parameters import Section, parameter_files
 
-from ._started import is_used_by_nodes
+from ._started_programs import is_used_by_nodes
 
 _DRIVE = "diff_drive_controller/DiffDriveController"
 _TOPIC = "cmd_vel_unstamped"

@@ -38,7 +38,7 @@ from scaffold.api.parameters import (
 from scaffold.api.robot import is_known, robot_file, robot_paths, robots
 
 from ._controllers import replacement
-from ._started import is_named_in_code
+from ._started_programs import is_named_in_code
 from ._velocity_topics import ignored_settings, lost_topics
 
 _MANAGER = "controller_manager"

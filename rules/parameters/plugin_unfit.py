@@ -24,7 +24,7 @@ from scaffold.api.formats import Sequence as YamlSequence
 from scaffold.api.manifest import declared
 from scaffold.api.parameters import Entry, Section, parameter_files
 
-from ._started import is_server_started
+from ._started_programs import is_server_started
 from ._tree_nodes import repeated_tree_nodes
 
 _OF_NAV2 = re.compile(r"(nav2_\w+)(?:/|::)(\w+)")

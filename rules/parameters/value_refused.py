@@ -20,7 +20,7 @@ from scaffold.api.parameters import (
 from scaffold.api.python import conditions_on, is_handled, values_asked
 from scaffold.api.rclpy import NodeClass, NodeDefinition, ParameterRead
 
-from ._started import is_of_nav2
+from ._started_programs import is_of_nav2
 
 _FILE = "talker:\n  ros__parameters:\n    rate: {}\n"
 _FILE_LISTS = "talker:\n  ros__parameters:\n    gains: {}\n"

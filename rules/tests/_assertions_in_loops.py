@@ -7,7 +7,7 @@ import re
 
 from scaffold.api.python import FunctionNode, PythonModule
 
-from ._received import appended_lists
+from ._collected_messages import appended_lists
 
 _CHECKING = re.compile(r"(?:^|\.)_?(?:assert|check|expect|verify|fail|raises|require|wait)")
 """Matches the names of functions that may fail."""

@@ -12,7 +12,7 @@ from scaffold.api.rclpy import LOG_METHODS
 from scaffold.api.tests import test_functions
 
 from ._assertions_in_loops import loop_over_nothing
-from ._received import appended_lists
+from ._collected_messages import appended_lists
 
 _LOOPING = (
     "import rclpy\nfrom std_msgs.msg import String\n\n\n"

@@ -19,7 +19,7 @@ from scaffold.api.tests import (
     test_functions,
 )
 
-from ._received import appended_lists
+from ._collected_messages import appended_lists
 
 _TEST = (
     "import rclpy\nfrom rclpy.node import Node\nfrom std_msgs.msg import String\n\n\n"

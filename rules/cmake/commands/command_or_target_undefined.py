@@ -9,7 +9,7 @@ from scaffold.api import Diagnostic, Effect, Example, Package, Rule, closest_nam
 from scaffold.api.catalog import is_near, is_released
 from scaffold.api.cmake import BUILT_IN, OF_AMENT, CMakeLists, has_unknown_commands, uses_ament
 
-from ._found import packages_found
+from ._packages_found import packages_found
 from ._targets import TAKING_TARGETS, defined_targets, targets_named_once
 
 _OF_ROS1 = {

@@ -8,7 +8,7 @@ from scaffold.api import Diagnostic, Effect, Example, Package, Rule
 from scaffold.api.catalog import is_released
 from scaffold.api.cmake import Argument, CMakeLists, Command, has_unknown_commands
 
-from ._found import packages_found
+from ._packages_found import packages_found
 from ._targets import DEFINING
 
 _CONFIGURING = (

@@ -1,4 +1,4 @@
-"""Interfaces that CMake collects by a pattern."""
+"""Patterns of ``file(GLOB)`` that match no file."""
 
 from __future__ import annotations
 

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from scaffold.api import Diagnostic, Example, LaunchRule, Report, Severity
 from scaffold.api.launch import LaunchFile
 
-from ._values import LOOSE, flaws
+from ._argument_checks import LOOSE, flaws
 
 _LAUNCH = (
     "from launch import LaunchDescription\n"

@@ -20,7 +20,7 @@ from scaffold.api.rclpy import (
     numbers_taken,
 )
 
-from ._tables import calls_of_tables
+from ._function_tables import calls_of_tables
 
 _NODE_OF_TABLE = (
     "from rclpy.node import Node\nfrom std_msgs.msg import String\n\n\n"

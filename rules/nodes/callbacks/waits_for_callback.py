@@ -16,7 +16,7 @@ from scaffold.api.programs import (
 )
 from scaffold.api.rclpy import RclpyFile
 
-from ._asked import attributes_asked
+from ._loop_conditions import attributes_asked
 
 _NODE = (
     "import threading\nimport time\n\nfrom rclpy.node import Node\n"

@@ -18,7 +18,7 @@ from scaffold.api.rclpy import (
     name_asked,
 )
 
-from ._callbacks import RESULT
+from ._callback_results import RESULT
 
 _TYPES = ("rclpy.parameter.Parameter.Type.", "rclpy.Parameter.Type.")
 _NODE = (

@@ -11,7 +11,7 @@ from scaffold.api.parameters import parameter_files
 from scaffold.api.python import PythonModule, is_handled, joined_names
 from scaffold.api.rclpy import PARAMETER, Parameter, RclpyFile, class_of, is_of_node
 
-from ._values import fields_read
+from ._parameter_objects import fields_read
 
 _TYPES = "rcl_interfaces.msg.ParameterType.PARAMETER_"
 _TYPE = "expected Parameter.Type.{}"

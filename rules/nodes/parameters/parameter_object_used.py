@@ -9,7 +9,7 @@ from scaffold.api import Diagnostic, Edit, Example, Fix, Package, RclpyRule, Rep
 from scaffold.api.python import is_expected
 from scaffold.api.rclpy import FIELDS, PARAMETER, RclpyFile, class_of
 
-from ._values import objects_used
+from ._parameter_objects import objects_used
 
 _NODE = (
     "from rclpy.node import Node\n\n\n"

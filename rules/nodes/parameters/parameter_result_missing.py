@@ -9,7 +9,7 @@ from scaffold.api import Diagnostic, Example, RclpyRule
 from scaffold.api.python import FunctionNode, is_generator, may_end_with_items, returned
 from scaffold.api.rclpy import CALLBACKS, Callback, RclpyFile
 
-from ._callbacks import wrong_value
+from ._callback_results import wrong_value
 
 _ON, _POST, _PRE = CALLBACKS
 _NODE = (

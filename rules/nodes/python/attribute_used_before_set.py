@@ -23,7 +23,7 @@ from scaffold.api.rclpy import (
     names_of_bases,
 )
 
-from ._helpers import too_early
+from ._constructor_helpers import too_early
 
 _NODE = (
     "from rclpy.node import Node\nfrom std_msgs.msg import String\n\n\n"

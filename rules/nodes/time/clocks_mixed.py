@@ -9,7 +9,7 @@ from scaffold.api import Diagnostic, Example, RclpyRule, Report, Severity
 from scaffold.api.python import Condition, all_conditions, is_handled
 from scaffold.api.rclpy import RclpyFile
 
-from ._times import NUMBER, clocks_of
+from ._clocks import NUMBER, clocks_of
 
 _NAMES = {
     "ROS_TIME": "the ROS clock",

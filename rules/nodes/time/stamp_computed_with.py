@@ -9,7 +9,7 @@ from scaffold.api import Diagnostic, Example, RclpyRule
 from scaffold.api.python import PythonModule
 from scaffold.api.rclpy import RclpyFile, class_of
 
-from ._times import NUMBER, clocks_of
+from ._clocks import NUMBER, clocks_of
 
 _SPANS = frozenset({"rclpy.duration.Duration", "rclpy.time.Time"})
 _NODE = (

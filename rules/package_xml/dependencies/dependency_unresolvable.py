@@ -24,7 +24,7 @@ from scaffold.api.catalog import (
 from scaffold.api.distributions import removed_package, target
 from scaffold.api.manifest import declared, is_fetched
 
-from ._no_keys import why_no_key
+from ._names_without_key import why_no_key
 
 _PACKAGE = re.compile(r"[a-z][a-z0-9_]*")
 """Matches what the packages of ROS are named like."""

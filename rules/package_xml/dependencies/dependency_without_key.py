@@ -11,7 +11,7 @@ from scaffold.api.catalog import (
 )
 from scaffold.api.manifest import is_fetched
 
-from ._no_keys import is_found_by_cmake, is_of_cpp, why_no_key
+from ._names_without_key import is_found_by_cmake, is_of_cpp, why_no_key
 
 _PYTHON = "  <export><build_type>ament_python</build_type></export>\n</package>"
 _MANIFEST = (
