@@ -26,7 +26,7 @@ from scaffold.model.launch.evaluation.share_paths import (
     is_given_as_parameters,
     is_left_to_the_user,
     missing_in,
-    paths_of,
+    named_paths,
     why_missing,
 )
 from scaffold.model.launch.files import DATA_DIRECTORIES, data_files, is_named, launch_files
@@ -130,13 +130,13 @@ __all__ = [
     "may_be_set_elsewhere",
     "meant_package",
     "missing_in",
+    "named_paths",
     "names_of",
     "node_names",
     "nodes_for",
     "package_uses",
     "parameter_items",
     "parameters_given",
-    "paths_of",
     "processes",
     "set_names",
     "signature",

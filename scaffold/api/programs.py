@@ -18,7 +18,12 @@ from scaffold.model.programs.blocking import (
     waits_alone,
     waits_in,
 )
-from scaffold.model.programs.entry_points import Execution, paths_of, run_of, starts_of
+from scaffold.model.programs.entry_points import (
+    Execution,
+    entry_points_of,
+    execution_of,
+    imported_paths,
+)
 from scaffold.model.programs.executables import programs_of
 from scaffold.model.programs.known_nodes import KnownNode
 from scaffold.model.programs.publishing import publish_calls
@@ -50,6 +55,9 @@ __all__ = [
     "blocks_node",
     "client_at",
     "client_of",
+    "entry_points_of",
+    "execution_of",
+    "imported_paths",
     "in_callbacks",
     "in_constructors",
     "in_helpers",
@@ -62,16 +70,13 @@ __all__ = [
     "names_callback_group",
     "names_other_executor",
     "one_sided",
-    "paths_of",
     "phases_of",
     "programs_of",
     "publish_calls",
-    "run_of",
     "services_of",
     "share_group",
     "spins_elsewhere",
     "spins_in_one_thread",
-    "starts_of",
     "topics_of",
     "waits_alone",
     "waits_in",

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import TypeVar
 
 from scaffold.model.package import Package
-from scaffold.model.programs.entry_points import EntryPoint, run_of, starts_of
+from scaffold.model.programs.entry_points import EntryPoint, entry_points_of, execution_of
 from scaffold.model.programs.publish_reach import PublishReach, Reach
 from scaffold.model.programs.publishing import publish_rates
 from scaffold.model.python.evaluation.values import Unknown
@@ -25,7 +25,7 @@ _Entity = TypeVar("_Entity", bound=Endpoint)
 def expectations(package: Package) -> dict[str, Expectation]:
     """Return the expectations of Python executables, by name."""
     result: dict[str, Expectation] = {}
-    for start in starts_of(package):
+    for start in entry_points_of(package):
         expectation = _expectation(package, start)
         if expectation is not None:
             result[start.program] = expectation
@@ -37,7 +37,7 @@ def expectations(package: Package) -> dict[str, Expectation]:
 
 def _expectation(package: Package, start: EntryPoint) -> Expectation | None:
     try:
-        run = run_of(package, start.path, start.function)
+        run = execution_of(package, start.path, start.function)
     except ViewError:
         return None
     owners = [] if _has_own_arguments(run.file) else [owner for _, owner in run.nodes()]

@@ -13,7 +13,7 @@ from scaffold.api.launch import (
     is_left_to_the_user,
     is_of_unread_argument,
     missing_in,
-    paths_of,
+    named_paths,
     why_missing,
 )
 
@@ -455,7 +455,7 @@ class SharePathMissing(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for path in paths_of(package):
+        for path in named_paths(package):
             why = why_missing(package, path)
             if why is not None:
                 message = f"share/{path.package}/{path.path} does not exist: {why}"

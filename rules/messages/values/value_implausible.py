@@ -9,7 +9,7 @@ from scaffold.api import Diagnostic, Example, MessageRule, Report, Severity
 from scaffold.api.messages import MessageTypes
 from scaffold.api.python import returned
 
-from . import _angles, _components, _constants, _fractions, _images, _limit_fields, _matrices
+from . import _angles, _components, _constants, _fractions, _images, _limits, _matrices
 
 _NODE = (
     "from rclpy.node import Node\nfrom sensor_msgs.msg import BatteryState, Image\n"
@@ -455,7 +455,7 @@ class ValueImplausible(MessageRule):
         module = types.module
         if module.in_tests:
             return  # tests, where values may be wrong on purpose
-        for part in (_angles, _components, _constants, _fractions, _images, _limit_fields, _matrices):
+        for part in (_angles, _components, _constants, _fractions, _images, _limits, _matrices):
             for at, message in part.flaws(types):
                 yield self.report(module.location(at), message)
         for at, is_used in _components.zero_quaternions(types):

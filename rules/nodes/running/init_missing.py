@@ -8,7 +8,7 @@ import sys
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Effect, Example, Location, Package, Rule, ViewError, fact
-from scaffold.api.programs import Execution, paths_of, run_of, starts_of
+from scaffold.api.programs import Execution, entry_points_of, execution_of, imported_paths
 from scaffold.api.rclpy import RclpyFile
 
 _NODE = (
@@ -70,7 +70,7 @@ class InitMissing(Rule):
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         reported: set[Location] = set()
-        for start in starts_of(package):
+        for start in entry_points_of(package):
             try:
                 problem = _problem_of(package, start.path, start.function)
             except ViewError:
@@ -83,7 +83,7 @@ class InitMissing(Rule):
 @fact
 def _problem_of(package: Package, path: str, function: str | None) -> tuple[Location, str] | None:
     """Return the place and message of the problem of a program; raises ViewError."""
-    run = run_of(package, path, function)
+    run = execution_of(package, path, function)
     first = next(iter(run.nodes()), None)
     if first is None or run.file.module.in_tests:
         return None
@@ -95,7 +95,7 @@ def _problem(package: Package, run: Execution, made: ast.Call) -> str | None:
     file = run.file
     late = _late_init(file, made)
     own = file.module.path
-    for path in paths_of(package, own):
+    for path in imported_paths(package, own):
         if _may_init(package, path) and not (late and path == own):
             return None
     if any(word.arg in {"context", None} for word in made.keywords):

@@ -32,7 +32,7 @@ class Known(NamedTuple):
 
     value: str | None
     """``None`` if unknown."""
-    is_asked: bool = False
+    is_specific: bool = False
     """Whether it depends on the distribution."""
 
 
@@ -44,7 +44,7 @@ class Decision(NamedTuple):
 
     holds: bool | None
     """``None`` if unknown."""
-    is_asked: bool = False
+    is_specific: bool = False
     """Whether it depends on the distribution."""
 
 
@@ -63,7 +63,7 @@ class Scope:
     """The variables of a file, as far as they are known; see `expand` and `lookup`."""
 
     def __init__(self) -> None:
-        self._known: dict[str, Known] = {VARIABLE: Known(target().name, is_asked=True)}
+        self._known: dict[str, Known] = {VARIABLE: Known(target().name, is_specific=True)}
 
     def set(self, name: str, value: Known) -> None:
         """Set a variable."""
@@ -77,7 +77,7 @@ class Scope:
         released = target().fact("released").get(package)
         if part != "MAJOR" or released is None or target().name in ALIASES:
             return UNKNOWN
-        return Known(released.partition(".")[0], is_asked=True)
+        return Known(released.partition(".")[0], is_specific=True)
 
     def is_set(self, name: str) -> bool:
         """Return whether the file sets a variable to a tracked value."""
@@ -85,7 +85,7 @@ class Scope:
 
     def expand(self, text: str) -> Known:
         """Return a text with its variables replaced."""
-        is_asked = False
+        is_specific = False
         parts: list[str] = []
         for piece in re.split(r"(\$(?:ENV|CACHE)?\{[^{}$]*\})", text):  # linear: nothing nests
             if not piece.endswith("}") or not piece.startswith("$"):
@@ -94,14 +94,14 @@ class Scope:
             part = self._value(piece)
             if part.value is None:
                 return UNKNOWN
-            is_asked |= part.is_asked
+            is_specific |= part.is_specific
             parts.append(part.value)
         value = "".join(parts)
-        return UNKNOWN if re.search(r"\$\w*[{<]", value) else Known(value, is_asked)
+        return UNKNOWN if re.search(r"\$\w*[{<]", value) else Known(value, is_specific)
 
     def _value(self, reference: str) -> Known:
         if reference in OF_DISTRIBUTION:
-            return Known(target().name, is_asked=True)
+            return Known(target().name, is_specific=True)
         return self.lookup(reference[2:-1]) if reference.startswith("${") else UNKNOWN
 
 
@@ -152,7 +152,7 @@ class Condition:
 def _test(words: Sequence[Word], scope: Scope) -> Decision:
     match [word.text for word in words]:
         case ["DEFINED", variable] if variable in OF_DISTRIBUTION:
-            return Decision(holds=True, is_asked=True)
+            return Decision(holds=True, is_specific=True)
         case [_]:
             return _truth_of(words[0], scope)
         case [name, operator, _] if operator.startswith("VERSION_"):
@@ -194,8 +194,8 @@ def compare(operator: str, left: Known, right: Known) -> Decision:
     """Return the result of a comparison such as ``STRLESS``, given its suffix ``LESS``."""
     if left.value is None or right.value is None or operator not in _TEXTS:
         return UNDECIDED
-    is_asked = left.is_asked or right.is_asked
-    return Decision(_TEXTS[operator](left.value, right.value), is_asked)
+    is_specific = left.is_specific or right.is_specific
+    return Decision(_TEXTS[operator](left.value, right.value), is_specific)
 
 
 def _operand(word: Word, scope: Scope) -> Known:
@@ -207,18 +207,18 @@ def _operand(word: Word, scope: Scope) -> Known:
 
 def _truth_of(word: Word, scope: Scope) -> Decision:
     operand = _operand(word, scope)
-    if operand.value is None or not operand.is_asked:
+    if operand.value is None or not operand.is_specific:
         return UNDECIDED
     value = operand.value.upper()
     if value in _FALSE or value.endswith("-NOTFOUND"):
-        return Decision(holds=False, is_asked=True)
-    return Decision(holds=True, is_asked=True) if value in _TRUE else UNDECIDED
+        return Decision(holds=False, is_specific=True)
+    return Decision(holds=True, is_specific=True) if value in _TRUE else UNDECIDED
 
 
 def _contained(item: Known, listed: Known) -> Decision:
     if item.value is None or listed.value is None:
         return UNDECIDED
-    return Decision(item.value in split_list(listed.value), item.is_asked or listed.is_asked)
+    return Decision(item.value in split_list(listed.value), item.is_specific or listed.is_specific)
 
 
 def _matched(text: Known, pattern: Known) -> Decision:
@@ -228,7 +228,7 @@ def _matched(text: Known, pattern: Known) -> Decision:
         is_match = re.search(pattern.value, text.value) is not None
     except (re.error, RecursionError, OverflowError):
         return UNDECIDED
-    return Decision(is_match, text.is_asked or pattern.is_asked)
+    return Decision(is_match, text.is_specific or pattern.is_specific)
 
 
 def _version(left: str, operator: str, words: Sequence[Word], scope: Scope) -> Decision:
@@ -247,14 +247,14 @@ def _version(left: str, operator: str, words: Sequence[Word], scope: Scope) -> D
     if ours < theirs and target().name in ALIASES:  # which may be later than the known version
         return UNDECIDED
     order = (ours > theirs) - (ours < theirs)
-    return Decision(_TEXTS[operator](chr(1 + order), chr(1)), is_asked=True)
+    return Decision(_TEXTS[operator](chr(1 + order), chr(1)), is_specific=True)
 
 
 def _between_releases(operator: str, wanted: tuple[int, ...]) -> Decision:
     """Return the result if it is the same for all releases with the same first numbers."""
     if any(wanted[_FIXED_PARTS:]) or operator not in {"LESS", "GREATER_EQUAL"}:
         return UNDECIDED
-    return Decision(operator == "GREATER_EQUAL", is_asked=True)
+    return Decision(operator == "GREATER_EQUAL", is_specific=True)
 
 
 def _version_key(version: str) -> tuple[int, ...]:
@@ -263,11 +263,11 @@ def _version_key(version: str) -> tuple[int, ...]:
 
 
 def _or(left: Decision, right: Decision) -> Decision:
-    is_asked = left.is_asked or right.is_asked
+    is_specific = left.is_specific or right.is_specific
     if left.holds or right.holds:
-        return Decision(holds=True, is_asked=is_asked)
+        return Decision(holds=True, is_specific=is_specific)
     is_open = left.holds is None or right.holds is None
-    return Decision(None if is_open else False, is_asked)
+    return Decision(None if is_open else False, is_specific)
 
 
 def _not(decision: Decision) -> Decision:

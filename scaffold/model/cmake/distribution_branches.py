@@ -92,7 +92,7 @@ class _Block:
             decision: The decision on its condition; that of an ``else`` always holds.
             line: The first line.
         """
-        holds = decision.holds if decision.is_asked else None
+        holds = decision.holds if decision.is_specific else None
         self.line = line
         self.is_dead = self._is_decided or holds is False
         self.is_sure = not self.is_dead and not self._is_open and holds is True
@@ -101,7 +101,7 @@ class _Block:
 
     def enter_last(self, line: int) -> None:
         """Continue with the ``else``, which runs if no earlier branch does."""
-        self.enter(Decision(holds=True, is_asked=True), line)
+        self.enter(Decision(holds=True, is_specific=True), line)
 
 
 class _Walk:
@@ -192,7 +192,7 @@ class _Walk:
                 )
                 decision = compare(operator, left, right)
                 value = None if decision.holds is None else str(int(decision.holds))
-                self._set(name, Known(value, decision.is_asked))
+                self._set(name, Known(value, decision.is_specific))
             case "string", ["TOLOWER" | "TOUPPER" as case, _, name]:
                 known = self._scope.expand(command.arguments[1].text)
                 value = None if known.value is None else _CASES[case](known.value)
@@ -204,9 +204,11 @@ class _Walk:
         """Set a variable, if the command runs."""
         if any(block.is_dead for block in self._blocks):
             before = self._scope.lookup(name) if self._scope.is_set(name) else Known("")
-            self._scope.set(name, before._replace(is_asked=True))
+            self._scope.set(name, before._replace(is_specific=True))
         elif all(block.is_sure for block in self._blocks):
-            self._scope.set(name, value._replace(is_asked=value.is_asked or bool(self._blocks)))
+            self._scope.set(
+                name, value._replace(is_specific=value.is_specific or bool(self._blocks))
+            )
         else:
             self._scope.set(name, UNKNOWN)
 
@@ -224,7 +226,7 @@ class _Walk:
         values = [argument.value for argument in known if argument.value is not None]
         is_all = len(values) == len(known)
         return Known(
-            ";".join(values) if is_all else None, any(argument.is_asked for argument in known)
+            ";".join(values) if is_all else None, any(argument.is_specific for argument in known)
         )
 
     def _line(self, command: Command) -> int:
@@ -246,4 +248,4 @@ def _appended(before: Known, added: Known) -> Known:
     if before.value is None or added.value is None:
         return UNKNOWN
     value = ";".join(filter(None, (before.value, added.value)))
-    return Known(value, before.is_asked or added.is_asked)
+    return Known(value, before.is_specific or added.is_specific)

@@ -7,7 +7,12 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from scaffold.model.package import mentions
-from scaffold.model.programs.entry_points import Execution, files_of, run_of, starts_of
+from scaffold.model.programs.entry_points import (
+    Execution,
+    entry_points_of,
+    execution_of,
+    imported_files,
+)
 from scaffold.model.programs.threads import (
     blocks_others,
     names_callback_group,
@@ -213,7 +218,7 @@ def waits_alone(
         waits_of: A fact: the result of `waits_in` for a program.
     """
     seen: set[Location] = set()
-    for start in starts_of(package):
+    for start in entry_points_of(package):
         try:
             if not mentions(package, start.path, method):
                 continue
@@ -240,12 +245,12 @@ def waits_in(
         method: The name of the method.
         is_wait: Tells whether a call with that name blocks.
     """
-    run = run_of(package, *program)
+    run = execution_of(package, *program)
     module = run.file.module
     if module.in_tests:
         return ()
     waits = [wait for wait in _waits(run, method) if is_wait(run.file, wait.call)]
-    files = files_of(package, module.path) if waits else ()
+    files = imported_files(package, module.path) if waits else ()
     if any(map(_has_threads, files)) and any(map(_spins_step_by_step, files)):
         return ()
     return tuple(

@@ -51,7 +51,7 @@ class Execution(NamedTuple):
 
 
 @remembered_list
-def starts_of(package: Package) -> Iterator[EntryPoint]:
+def entry_points_of(package: Package) -> Iterator[EntryPoint]:
     """Return the entry points of Python programs."""
     try:
         if package.build_type == "ament_python":
@@ -64,18 +64,18 @@ def starts_of(package: Package) -> Iterator[EntryPoint]:
         return
 
 
-def run_of(package: Package, path: str, function: str | None) -> Execution:
+def execution_of(package: Package, path: str, function: str | None) -> Execution:
     """Return the code that a program executes; raises ViewError if it cannot be parsed."""
     return package.remember(("program_run", path, function), lambda: _run(package, path, function))
 
 
-def files_of(package: Package, path: str) -> Sequence[RclpyFile]:
-    """Return a file and the files of its package that it imports; see `paths_of`."""
-    return [rclpy_file(package, other) for other in paths_of(package, path)]
+def imported_files(package: Package, path: str) -> Sequence[RclpyFile]:
+    """Return a file and the files of its package that it imports; see `imported_paths`."""
+    return [rclpy_file(package, other) for other in imported_paths(package, path)]
 
 
 @remembered
-def paths_of(package: Package, path: str) -> list[str]:
+def imported_paths(package: Package, path: str) -> list[str]:
     """Return the paths of a file and of its transitive imports in its package.
 
     The ``__init__.py`` of the packages around them are imported along with them.

@@ -8,7 +8,7 @@ from scaffold.check import runner
 from scaffold.check.rules import registry
 from scaffold.configuration.content import roots
 from scaffold.model.package import Package
-from scaffold.model.programs.entry_points import files_of, run_of, starts_of
+from scaffold.model.programs.entry_points import entry_points_of, execution_of, imported_files
 
 SETUP = """\
 from setuptools import setup
@@ -54,8 +54,8 @@ def count_findings(package: Package) -> int:
 
 def test_entry_point_of_console_script() -> None:
     package = package_of("")
-    [start] = starts_of(package)
-    run = run_of(package, start.path, start.function)
+    [start] = entry_points_of(package)
+    run = execution_of(package, start.path, start.function)
     assert (start.program, start.path, start.function) == ("talker", "demo/talker.py", "main")
     assert [function.name for function in run.functions] == ["main"]
     assert [owner.name for _, owner in run.nodes()] == ["Talker"]
@@ -69,7 +69,7 @@ def test_imported_files_of_the_program() -> None:
         more="import demo.tools\n",
         other="",
     )
-    paths = {facts.module.path for facts in files_of(package, "demo/talker.py")}
+    paths = {facts.module.path for facts in imported_files(package, "demo/talker.py")}
     assert paths == {"demo/talker.py", "demo/tools.py", "demo/more.py", "demo/__init__.py"}
 
 

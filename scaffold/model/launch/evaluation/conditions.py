@@ -28,7 +28,7 @@ class Text(NamedTuple):
 
     value: str
     """The text, with `HOLE` for each unknown part."""
-    is_asked: bool = False
+    is_specific: bool = False
     """Whether the distribution decides it."""
 
 
@@ -37,7 +37,7 @@ UNKNOWN = Text(HOLE)
 
 def truth(text: Text) -> bool | None:
     """Return whether a condition is true on the target; ``None`` if that is open."""
-    return _boolean(text) if text.is_asked else None
+    return _boolean(text) if text.is_specific else None
 
 
 def _boolean(text: Text) -> bool | None:
@@ -45,20 +45,20 @@ def _boolean(text: Text) -> bool | None:
     return True if value in _TRUE else False if value in _FALSE else None
 
 
-def as_text(decision: bool | None, *, is_asked: bool) -> Text:  # noqa: FBT001  three values
+def as_text(decision: bool | None, *, is_specific: bool) -> Text:  # noqa: FBT001  three values
     """Return a decision as text for launch."""
-    return Text(HOLE if decision is None else str(decision).lower(), is_asked)
+    return Text(HOLE if decision is None else str(decision).lower(), is_specific)
 
 
 def joined(parts: Iterable[Text]) -> Text:
     """Join texts like launch joins lists of substitutions."""
     listed = [*parts]
-    return Text("".join(text.value for text in listed), any(text.is_asked for text in listed))
+    return Text("".join(text.value for text in listed), any(text.is_specific for text in listed))
 
 
 def of_environment(name: str) -> Text:
     """Return the value of an environment variable."""
-    return Text(target().name, is_asked=True) if name == VARIABLE else UNKNOWN
+    return Text(target().name, is_specific=True) if name == VARIABLE else UNKNOWN
 
 
 def applied(kind: str, operands: Sequence[Text]) -> Text:
@@ -68,7 +68,7 @@ def applied(kind: str, operands: Sequence[Text]) -> Text:
         kind: Its name in XML, such as ``equals``.
         operands: Its arguments.
     """
-    is_asked = any(operand.is_asked for operand in operands)
+    is_specific = any(operand.is_specific for operand in operands)
     values = [_boolean(operand) for operand in operands]
     match kind, operands:
         case "env", [name, *_]:
@@ -78,13 +78,13 @@ def applied(kind: str, operands: Sequence[Text]) -> Text:
         case "equals" | "not-equals", [left, right]:
             is_open = HOLE in left.value + right.value
             is_same = (left.value == right.value) == (kind == "equals")
-            return as_text(None if is_open else is_same, is_asked=is_asked)
+            return as_text(None if is_open else is_same, is_specific=is_specific)
         case "not", [_]:
-            return as_text(None if values[0] is None else not values[0], is_asked=is_asked)
+            return as_text(None if values[0] is None else not values[0], is_specific=is_specific)
         case ("and" | "all") | ("or" | "any"), [_, *_]:
             deciding = kind in {"or", "any"}
             decided = None if None in values else not deciding
-            return as_text(deciding if deciding in values else decided, is_asked=is_asked)
+            return as_text(deciding if deciding in values else decided, is_specific=is_specific)
     return UNKNOWN
 
 
@@ -102,11 +102,11 @@ def _evaluated(expression: Text) -> Text:
     statement = module.tree.body[-1]
     if not isinstance(statement, ast.Expr):
         return UNKNOWN
-    is_asked = expression.is_asked or asks(module, statement.value)
+    is_specific = expression.is_specific or asks(module, statement.value)
     value, _ = value_on_target(module, statement.value)
     if isinstance(value, str):
-        return Text(value, is_asked)
-    return as_text(holds(module, statement.value, is_asked=True), is_asked=is_asked)
+        return Text(value, is_specific)
+    return as_text(holds(module, statement.value, is_specific=True), is_specific=is_specific)
 
 
 class _Holes(ast.NodeTransformer):

@@ -50,7 +50,7 @@ class Variables:
         """Return the value of a variable that depends on the distribution; others may be set."""
         values = self._given.get(name, ())
         text = self.text(values[0], depth + 1) if len(values) == 1 else UNKNOWN
-        return text if text.is_asked else UNKNOWN
+        return text if text.is_specific else UNKNOWN
 
 
 def substitution_words(value: str) -> Iterator[list[str]]:

@@ -78,11 +78,11 @@ class Conditions:
         match node:
             case ast.Call(func=ast.Name(id="str"), args=[inner], keywords=[]):
                 return self._plain(inner)
-        value, is_asked = value_on_target(module, node)
+        value, is_specific = value_on_target(module, node)
         if isinstance(value, str):
-            return Text(value, is_asked)
+            return Text(value, is_specific)
         decided = holds(module, node)
-        return UNKNOWN if decided is None else as_text(decided, is_asked=True)
+        return UNKNOWN if decided is None else as_text(decided, is_specific=True)
 
     def _substituted(self, call: LaunchCall, depth: int) -> Text:
         operands = [*call.given.values()] or call.call.args
@@ -110,4 +110,4 @@ class Conditions:
         if len(values) != 1 or values[0] is None:
             return UNKNOWN
         text = self.text(values[0], depth + 1)
-        return text if text.is_asked else UNKNOWN
+        return text if text.is_specific else UNKNOWN

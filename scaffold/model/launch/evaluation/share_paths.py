@@ -52,7 +52,7 @@ _PATHS = frozenset({"PathJoinSubstitution", "TextSubstitution"})
 """Substitutions that are paths."""
 
 
-def paths_of(package: Package) -> Iterator[NamedPath]:
+def named_paths(package: Package) -> Iterator[NamedPath]:
     """Yield the paths below share directories in launch files of a package."""
     for path in launch_paths(package):
         with suppress(ViewError):

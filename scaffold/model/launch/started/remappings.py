@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from scaffold.model.facts import fact
 from scaffold.model.parameters.declared import escapes
-from scaffold.model.programs.entry_points import files_of
+from scaffold.model.programs.entry_points import imported_files
 from scaffold.model.rclpy.file import rclpy_file
 from scaffold.model.rclpy.nodes import NodeClass
 from scaffold.record import NamedTuple
@@ -67,7 +67,7 @@ def _names_at(
             return None
         current = current.base if isinstance(current, NodeClass) else None
     names: list[tuple[str, str | None]] = []
-    for file in files_of(package, path):
+    for file in imported_files(package, path):
         if file.module.mentions(*_OTHER_ENDPOINTS):
             return None
         for endpoint in file.endpoints:

@@ -33,7 +33,7 @@ _MAX_DEPTH = 20
 
 
 def holds(
-    module: SyntaxTree, test: ast.expr, depth: int = 0, *, is_asked: bool = False
+    module: SyntaxTree, test: ast.expr, depth: int = 0, *, is_specific: bool = False
 ) -> bool | None:
     """Return whether a condition is true on the target; ``None`` if unknown.
 
@@ -41,25 +41,25 @@ def holds(
         module: The file.
         test: The condition.
         depth: The number of names followed so far.
-        is_asked: Whether it certainly depends on the distribution.
+        is_specific: Whether it certainly depends on the distribution.
     """
-    if not is_asked and not module.mentions(*ASKED):
+    if not is_specific and not module.mentions(*ASKED):
         return None
     match test:
         case ast.UnaryOp(op=ast.Not(), operand=operand):
-            inner = holds(module, operand, depth, is_asked=is_asked)
+            inner = holds(module, operand, depth, is_specific=is_specific)
             return None if inner is None else not inner
         case ast.BoolOp(op=op, values=values):
             deciding = isinstance(op, ast.Or)
-            parts = {holds(module, value, depth, is_asked=is_asked) for value in values}
+            parts = {holds(module, value, depth, is_specific=is_specific) for value in values}
             if deciding in parts:
                 return deciding
             return None if None in parts else not deciding
     value, notes = _DistributionEvaluator(module).trace(test)
-    if (is_asked or notes) and is_known(value):
+    if (is_specific or notes) and is_known(value):
         return bool(value)
     named = _only_value(module, test) if depth < _MAX_DEPTH else None
-    return None if named is None else holds(module, named, depth + 1, is_asked=is_asked)
+    return None if named is None else holds(module, named, depth + 1, is_specific=is_specific)
 
 
 def open_parts(module: SyntaxTree, test: ast.expr, depth: int = 0) -> Iterator[ast.expr]:
