@@ -113,7 +113,7 @@ class TestNeverRun(Rule):
         for test in test_functions(module):
             for node in ast.walk(test.node):
                 is_other = isinstance(node, ast.FunctionDef) and node is not test.node
-                if isinstance(node, ast.FunctionDef) and is_other and _is_lost(module, node):
+                if isinstance(node, ast.FunctionDef) and is_other and _is_unused_test(module, node):
                     place = f"{node.name} is inside {test.node.name}"
                     message = f"{place}: pytest does not collect it; move it to module level"
                     yield self.report(module.location(node), message)
@@ -146,7 +146,7 @@ class TestNeverRun(Rule):
                 continue
             for suite in own:
                 if (
-                    _states(suite)
+                    _could_be_test_method(suite)
                     and not suite.decorator_list
                     and not is_named_elsewhere(package, module, suite.name)
                 ):
@@ -164,7 +164,7 @@ class TestNeverRun(Rule):
                     yield self.report(module.name_location(test.node), problem)
 
 
-def _states(method: FunctionNode) -> bool:
+def _could_be_test_method(method: FunctionNode) -> bool:
     """Return whether a method could be a test: it asserts and only has the parameter ``self``."""
     if method.name.startswith(("test", "_", "set", "tear", "run")) or len(method.args.args) != 1:
         return False
@@ -189,7 +189,7 @@ def _could_be_test(function: FunctionNode, fixture_names: set[str]) -> bool:
     return any(isinstance(node, ast.Assert) for node in function.body)
 
 
-def _is_lost(module: PythonModule, node: ast.FunctionDef) -> bool:
+def _is_unused_test(module: PythonModule, node: ast.FunctionDef) -> bool:
     """Return whether a function is named like a test and unused."""
     holder = module.parent(node)
     used = isinstance(holder, ast.ClassDef) and _is_used(module, holder)

@@ -35,7 +35,8 @@ _GOOD = (
     "$(arg prefix)wheel",
     "xacro:",
 )
-_FIRST = 0.6
+_SIMILAR = 0.6
+"""How similar a suggested name is at least, from 0 to 1."""
 _PLAIN = (
     '<robot name="robot">\n  <link name="base">\n    <visual>\n      <geometry>'
     '<mesh filename="$(find robot)/base.stl"/></geometry>\n    </visual>\n  </link>\n</robot>\n'
@@ -247,7 +248,7 @@ class XacroNameUndefined(Rule):
         for robot in robots(package).whole:
             is_used_here = is_launched(package, robot.file.path)
             for undefined in robot.problems.undefined:
-                message = _message(package, undefined, is_used_here=is_used_here)
+                message = _message_of_name(package, undefined, is_used_here=is_used_here)
                 if message:
                     cause = "macros without a prefix" if undefined[0] == "tag" else ""
                     yield self.report(undefined, message, cause=cause)
@@ -256,7 +257,7 @@ class XacroNameUndefined(Rule):
         for robot in robots(package).whole:
             for misfit in robot.problems.misfits:
                 cause = f"calls of {misfit.macro}" if misfit.kind != "condition" else ""
-                yield self.report(misfit, _message_calls(package, misfit), cause=cause)
+                yield self.report(misfit, _message_of_call(package, misfit), cause=cause)
 
     def _check_plain(self, package: Package) -> Iterator[Diagnostic]:
         """Check URDF files in a package that does not use xacro."""
@@ -267,8 +268,8 @@ class XacroNameUndefined(Rule):
                     if is_plain and not _uses_xacro(package):
                         message = (
                             "only xacro reads $(find ...), which does not process this file: write "
+                            "package:// and the package"
                         )
-                        message += "package:// and the package"
                         yield self.report(attribute, message, severity=Severity.WARNING)
 
 
@@ -282,9 +283,9 @@ def _uses_xacro(package: Package) -> bool:
     return False
 
 
-def _message(package: Package, undefined: Undefined, *, is_used_here: bool) -> str:
+def _message_of_name(package: Package, undefined: Undefined, *, is_used_here: bool) -> str:
     kind, name, _, names = undefined
-    closest = closest_name(package, name, names, _FIRST)
+    closest = closest_name(package, name, names, _SIMILAR)
     hint = f"; did you mean {closest!r}?" if closest else ""
     messages = {
         "property": f"property {name!r} is not defined here: xacro stops{hint}",
@@ -302,12 +303,12 @@ def _message(package: Package, undefined: Undefined, *, is_used_here: bool) -> s
     return messages.get(kind, "")
 
 
-def _message_calls(package: Package, misfit: Misfit) -> str:
+def _message_of_call(package: Package, misfit: Misfit) -> str:
     kind, macro, name, _, names = misfit
     if kind == "missing":
         return f"macro {macro!r} needs {name!r}: xacro stops with 'Undefined parameters'"
     if kind == "unknown":
-        closest = closest_name(package, name, names, 0.6)
+        closest = closest_name(package, name, names, _SIMILAR)
         hint = f"did you mean {closest!r}?" if closest else f"it has {listed_names(names, name)}"
         return f"macro {macro!r} has no parameter {name!r}: xacro stops; {hint}"
     if kind == "block missing":

@@ -22,8 +22,8 @@ _LISTS_PATTERNS = (
 _FILES = {"config/talker.yaml": "talker:\n  ros__parameters:\n    rate: 1.0\n"}
 _INSTALLS = re.compile(r"\binstall\s{0,9}\(([^()]{0,999})\)")
 DIRECTORIES = ("launch", *DATA_DIRECTORIES)
-_NAMING = (".md", ".rst", ".sh", ".py", ".xml", ".yaml")
-"""Ends of the names of files that start launch files, or tell people to."""
+_TEXTS = (".md", ".rst", ".sh", ".py", ".xml", ".yaml")
+"""The endings of files that start launch files, or tell people to."""
 _LISTS_PATHS = "project(talker)\ninstall(DIRECTORY {} DESTINATION share/${{PROJECT_NAME}}{})\n"
 _FILES_PATHS = {"config/talker.yaml": ""}
 
@@ -276,11 +276,10 @@ class ShareDirectoryNotInstalled(Rule):
             if named or installs_directory(package, directory) is not False:
                 continue
             message = f"{directory}/ is not installed, so {path} is not found at run time"
-            is_used = (directory == "launch" and not _is_for_tests(package, directory)) or is_named(
-                package, directory
-            )
-            is_used = is_used and not _is_commented_out(package, directory)
-            severity = Severity.ERROR if is_used else Severity.WARNING
+            is_launched = directory == "launch" and not _is_for_tests(package, directory)
+            is_used = is_launched or is_named(package, directory)
+            is_planned = is_used and not _is_commented_out(package, directory)
+            severity = Severity.ERROR if is_planned else Severity.WARNING
             yield self.report(calls[-1].name_location, message, severity=severity)
 
     def _check_patterns(self, package: Package) -> Iterator[Diagnostic]:
@@ -293,7 +292,7 @@ class ShareDirectoryNotInstalled(Rule):
                 if files and not any(_is_taken(install, file) for file in files):
                     message = (
                         f"the patterns match no file in {path}/, such as {files[0]}: "
-                        f"nothing is installed"
+                        "nothing is installed"
                     )
                     yield self.report(item, message)
 
@@ -360,7 +359,7 @@ def _is_for_tests(package: Package, directory: str) -> bool:
     if not all(name.startswith(b"test") for name in names):
         return False
     for path in package.files:
-        if path.endswith(_NAMING) and path not in files:
+        if path.endswith(_TEXTS) and path not in files:
             with suppress(ViewError):
                 if any(name in package.data(path) for name in names):
                     return False
