@@ -241,6 +241,20 @@ class CallbackArity(RclpyRule):
             "14:44: callback 'stop' takes 0 arguments, but a subscription passes the message: "
             "RuntimeError",
         ),
+        Example(
+            "functions that a method makes",
+            {
+                "listener.py": _NODE.format(", word")
+                .replace("self.hear,", "self.hear('said'),")
+                .replace("        pass", "        def log():\n            print(word)\n")
+                + "        return log\n",
+                "right.py": _NODE.format(", word")
+                .replace("self.hear,", "self.hear('said'),")
+                .replace("        pass", "        return lambda message: print(word, message)"),
+            },
+            "listener.py:8:53: callback 'log' takes 0 arguments, but a subscription passes the "
+            "message: RuntimeError",
+        ),
         Example("the message", {"listener.py": _NODE.format(", message")}),
         Example(
             "no parameter",

@@ -19,6 +19,7 @@ _NODE = (
     "        super().__init__('talker')\n"
     "        self.create_{}\n"
 )
+_LOOP = "        for topic, type_ in {{'chatter': String, 'echo': String}}.items():\n"
 _DEFAULT = _NODE.replace(
     "        self.create_",
     "        topic = self.declare_parameter('topic', 'chatter').value\n        self.create_",
@@ -60,6 +61,25 @@ class QosIncompatible(Rule):
             "a.py:9:50: publisher 'chatter' is BEST_EFFORT, but the subscription in b.py:9 "
             "requests RELIABLE: nothing arrives",
             "b.py:9:60: subscription 'chatter' requests RELIABLE, but the publisher in a.py:9 is "
+            "BEST_EFFORT: nothing arrives",
+        ),
+        Example(
+            "topics of a table, in every case and under a condition",
+            {
+                "a.py": _NODE.format("publisher(String, 'chatter', qos_profile_sensor_data)"),
+                "b.py": _NODE.replace(
+                    "        self.create", _LOOP + "            self.create"
+                ).format("subscription(type_, topic, print, 10)"),
+                "c.py": _NODE.format("publisher(String, 'spoken', qos_profile_sensor_data)"),
+                "d.py": _NODE.replace(
+                    "        self.create",
+                    _LOOP.replace("chatter", "spoken")
+                    + "            if topic in self.wanted:\n                self.create",
+                ).format("subscription(type_, topic, print, 10)"),
+            },
+            "a.py:9:50: publisher 'chatter' is BEST_EFFORT, but the subscription in b.py:10 "
+            "requests RELIABLE: nothing arrives",
+            "b.py:10:59: subscription 'chatter' requests RELIABLE, but the publisher in a.py:9 is "
             "BEST_EFFORT: nothing arrives",
         ),
         Example(

@@ -26,6 +26,18 @@ _NODE = (
 _REGISTER = "        self.sync.registerCallback(self.view)\n\n"
 _LONG = 5
 """Seconds; a larger slop is implausible and may be in milliseconds."""
+_LISTED = (
+    "from message_filters import ApproximateTimeSynchronizer, Subscriber\n"
+    "from rclpy.node import Node\nfrom sensor_msgs.msg import CameraInfo, Image\n"
+    "from std_msgs.msg import String\n\nTOPICS = [(Image, 'image'), ({}, 'other')]\n\n\n"
+    "class Viewer(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('viewer')\n"
+    "        self.sync = ApproximateTimeSynchronizer(self.listen(), 10, 0.1)\n"
+    "        self.sync.registerCallback(print)\n\n"
+    "    def listen(self):\n"
+    "        return [Subscriber(self, kind, topic) for kind, topic in TOPICS]\n"
+)
 
 
 class SynchronizerMisused(MessageRule):
@@ -88,6 +100,12 @@ class SynchronizerMisused(MessageRule):
             {"viewer.py": _NODE.format("String", "10, 0.1", _REGISTER)},
             "11:39: std_msgs/msg/String has no header, so no stamp: it is never matched; use a "
             "type with a header, or ApproximateTimeSynchronizer with allow_headerless=True",
+        ),
+        Example(
+            "messages without a header, from a list that a method returns, and one by one",
+            {"viewer.py": _LISTED.format("String"), "right.py": _LISTED.format("CameraInfo")},
+            "viewer.py:6:30: std_msgs/msg/String has no header, so no stamp: it is never matched; "
+            "use a type with a header, or ApproximateTimeSynchronizer with allow_headerless=True",
         ),
         Example(
             "messages without a header, which are matched by the time they arrive",

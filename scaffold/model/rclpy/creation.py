@@ -29,6 +29,7 @@ from scaffold.model.rclpy.evaluation.evaluator import NOTE
 from scaffold.model.rclpy.parameters.declarations import SIGNATURES as DECLARATIONS
 from scaffold.model.rclpy.parameters.declarations import Declaration
 from scaffold.model.rclpy.parameters.descriptors import descriptor_of
+from scaffold.model.rclpy.tables import ONCE, Row, rows_of
 from scaffold.model.rclpy.topics.qos import PROFILES, Qos, qos_of
 
 if TYPE_CHECKING:
@@ -79,6 +80,9 @@ _CLASSES = {
 _DEFAULT_DEPTH = 10
 """The default depth of subscriptions of ``message_filters``."""
 
+_PLAIN = (ast.expr, ast.keyword, ast.With, ast.Expr, ast.Assign, ast.AnnAssign)
+"""What may be around a call that is executed in any case."""
+
 
 class Creation:
     """Finds the entities that the calls of a file create."""
@@ -113,7 +117,18 @@ class Creation:
         return class_ is None or not self._file.defines(class_, func.attr)
 
     def _created_by(self, call: ast.Call, method: str) -> Iterator[Entity]:
-        created = self._created(call, method)
+        for row in self._rows(call, method):
+            yield from self._created_in(self._created(call, method, row), method)
+
+    def _rows(self, call: ast.Call, method: str) -> Sequence[Row]:
+        """Return what the arguments of a call stand for in each row of the table of its loop."""
+        words = (word.value for word in call.keywords)
+        return (
+            rows_of(self._file.evaluator, (*call.args, *words)) if method in _ENDPOINTS else [ONCE]
+        )
+
+    def _created_in(self, created: Created, method: str) -> Iterator[Entity]:
+        call = created.call
         evaluator = self._file.evaluator
         if method in _ENDPOINTS:
             yield self._endpoint(created, method)
@@ -174,20 +189,25 @@ class Creation:
         qos = qos_of(self._file.evaluator, node)
         if qos != Qos(qos.location):
             return qos
+        file, value = self._defined(node)
+        if value is node:
+            return qos
+        return qos_of(file.evaluator, value)._replace(location=qos.location)
+
+    def _defined(self, node: ast.expr) -> tuple[RclpyFile, ast.expr]:
+        """Return the expression behind a constant or function of the package, with its file."""
         value = self._file.evaluator.single_value(node)
         is_call = isinstance(value, ast.Call)
         defined = self._file.definition_of(value.func if isinstance(value, ast.Call) else value)
-        if defined is None:
-            return qos
-        defining_file, definition = defined
-        if is_call is not isinstance(definition, ast.FunctionDef):
-            return qos
+        if defined is None or is_call is not isinstance(defined[1], ast.FunctionDef):
+            return self._file, node
+        file, definition = defined
         if isinstance(definition, ast.FunctionDef):
             given = [statement.value for statement in returned(definition)]
             if len(given) != 1 or given[0] is None or definition.decorator_list:
-                return qos
+                return self._file, node
             definition = given[0]
-        return qos_of(defining_file.evaluator, definition)._replace(location=qos.location)
+        return file, definition
 
     def _callback_of(self, created: Created, method: str) -> Callback | None:
         if method == "Subscriber":
@@ -213,19 +233,25 @@ class Creation:
         """Return the input subscriptions of a synchronizer, if their number is known."""
         if given is None:
             return None
-        made = self._file.evaluator.single_value(given.node)
-        elements = self._file.evaluator.elements(made)
+        file, made = self._defined(given.node)
+        if file is not self._file:
+            return None
+        made = file.evaluator.single_value(made)
+        if isinstance(made, ast.ListComp) and isinstance(made.elt, ast.Call):
+            rows = self._rows(made.elt, "Subscriber")
+            return [self._input(made.elt, row) for row in rows] if rows[0].loop else None
+        elements = file.evaluator.elements(made)
         if not elements.complete or any(item.conditional for item in elements.items):
             return None
-        calls = [self._file.evaluator.single_value(item.node) for item in elements.items]
-        return [
-            self._endpoint(self._created(call, "Subscriber"), "Subscriber")
-            if isinstance(call, ast.Call) and self._creating_method(call) == "Subscriber"
-            else None
-            for call in calls
-        ]
+        return [self._input(file.evaluator.single_value(item.node)) for item in elements.items]
 
-    def _created(self, call: ast.Call, method: str) -> Created:
+    def _input(self, call: ast.expr, row: Row = ONCE) -> Endpoint | None:
+        """Return a subscription that is given to a synchronizer; ``None`` if unknown."""
+        if not isinstance(call, ast.Call) or self._creating_method(call) != "Subscriber":
+            return None
+        return self._endpoint(self._created(call, "Subscriber", row), "Subscriber")
+
+    def _created(self, call: ast.Call, method: str, row: Row = ONCE) -> Created:
         arguments: dict[str, Argument] = {}
         unknown = False
         for parameter, arg in zip(
@@ -234,12 +260,14 @@ class Creation:
             if isinstance(arg, ast.Starred):
                 unknown = True
                 break
-            arguments[parameter] = self._argument(parameter, arg)
+            arguments[parameter] = self._argument(parameter, row.values.get(arg, arg))
         for word in call.keywords:
             if word.arg is None:
                 unknown = True
             else:
-                arguments[word.arg] = self._argument(word.arg, word.value)
+                arguments[word.arg] = self._argument(
+                    word.arg, row.values.get(word.value, word.value)
+                )
         attribute, variable = self.target(call)
         func = self._file.method_of(call)
         if func is not None and method not in _CLASSES.values():
@@ -255,8 +283,22 @@ class Creation:
             self._file.module.enclosing_function(call),
             arguments,
             unknown,
-            self._file.is_conditional(call),
+            not self._is_certain(call, row),
         )
+
+    def _is_certain(self, call: ast.Call, row: Row) -> bool:
+        """Return whether a call is executed for a row of the table of its loop, in any case."""
+        module, is_conditional = self._file.module, self._file.is_conditional
+        for parent in module.parents(call) if row.loop is not None else ():
+            if parent is row.loop:
+                jumps = module.below(parent, ast.Break, ast.Continue, ast.Return)
+                return not any(jumps) and not is_conditional(parent)
+            if isinstance(parent, ast.ListComp | ast.DictComp):
+                is_plain = parent.generators == [row.loop] and not parent.generators[0].ifs
+                return is_plain and not is_conditional(parent)
+            if not isinstance(parent, _PLAIN):
+                return False
+        return not is_conditional(call)
 
     def _argument(self, name: str, node: ast.expr) -> Argument:
         return Argument(

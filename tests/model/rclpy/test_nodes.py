@@ -391,7 +391,7 @@ def test_interface_types(head: str, expression: str, expected: str | None) -> No
         ("self.create_publisher(String, TOPIC, 1)", "constant"),
         ("self.create_publisher(String, self.KIND, 1)", UNKNOWN),
         ("self.create_publisher(String, Talker.TEXT, 1)", UNKNOWN),
-        ("for name in ['a', 'b']:\n    self.create_publisher(String, name, 1)", UNKNOWN),
+        ("for name in names():\n    self.create_publisher(String, name, 1)", UNKNOWN),
         ("self.create_publisher(topic='a', msg_type=String, qos_profile=1)", "a"),
         ("self.create_publisher(*arguments)", UNKNOWN),
         ("self.name, other = 'a', 'b'\nself.create_publisher(String, self.name, 1)", "a"),
@@ -401,6 +401,30 @@ def test_interface_types(head: str, expression: str, expected: str | None) -> No
 )
 def test_topic_of_publisher(body: str, expected: object) -> None:
     assert node(body, "TOPIC = 'constant'").publishers[0].topic == expected
+
+
+@pytest.mark.parametrize(
+    ("body", "expected"),
+    [
+        ("for name in ('a', 'b'):\n    create(String, name, 1)", ["a", "b"]),
+        ("self.all = [create(String, name, 1) for name in ('a', 'b')]", ["a", "b"]),
+        ("for name, kind in TOPICS.items():\n    create(kind, name, 1)", ["a", "b"]),
+        ("for name in ('a', 'b'):\n    if wanted(name):\n        create(String, name, 1)", []),
+        (
+            "for name in ('a', 'b'):\n    if not name:\n        break\n    create(String, name, 1)",
+            [],
+        ),
+        ("self.all = [create(String, name, 1) for name in ('a', 'b') if name]", []),
+        ("if self.all:\n    for name in ('a', 'b'):\n        create(String, name, 1)", []),
+        ("for name in self.declare_parameter('n', ['a']).value:\n    create(String, name, 1)", []),
+        ("for name, kind in (('a', String), *MORE):\n    create(kind, name, 1)", []),
+    ],
+)
+def test_topics_of_a_table(body: str, expected: Sequence[str]) -> None:
+    view = node(
+        body.replace("create", "self.create_publisher"), "TOPICS = {'a': String, 'b': String}"
+    )
+    assert [item.topic for item in view.publishers if not item.is_conditional] == expected
 
 
 def test_topic_from_class_constant() -> None:

@@ -7,8 +7,10 @@ from collections.abc import Container, Iterator, Sequence
 from itertools import takewhile
 from typing import TYPE_CHECKING
 
+from scaffold.model.python.evaluation.returns import returned
 from scaffold.model.rclpy.entities import Callback, Entity
 from scaffold.model.rclpy.nodes import NodeClass
+from scaffold.model.rclpy.tables import column, entries
 
 if TYPE_CHECKING:
     from scaffold.model.python.scopes import FunctionNode
@@ -22,9 +24,7 @@ def resolve(file: RclpyFile, node: ast.expr) -> Callback:
         if module.qualified_name(node.func) == "functools.partial" and node.args:
             inner = resolve(file, node.args[0])
             return inner._replace(node=node, is_partial=True)
-        inner = resolve(file, node.func)
-        is_called = inner.function is not None and not _returns_function(inner.function)
-        return inner._replace(node=node, is_called=is_called, function=None)
+        return _called(file, node)
     if isinstance(node, ast.Lambda):
         return Callback(node, None, node, module, is_called=False, is_bound=False)
     if isinstance(node, ast.Attribute):
@@ -41,6 +41,17 @@ def resolve(file: RclpyFile, node: ast.expr) -> Callback:
             function = None
         return Callback(node, node.id, function, module, is_called=False, is_bound=False)
     return Callback(node, None, None, module, is_called=False, is_bound=False)
+
+
+def _called(file: RclpyFile, node: ast.Call) -> Callback:
+    """Return the callback that a call returns, or the call of what should have been passed."""
+    inner = resolve(file, node.func)
+    made = _made_by(file, inner.function)
+    if made is not None:
+        name = None if isinstance(made, ast.Lambda) else made.name
+        return inner._replace(node=node, name=name, function=made, is_bound=False)
+    is_called = inner.function is not None and not _returns_function(inner.function)
+    return inner._replace(node=node, is_called=is_called, function=None)
 
 
 def replaced(node: NodeClass, base: NodeClass) -> Iterator[tuple[Entity, Callback]]:
@@ -118,6 +129,22 @@ def _is_static_method(function: FunctionNode) -> bool:
     )
 
 
+def _made_by(
+    file: RclpyFile, factory: FunctionNode | ast.Lambda | None
+) -> FunctionNode | ast.Lambda | None:
+    """Return the function inside of another one that this returns in any case."""
+    if not isinstance(factory, ast.FunctionDef) or factory.decorator_list:
+        return None
+    made = {
+        file.module.index.only_node(statement.value)
+        if isinstance(statement.value, ast.Name)
+        else statement.value
+        for statement in returned(factory)
+    }
+    only = made.pop() if len(made) == 1 else None
+    return only if isinstance(only, ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda) else None
+
+
 def _returns_function(function: FunctionNode | ast.Lambda) -> bool:
     """Return whether a function may return another function."""
     if isinstance(function, ast.Lambda):
@@ -151,55 +178,7 @@ def _chosen_from(file: RclpyFile, node: ast.AST, depth: int = 0) -> Sequence[ast
         if binding.kind == "assignment" and binding.value is not None:
             result += _chosen_from(file, binding.value, 1) or [binding.value]
         elif binding.kind in {"loop", "other"}:
-            result += _column(file, binding.node)
-    return result
-
-
-def _column(file: RclpyFile, target: ast.AST) -> Sequence[ast.expr]:
-    """Return the values of a loop variable in each row of a table."""
-    places: list[int] = []
-    parent = file.module.parent(target)
-    while isinstance(parent, ast.Tuple) and target in parent.elts:
-        places.insert(0, parent.elts.index(target))
-        target, parent = parent, file.module.parent(parent)
-    if not isinstance(parent, ast.For | ast.comprehension) or parent.target is not target:
-        return ()
-    iterated = parent.iter
-    match iterated, places:
-        case ast.Call(func=ast.Name(id="enumerate"), args=[table, *_]), [1, *places]:
-            iterated = table
-        case ast.Call(func=ast.Attribute(attr="items")), [0, *_]:
-            return ()
-        case ast.Call(func=ast.Attribute(attr="items")), [1, *places]:
-            pass
-    rows = _rows(file, iterated)
-    for place in places:
-        rows = entries(rows, place)
-    return rows
-
-
-def _rows(file: RclpyFile, iterated: ast.expr) -> Sequence[ast.expr]:
-    """Return the rows of a table, of a dictionary only its values."""
-    match iterated:
-        case ast.Call(func=ast.Attribute(value=table, attr="items" | "values"), args=[]):
-            values = file.evaluator.single_value(table)
-            return values.values if isinstance(values, ast.Dict) else ()
-    return [item.node for item in file.evaluator.elements(iterated).items]
-
-
-def entries(rows: Sequence[ast.expr], key: object) -> Sequence[ast.expr]:
-    """Return the entry with an index or a key of each row that is a literal and has it."""
-    result: list[ast.expr] = []
-    for row in rows:
-        match row:
-            case ast.Tuple(elts=values) | ast.List(elts=values) if isinstance(key, int):
-                result += values[key : key + 1] if key >= 0 else ()
-            case ast.Dict(keys=keys, values=values):
-                result += [
-                    value
-                    for name, value in zip(keys, values, strict=True)
-                    if isinstance(name, ast.Constant) and name.value == key
-                ]
+            result += column(file.evaluator, binding.node)
     return result
 
 
