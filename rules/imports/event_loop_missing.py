@@ -184,10 +184,10 @@ def _is_at_start(module: PythonModule, call: ast.Call) -> bool:
     if not name or not _is_plain(around[0]) or len(module.index.bindings(module.tree)[name]) > 1:
         return False
     for use in module.index.names(name):
-        site, lookup = module.parent(use), module.index.lookup(use.id, use)
+        site, lookup = module.call_with(use), module.index.lookup(use.id, use)
         if lookup is None or lookup[0] is not module.tree:
             continue
-        if isinstance(site, ast.Call) and site.func is use and _runs_into_it(module, site):
+        if site is not None and _runs_into_it(module, site):
             return True
     return False
 

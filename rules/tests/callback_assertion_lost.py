@@ -19,7 +19,7 @@ _TEST = (
     "    wait_for(received)\n"
 )
 _THREAD = "threading.Thread(target=rclpy.spin, args=(node,), daemon=True).start()"
-_MAKERS = frozenset({"create_subscription", "create_timer", "create_service", "add_done_callback"})
+_MAKERS = ("create_subscription", "create_timer", "create_service", "add_done_callback")
 
 
 class CallbackAssertionLost(TestRule):
@@ -56,9 +56,7 @@ class CallbackAssertionLost(TestRule):
     def check_file(self, module: PythonModule) -> Iterator[Diagnostic]:
         if not _spins_in_thread(module):
             return
-        for call in module.walk(ast.Call):
-            if not (isinstance(call.func, ast.Attribute) and call.func.attr in _MAKERS):
-                continue
+        for call, _ in module.method_calls(*_MAKERS):
             for argument in (*call.args, *(word.value for word in call.keywords)):
                 for node in _assertions(module, argument):
                     message = (

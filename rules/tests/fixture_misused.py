@@ -292,10 +292,9 @@ def _taken_from_module(module: PythonModule) -> Iterator[ast.Name]:
         seen = set(arguments(test.node))
         for use in module.below(test.node, ast.Name):
             lookup = module.index.lookup(use.id, use) if use.id in own.keys() - seen else None
-            above = module.parent(use)
             if lookup is None or [x.node for x in lookup[1]] != [own[use.id]]:
                 continue
-            if not (isinstance(above, ast.Call) and above.func is use):
+            if not module.call_with(use):
                 seen.add(use.id)
                 yield use
 

@@ -82,9 +82,8 @@ def _items(
         return None
     added = [
         (call, item)
-        for call in launch.module.walk(ast.Call)
+        for call, _ in launch.module.method_calls("add_action", "add_entity")
         for item in call.args[:1]
-        if isinstance(call.func, ast.Attribute) and call.func.attr in {"add_action", "add_entity"}
     ]
     for call, item in added:
         statement = launch.module.parent(call)

@@ -46,8 +46,8 @@ def _do_callers_compute(module: PythonModule, function: str) -> bool:
 
 
 def _does_caller_compute(module: PythonModule, reference: ast.Attribute) -> bool:
-    call = module.parent(reference)
-    if not isinstance(call, ast.Call) or call.func is not reference:
+    call = module.call_with(reference)
+    if call is None:
         return False
     match module.parent(call):
         case ast.Assign(targets=[ast.Name(id=name)]):

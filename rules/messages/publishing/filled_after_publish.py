@@ -62,10 +62,9 @@ class FilledAfterPublish(MessageRule):
     )
 
     def check_file(self, types: MessageTypes) -> Iterator[Diagnostic]:
-        for method in types.module.index.attributes("publish"):
-            sent = types.module.parent(method)
+        for sent, _ in types.module.method_calls("publish"):
             match sent:
-                case ast.Call(func=func, args=[ast.Name() as name]) if func is method:
+                case ast.Call(args=[ast.Name() as name]):
                     late = _first_set_after(types, sent, name)
                     if late is not None:
                         line = types.module.location(sent).line

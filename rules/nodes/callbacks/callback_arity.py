@@ -377,9 +377,9 @@ def _given_callbacks(file: RclpyFile) -> Iterator[tuple[tuple[tuple[int, ...], s
         if given is not None:
             yield given, callback
     yield from _called_from_tables(file)
-    for attribute in file.module.index.attributes("add_done_callback"):
-        match file.module.parent(attribute):
-            case ast.Call(func=func, args=[passed], keywords=[]) if func is attribute:
+    for call, _ in file.module.method_calls("add_done_callback"):
+        match call:
+            case ast.Call(args=[passed], keywords=[]):
                 if not file.module.mentions("def add_done_callback"):
                     yield ((1,), "a future passes itself: TypeError"), file.callback(passed)
 

@@ -96,11 +96,10 @@ class CallbackWithoutSignature(PythonRule):
 
 def _callbacks(file: RclpyFile) -> Iterator[ast.expr]:
     """Yield the callbacks of subscriptions of any node."""
-    for call in file.module.walk(ast.Call):
-        if isinstance(call.func, ast.Attribute) and call.func.attr == "create_subscription":
-            callback = argument_of(call, "callback", 2)
-            if callback is not None:
-                yield callback
+    for call, _ in file.module.method_calls("create_subscription"):
+        callback = argument_of(call, "callback", 2)
+        if callback is not None:
+            yield callback
 
 
 def _method(file: RclpyFile, node: ast.expr) -> str:

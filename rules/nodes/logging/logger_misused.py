@@ -271,11 +271,9 @@ def _adds_number(file: RclpyFile, node: ast.BinOp) -> bool:
 
 def _levels(file: RclpyFile) -> Iterator[tuple[ast.Call, ast.expr]]:
     """Yield the levels that rclpy loggers are set to."""
-    for attribute in file.module.index.attributes("set_level"):
-        call = file.module.parent(attribute)
-        if not isinstance(call, ast.Call) or call.func is not attribute or len(call.args) != 1:
-            continue
-        if _is_logger(file, file.evaluator.single_value(attribute.value)):
+    for call, method in file.module.method_calls("set_level"):
+        logger = file.evaluator.single_value(method.value)
+        if len(call.args) == 1 and _is_logger(file, logger):
             yield call, call.args[0]
     for call in file.module.calls_of(_SET):
         if len(call.args) > 1:

@@ -217,13 +217,10 @@ class ParameterCallbackMisused(RclpyRule):
                     yield self.report(file.module.location(other), message)
 
     def _check_use(self, file: RclpyFile) -> Iterator[Diagnostic]:
-        for method in CALLBACKS:
-            for attribute in file.module.index.attributes(method):
-                call = file.module.parent(attribute)
-                if isinstance(call, ast.Call) and call.func is attribute and call.args:
-                    problem = _problem(file, call.args[0])
-                    if problem:
-                        yield self.report(file.module.location(call.args[0]), problem)
+        for call, _ in file.module.method_calls(*CALLBACKS):
+            problem = _problem(file, call.args[0]) if call.args else ""
+            if problem:
+                yield self.report(file.module.location(call.args[0]), problem)
         for argument, function in callback_arguments(file).items():
             for read in _old_values(file, function):
                 yield self.report(

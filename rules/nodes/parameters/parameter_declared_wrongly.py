@@ -204,10 +204,7 @@ def _descriptor_problem(file: RclpyFile, parameter: Parameter, node: ast.expr) -
 
 def _without_default(file: RclpyFile) -> Iterator[tuple[ast.AST, str]]:
     """Yield the first parameter of each list that has no default."""
-    for called in file.module.index.attributes("declare_parameters"):
-        call = file.module.parent(called)
-        if not isinstance(call, ast.Call) or call.func is not called:
-            continue
+    for call, called in file.module.method_calls("declare_parameters"):
         words = {word.arg: word.value for word in call.keywords}
         listed = call.args[1] if len(call.args) > 1 else words.get("parameters")
         if isinstance(listed, ast.List) and file.owner_of(called.value) is not None:

@@ -201,14 +201,10 @@ class ParameterObjectUsed(RclpyRule):
             yield self.report(read, message, fix)
 
     def _check_call(self, file: RclpyFile) -> Iterator[Diagnostic]:
-        for name in ("value", *FIELDS):
-            for called in file.module.index.attributes(name):
-                call = file.module.parent(called)
-                is_called = isinstance(call, ast.Call) and call.func is called
-                problem = _problem(file, called) if is_called else ""
-                if call is not None and problem:
-                    message = f"{problem}: TypeError; remove the ()"
-                    yield self.report(file.module.location(call), message)
+        for call, called in file.module.method_calls("value", *FIELDS):
+            if problem := _problem(file, called):
+                message = f"{problem}: TypeError; remove the ()"
+                yield self.report(file.module.location(call), message)
 
     def _check_field(self, file: RclpyFile) -> Iterator[Diagnostic]:
         for field in (*FIELDS, *_MISNAMED):

@@ -144,11 +144,9 @@ class ParameterResultMissing(RclpyRule):
     )
 
     def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
-        for method in CALLBACKS:
-            for attribute in file.module.index.attributes(method):
-                call = file.module.parent(attribute)
-                if isinstance(call, ast.Call) and call.func is attribute and call.args:
-                    yield from self._check(file, file.callback(call.args[0]), method)
+        for call, method in file.module.method_calls(*CALLBACKS):
+            if call.args:
+                yield from self._check(file, file.callback(call.args[0]), method.attr)
 
     def _check(self, file: RclpyFile, callback: Callback, method: str) -> Iterator[Diagnostic]:
         function = callback.function

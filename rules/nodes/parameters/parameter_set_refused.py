@@ -106,8 +106,8 @@ def _problem(declared: Declared, made: ParameterMade) -> str:
 
 def _undeclared(package: Package, file: RclpyFile, attribute: ast.Attribute) -> str:
     """Return the message for undeclaring a read-only parameter."""
-    call, owner = file.module.parent(attribute), file.owner_of(attribute.value)
-    if owner is None or not isinstance(call, ast.Call) or call.func is not attribute:
+    call, owner = file.module.call_with(attribute), file.owner_of(attribute.value)
+    if owner is None or call is None:
         return ""
     name = file.evaluator.text(call.args[0]) if call.args else None
     place = declared_by(owner, package).places.get(name) if isinstance(name, str) else None

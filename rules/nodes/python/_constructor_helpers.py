@@ -61,8 +61,7 @@ def _missing(file: RclpyFile, node: NodeClass, call: ast.Call, used: ast.Attribu
     line_of_base = begin.lineno if begin is not None and call.lineno < begin.lineno else 0
     name = call.func.attr if isinstance(call.func, ast.Attribute) else ""
     if node.method(used.attr) is None and has(NODE, used.attr):
-        parent = file.module.parent(used)
-        is_called = isinstance(parent, ast.Call) and parent.func is used
+        is_called = file.module.call_with(used) is not None
         where = f"before super().__init__() in line {line_of_base}: AttributeError"
         return f"{name}() uses self.{used.attr}() {where}" if line_of_base and is_called else ""
     stores = file.evaluator.stores(used.attr)

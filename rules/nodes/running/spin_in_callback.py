@@ -324,10 +324,7 @@ def _waits_once(file: RclpyFile, call: ast.Call) -> bool:
     name = getattr(file.function_of(call), "name", "")
     if loop is None or any(isinstance(x, ast.Call) for x in ast.walk(loop.test)):
         return False
-    is_called = all(
-        isinstance(parent := file.module.parent(use), ast.Call) and parent.func is use
-        for use in file.module.index.attributes(name)
-    )
+    is_called = all(map(file.module.call_with, file.module.index.attributes(name)))
     awaited = {x.attr for x in ast.walk(loop.test) if isinstance(x, ast.Attribute)}
     return is_called and bool(awaited) and all(_only_counts(file, item) for item in awaited)
 

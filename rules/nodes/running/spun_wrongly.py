@@ -392,10 +392,8 @@ def _left_out(file: RclpyFile, made: ast.Call) -> list[str]:
     function = file.module.enclosing_function(made)
     added = [
         call.args[0].id
-        for call in file.module.walk(ast.Call)
-        if isinstance(call.func, ast.Attribute)
-        and call.func.attr == "add_node"
-        and len(call.args) == 1
+        for call, _ in file.module.method_calls("add_node")
+        if len(call.args) == 1
         and isinstance(call.args[0], ast.Name)
         and file.module.enclosing_function(call) is function
     ]

@@ -111,7 +111,7 @@ class TransformSentOnce(RclpyRule):
             call
             for func in file.module.index.attributes("sendTransform")
             if isinstance(call := file.module.parent(func), ast.Call)
-            and _is_called(file, func)
+            and file.module.call_with(func)
             and _is_broadcaster(file, func.value)
         ]
         if not calls or file.module.in_tests:
@@ -140,15 +140,10 @@ def _given_away(file: RclpyFile, functions: frozenset[ast.AST]) -> set[ast.AST]:
         name = function.name if isinstance(function, ast.FunctionDef) else ""
         uses: list[ast.Attribute | ast.Name] = [*file.module.index.attributes(name)]
         uses += file.module.index.names(name)
-        is_kept = any(isinstance(x.ctx, ast.Load) and not _is_called(file, x) for x in uses)
+        is_kept = any(isinstance(x.ctx, ast.Load) and not file.module.call_with(x) for x in uses)
         if isinstance(function, ast.FunctionDef) and is_kept:
             result.update(file.reached(function))
     return result
-
-
-def _is_called(file: RclpyFile, function: ast.expr) -> bool:
-    call = file.module.parent(function)
-    return isinstance(call, ast.Call) and call.func is function
 
 
 def _frame(file: RclpyFile, call: ast.Call) -> str | None:

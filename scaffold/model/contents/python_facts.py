@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from scaffold.model.python.scopes import FunctionNode
     from scaffold.source import Location
 
-_LOOKUPS = frozenset({"get_depends", "get_manifest", "get_path"})
+_LOOKUPS = ("get_depends", "get_manifest", "get_path")
 """Methods of ``rospkg.RosPack``."""
 
 
@@ -92,8 +92,4 @@ def rospack_lookups(package: Package, path: str) -> tuple[Location, ...]:
     if "rospkg" not in roots or "rclpy" not in roots:
         return ()
     module = package.module(path)
-    return tuple(
-        module.location(call)
-        for call in module.walk(ast.Call)
-        if isinstance(call.func, ast.Attribute) and call.func.attr in _LOOKUPS
-    )
+    return tuple(module.location(call) for call, _ in module.method_calls(*_LOOKUPS))

@@ -70,10 +70,9 @@ class ActionMessages:
     def _feedback_arguments(self) -> Iterator[tuple[ast.arg, ActionClient | None]]:
         """Yield the parameters that receive feedback, with the client."""
         result: dict[ast.arg, ActionClient | None] = {}
-        for attribute in self._file.module.index.attributes("send_goal_async"):
-            call = self._file.module.parent(attribute)
-            client = self._client(attribute.value)
-            if not isinstance(call, ast.Call) or call.func is not attribute or client is None:
+        for call, method in self._file.module.method_calls("send_goal_async"):
+            client = self._client(method.value)
+            if client is None:
                 continue
             named = [word.value for word in call.keywords if word.arg == "feedback_callback"]
             for given in [*call.args[1:2], *named]:

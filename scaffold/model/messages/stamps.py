@@ -146,10 +146,8 @@ def _sent(
     Each with the method, the constructor call, its class, the call that sends, and what is sent or
     returned for it.
     """
-    index = types.module.index
-    for method in [*index.attributes("publish"), *index.attributes("sendTransform")]:
-        sent = types.module.parent(method)
-        if not isinstance(sent, ast.Call) or sent.func is not method or len(sent.args) != 1:
+    for sent, method in types.module.method_calls("publish", "sendTransform"):
+        if len(sent.args) != 1:
             continue
         source = _returned_by(types, sent.args[0]) or sent.args[0]
         made = types.file.evaluator.single_value(source)

@@ -103,12 +103,10 @@ def _callbacks_of(
 
 def _done_callbacks(file: RclpyFile) -> Iterator[tuple[Entity, Callback]]:
     """Yield the done callbacks of futures, with the clients."""
-    for attribute in file.module.index.attributes("add_done_callback"):
-        match file.module.parent(attribute):
-            case ast.Call(func=func, args=[given]) if func is attribute:
-                client = client_of(file, attribute.value)
-                if client is not None:
-                    yield client, file.callback(given)
+    for call, method in file.module.method_calls("add_done_callback"):
+        client = client_of(file, method.value) if len(call.args) == 1 else None
+        if client is not None:
+            yield client, file.callback(call.args[0])
 
 
 def client_of(file: RclpyFile, future: ast.expr) -> Entity | None:

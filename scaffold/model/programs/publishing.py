@@ -203,10 +203,10 @@ def _timers_behind(
         if timer is not None:
             yield timer
             continue
-        parent = module.parent(reference)
-        if not isinstance(parent, ast.Call) or parent.func is not reference:
+        caller = module.call_with(reference)
+        if caller is None:
             raise _Doubt
-        yield from _timers_behind(file, parent, depth + 1, may_leave=may_leave)
+        yield from _timers_behind(file, caller, depth + 1, may_leave=may_leave)
 
 
 def _timer_with(file: RclpyFile, reference: ast.expr) -> Timer | None:
@@ -259,14 +259,8 @@ def _function_references(file: RclpyFile, function: FunctionNode) -> Iterator[as
 
 
 def _is_certain_call(file: RclpyFile, reference: ast.expr) -> bool:
-    parent = file.module.parent(reference)
-    function = file.function_of(reference)
-    return (
-        isinstance(parent, ast.Call)
-        and parent.func is reference
-        and function is not None
-        and _is_certain(file, parent, function)
-    )
+    call, function = file.module.call_with(reference), file.function_of(reference)
+    return call is not None and function is not None and _is_certain(file, call, function)
 
 
 def _is_certain(file: RclpyFile, node: ast.AST, function: FunctionNode | ast.Lambda) -> bool:

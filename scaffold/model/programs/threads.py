@@ -146,8 +146,7 @@ def _may_refer_to_spin(file: RclpyFile, name: str, node: ast.AST) -> bool:
             bound = file.module.index.lookup(name, node)
             if bound and all(x.kind in {"assignment", "augmented", "loop"} for x in bound[1]):
                 return False
-    parent = file.module.parent(node)
-    is_called = isinstance(parent, ast.Call) and parent.func is node
+    is_called = file.module.call_with(node) is not None
     return not (is_called and isinstance(node, ast.expr) and file.callback(node).function)
 
 
@@ -173,9 +172,7 @@ def _others(file: RclpyFile, class_: ast.ClassDef) -> list[ast.expr]:
 
 
 def _is_passed(file: RclpyFile, node: ast.Name | ast.Attribute) -> bool:
-    parent = file.module.parent(node)
-    is_called = isinstance(parent, ast.Call) and parent.func is node
-    return isinstance(node.ctx, ast.Load) and not is_called
+    return isinstance(node.ctx, ast.Load) and file.module.call_with(node) is None
 
 
 def _imports_spinner(file: RclpyFile) -> bool:

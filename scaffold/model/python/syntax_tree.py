@@ -125,6 +125,18 @@ class SyntaxTree:
         """Return the innermost class around a node."""
         return self.enclosing(node, ast.ClassDef)
 
+    def call_with(self, function: ast.AST) -> ast.Call | None:
+        """Return the call whose function an expression is: ``talk()`` for ``talk``."""
+        call = self.parent(function)
+        return call if isinstance(call, ast.Call) and call.func is function else None
+
+    def method_calls(self, *names: str) -> Iterator[tuple[ast.Call, ast.Attribute]]:
+        """Yield the calls of methods with these names on any object, each with its function."""
+        for name in names:
+            for method in self.index.attributes(name):
+                if call := self.call_with(method):
+                    yield call, method
+
     def calls_of(self, *functions: str) -> Sequence[ast.Call]:
         """Return the calls of functions that certainly have these full names; see `qualified_name`.
 

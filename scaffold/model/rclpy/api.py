@@ -208,13 +208,12 @@ def future_given(file: RclpyFile, node: ast.expr) -> ast.expr | None:
 def _futures(file: RclpyFile) -> Mapping[ast.arg, ast.expr]:
     """Return the futures passed to done callbacks, by parameter."""
     result: dict[ast.arg, ast.expr] = {}
-    for attribute in file.module.index.attributes("add_done_callback"):
-        match file.module.parent(attribute):
-            case ast.Call(func=func, args=[given]) if func is attribute:
-                callback = file.callback(given)
-                argument = _first_argument(callback.function, is_bound=callback.is_bound)
-                if argument is not None and not callback.is_partial:
-                    result.setdefault(argument, attribute.value)
+    for call, method in file.module.method_calls("add_done_callback"):
+        if len(call.args) == 1:
+            callback = file.callback(call.args[0])
+            argument = _first_argument(callback.function, is_bound=callback.is_bound)
+            if argument is not None and not callback.is_partial:
+                result.setdefault(argument, method.value)
     return result
 
 

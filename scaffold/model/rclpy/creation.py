@@ -219,13 +219,10 @@ class Creation:
     def _registered(self, call: ast.Call) -> list[Callback]:
         """Return the callbacks registered with a message filter."""
         result: list[Callback] = []
-        for attribute in self._file.module.index.attributes("registerCallback"):
-            parent = self._file.module.parent(attribute)
-            if not isinstance(parent, ast.Call) or parent.func is not attribute:
-                continue
-            if parent.args and self._file.evaluator.single_value(attribute.value) is call:
-                callback = self._file.callback(parent.args[0])
-                has_more = bool(len(parent.args) > 1 or parent.keywords)
+        for added, method in self._file.module.method_calls("registerCallback"):
+            if added.args and self._file.evaluator.single_value(method.value) is call:
+                callback = self._file.callback(added.args[0])
+                has_more = bool(len(added.args) > 1 or added.keywords)
                 result.append(callback._replace(is_partial=callback.is_partial or has_more))
         return result
 

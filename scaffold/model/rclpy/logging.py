@@ -15,19 +15,11 @@ _METHOD = "get_logger"
 
 def log_calls(file: RclpyFile) -> Iterator[ast.Call]:
     """Yield the calls such as ``node.get_logger().info(...)``."""
-    for attribute in file.module.index.attributes(_METHOD):
-        logger = file.module.parent(attribute)
-        method = file.module.parent(logger) if isinstance(logger, ast.Call) else None
-        call = file.module.parent(method) if isinstance(method, ast.Attribute) else None
-        if (
-            isinstance(method, ast.Attribute)
-            and method.attr in LOG_METHODS
-            and isinstance(logger, ast.Call)
-            and logger.func is attribute
-            and isinstance(call, ast.Call)
-            and call.func is method
-            and is_of_rclpy(file, attribute)
-        ):
+    for logger, attribute in file.module.method_calls(_METHOD):
+        method = file.module.parent(logger)
+        is_log = isinstance(method, ast.Attribute) and method.attr in LOG_METHODS
+        call = file.module.call_with(method) if method is not None and is_log else None
+        if call is not None and is_of_rclpy(file, attribute):
             yield call
 
 

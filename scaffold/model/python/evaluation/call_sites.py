@@ -100,10 +100,10 @@ class CallSites:
             holder = self._evaluator.self_class(node.value)
             if holder is not None and holder not in family:
                 continue
-            parent = self._evaluator.module.parent(node)
-            if holder is None or not isinstance(parent, ast.Call) or parent.func is not node:
+            call = self._evaluator.module.call_with(node)
+            if holder is None or call is None:
                 return None
-            calls.append(parent)
+            calls.append(call)
         return calls
 
 

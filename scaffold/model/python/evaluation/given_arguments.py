@@ -36,8 +36,8 @@ def given_once(module: SyntaxTree, parameter: ast.AST) -> ast.expr | None:
     if function.decorator_list or not isinstance(module.parent(function), ast.Module):
         return None
     uses = [name for name in module.index.names(function.name) if isinstance(name.ctx, ast.Load)]
-    call = module.parent(uses[0]) if len(uses) == 1 else None
-    if not isinstance(call, ast.Call) or call.func is not uses[0]:
+    call = module.call_with(uses[0]) if len(uses) == 1 else None
+    if call is None:
         return None
     return given_argument(function, call, parameter, is_method=False)
 

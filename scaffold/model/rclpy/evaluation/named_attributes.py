@@ -17,8 +17,8 @@ def set_by_name(file: RclpyFile) -> frozenset[str] | None:
     """Return the attributes that a file sets with setattr(); ``None`` if any name is unknown."""
     result: set[str] = set()
     for name in file.module.index.names("setattr"):
-        call = file.module.parent(name)
-        if not isinstance(call, ast.Call) or call.func is not name or len(call.args) != _SETTING:
+        call = file.module.call_with(name)
+        if call is None or len(call.args) != _SETTING:
             return None
         names = names_in(file, call.args[1])
         if names is None:
@@ -30,8 +30,8 @@ def set_by_name(file: RclpyFile) -> frozenset[str] | None:
 def read_by_name(file: RclpyFile, class_: ast.ClassDef) -> Iterator[tuple[ast.Call, str]]:
     """Yield the attributes of ``self`` that a class reads with getattr(), without a default."""
     for name in file.module.index.names("getattr"):
-        match file.module.parent(name):
-            case ast.Call(func=func, args=[owner, given], keywords=[]) as call if func is name:
+        match file.module.call_with(name):
+            case ast.Call(args=[owner, given], keywords=[]) as call:
                 if file.evaluator.self_class(owner) is class_:
                     for text in sorted(names_in(file, given) or ()):
                         yield call, text

@@ -76,9 +76,8 @@ def callback_arguments(file: RclpyFile) -> dict[ast.arg, FunctionNode | ast.Lamb
     """Return the functions that rclpy calls with a list of parameters, by argument."""
     result: dict[ast.arg, FunctionNode | ast.Lambda] = {}
     for method in CALLBACKS:
-        for attribute in file.module.index.attributes(method):
-            call = file.module.parent(attribute)
-            if not isinstance(call, ast.Call) or call.func is not attribute or not call.args:
+        for call, _ in file.module.method_calls(method):
+            if not call.args:
                 continue
             callback = file.callback(call.args[0])
             if callback.function is None or callback.is_partial or callback.is_called:
@@ -130,11 +129,8 @@ class ParameterMade(NamedTuple):
 def parameters_set(file: RclpyFile) -> Iterator[tuple[NodeDefinition, ParameterMade]]:
     """Yield the parameters that a file sets on known nodes, one by one."""
     for method in ("set_parameters", "set_parameters_atomically"):
-        for attribute in file.module.index.attributes(method):
-            call = file.module.parent(attribute)
-            if not isinstance(call, ast.Call) or call.func is not attribute or not call.args:
-                continue
-            owner = file.owner_of(attribute.value)
+        for call, attribute in file.module.method_calls(method):
+            owner = file.owner_of(attribute.value) if call.args else None
             for item in file.evaluator.elements(call.args[0]).items if owner else ():
                 made = _parameter_made(file, call, item.node)
                 if made is not None and owner is not None:
@@ -173,9 +169,9 @@ class NameUsed(NamedTuple):
 def names_used(file: RclpyFile) -> Iterator[NameUsed]:
     """Yield the parameters that a file describes, undeclares, sets, or gets in a list."""
     for method in (*_NAMED, *_LISTED):
-        for attribute in file.module.index.attributes(method):
-            call, owner = file.module.parent(attribute), file.owner_of(attribute.value)
-            if owner is not None and isinstance(call, ast.Call) and call.func is attribute:
+        for call, attribute in file.module.method_calls(method):
+            owner = file.owner_of(attribute.value)
+            if owner is not None:
                 given = call.args[:1]
                 if method in _LISTED and given:
                     given = [item.node for item in file.evaluator.elements(given[0]).items]

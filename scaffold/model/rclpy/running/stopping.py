@@ -61,9 +61,7 @@ def _is_spin(module: PythonModule, call: ast.Call) -> bool:
 def _ends_itself(module: PythonModule, node: ast.AST) -> bool:
     function = module.enclosing_function(node)
     return any(
-        isinstance(call.func, ast.Attribute)
-        and call.func.attr in _ENDS
-        and (where := module.enclosing_function(call)) not in {None, function}
+        (where := module.enclosing_function(call)) not in {None, function}
         and getattr(where, "name", "") != "__init__"
-        for call in module.walk(ast.Call)
+        for call, _ in module.method_calls(*_ENDS)
     )

@@ -37,10 +37,7 @@ def lookups_in(file: RclpyFile) -> Iterator[Lookup]:
     if not file.module.mentions("tf2_ros"):
         return
     for method, names in _SIGNATURES.items():
-        for func in file.module.index.attributes(method):
-            call = file.module.parent(func)
-            if not isinstance(call, ast.Call) or call.func is not func:
-                continue
+        for call, func in file.module.method_calls(method):
             if file.callback(func).function is not None or any(
                 isinstance(arg, ast.Starred) for arg in call.args
             ):
