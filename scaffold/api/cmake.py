@@ -17,6 +17,7 @@ from scaffold.model.contents.ament_cmake import (
     nested,
     programs,
     runs_with_python,
+    subdirectories,
     uses_ament,
 )
 from scaffold.model.contents.interface_files import (
@@ -48,5 +49,6 @@ __all__ = [
     "nested",
     "programs",
     "runs_with_python",
+    "subdirectories",
     "uses_ament",
 ]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator
 from itertools import dropwhile
 
@@ -109,6 +110,16 @@ class CallRepeated(Rule):
             "CMakeLists.txt:3:1: the Python package 'my_robot' has the name of the interfaces "
             "generated in line 2: CMake stops; move the interfaces to a separate package",
         ),
+        Example(
+            "two files of one name in a loop over tests",
+            {
+                "CMakeLists.txt": "project(talker)\nif(BUILD_TESTING)\n"
+                "  foreach(path test/test_a.py test/test_b.py test/slow/test_a.py)\n"
+                "    get_filename_component(name ${path} NAME_WE)\n"
+                "    ament_add_pytest_test(${name} ${path})\n  endforeach()\nendif()\n"
+            },
+            "5:27: ament_add_pytest_test(test_a) is called in 2 iterations: CMake stops",
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
@@ -138,7 +149,7 @@ class CallRepeated(Rule):
                 yield self.report(command.arguments[0], message)
 
     def _check_loops(self, package: Package) -> Iterator[Diagnostic]:
-        """Report names of tests and targets that are the same in all iterations of a loop."""
+        """Report names of tests and targets that are the same in iterations of a loop."""
         cmake = package.cmake
         for command in cmake.find(*_NAMING):
             inner = [*dropwhile(lambda block: block.name == "if", command.blocks)]
@@ -146,9 +157,10 @@ class CallRepeated(Rule):
                 continue
             first, turns = command.arguments[0], cmake.turns(command)
             names = [cmake.expand(first, command, turn) for turn in turns]
-            is_known = None not in names and command.name != _LAUNCH_TEST
-            if is_known and len(names) > 1 == len({*names}):
-                message = f"{command.name}({names[0]}) is called in each iteration: CMake stops"
+            name, times = Counter(names).most_common(1)[0] if names else (None, 0)
+            if times > 1 and None not in names and command.name != _LAUNCH_TEST:
+                how = "each iteration" if times == len(names) else f"{times} iterations"
+                message = f"{command.name}({name}) is called in {how}: CMake stops"
                 yield self.report(first, message)
 
     def _may_skip(self, command: Command) -> bool:

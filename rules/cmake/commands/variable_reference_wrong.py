@@ -5,9 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 from difflib import get_close_matches
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, Safety
 from scaffold.api.cmake import Argument, CMakeLists
 
+_SIMILAR = 0.6
+"""How similar the names of two variables are if one is set and the other one is read."""
 _WANTED = "PROJECT_NAME"
 _OTHERS = frozenset({"PACKAGE_NAME", "PKG_NAME", "PACKAGE", "PROJECT", "PROJECTNAME"})
 _KNOWN = frozenset({"CMAKE_PROJECT_NAME", "PROJECT_NAME"})
@@ -19,11 +21,11 @@ _LISTS_CLOSED = (
 
 
 class VariableReferenceWrong(Rule):
-    """A variable reference has no closing brace, or misspells PROJECT_NAME.
+    """A variable reference has no closing brace, or misspells PROJECT_NAME or another variable.
 
     **Why.** CMake stops: ``There is an unterminated variable reference``. An undefined variable is
     empty, without an error: files are installed to ``lib/`` or ``share/`` instead of the directory
-    of the package.
+    of the package, and a loop over it does nothing.
 
     **Fix.** Add the brace; write ``${PROJECT_NAME}``: CMake variables are case-sensitive.
 
@@ -59,6 +61,26 @@ class VariableReferenceWrong(Rule):
             {"CMakeLists.txt": _LISTS_CLOSED.format("${PROJECT_NAME"), "talker/node.py": ""},
             "CMakeLists.txt:3:15: missing '}' in 'lib/${PROJECT_NAME': CMake stops",
         ),
+        Example(
+            "the other name of a list that nothing reads",
+            {
+                "CMakeLists.txt": "project(talker)\nset(scripts a.py)\nset(nodes b.py)\n"
+                "install(PROGRAMS ${script_files} DESTINATION lib/talker)\n"
+                "install(PROGRAMS ${node_files} ${nodes} DESTINATION lib/talker)\n",
+                "a.py": "",
+                "b.py": "",
+            },
+            Report(
+                "CMakeLists.txt:4:18",
+                "script_files is never set, so it is empty; did you mean ${scripts}?",
+                unsafe_fix="Replace with scripts",
+            ),
+            fixed={
+                "CMakeLists.txt": "project(talker)\nset(scripts a.py)\nset(nodes b.py)\n"
+                "install(PROGRAMS ${scripts} DESTINATION lib/talker)\n"
+                "install(PROGRAMS ${node_files} ${nodes} DESTINATION lib/talker)\n",
+            },
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
@@ -70,17 +92,21 @@ class VariableReferenceWrong(Rule):
         for command in cmake.commands:
             for argument in command.arguments:
                 for name in _variables(argument):
-                    if name not in named and _is_meant(name) and not _is_made(cmake, name):
-                        yield self._report(argument, name)
+                    if name in named or _is_made(cmake, name):
+                        continue
+                    meant = _WANTED if _is_meant(name) else _unread(cmake, name)
+                    if meant:
+                        yield self._report(argument, name, meant)
 
-    def _report(self, argument: Argument, name: str) -> Diagnostic:
+    def _report(self, argument: Argument, name: str, meant: str) -> Diagnostic:
         fix = None
         at = argument.raw.find(f"${{{name}}}")
         if at >= 0:
             start = argument.start + at + 2
-            edit = Edit(argument.path, start, start + len(name), _WANTED)
-            fix = Fix(f"Replace with {_WANTED}", (edit,))
-        message = f"{name} is never set, so it is empty; did you mean ${{{_WANTED}}}?"
+            edit = Edit(argument.path, start, start + len(name), meant)
+            safety = Safety.SAFE if meant == _WANTED else Safety.UNSAFE
+            fix = Fix(f"Replace with {meant}", (edit,), safety)
+        message = f"{name} is never set, so it is empty; did you mean ${{{meant}}}?"
         return self.report(argument, message, fix)
 
     def _check_closed(self, package: Package) -> Iterator[Diagnostic]:
@@ -104,6 +130,18 @@ def _is_meant(name: str) -> bool:
         return False
     close = get_close_matches(name.upper(), [_WANTED], 1, 0.85)
     return name in _OTHERS or name.upper() == _WANTED or bool(close)
+
+
+def _unread(cmake: CMakeLists, name: str) -> str:
+    """Return the variable with a similar name that is set and never read; empty if none is."""
+    given = [command.values[0] for command in cmake.find("set", "option") if command.values]
+    given += [command.values[1] for command in cmake.find("file", "list") if command.values[1:]]
+    closest = get_close_matches(name, {*given}, 1, _SIMILAR)
+    if not closest or name.startswith("CMAKE_"):
+        return ""
+    values = [value for command in cmake.commands for value in command.values]
+    is_read = any(f"{{{closest[0]}}}" in value for value in values)
+    return "" if is_read or values.count(closest[0]) != 1 else closest[0]
 
 
 def _is_made(cmake: CMakeLists, name: str) -> bool:

@@ -23,6 +23,7 @@ from scaffold.api.cmake import (
     InstallItem,
     generations,
     is_made_by_build,
+    subdirectories,
 )
 from scaffold.api.interfaces import SECTIONS, closest_word
 from scaffold.api.workspace import is_untracked
@@ -323,6 +324,19 @@ class NamedFileMissing(Rule):
             "CMakeLists.txt:3:54: no file matches 'msg/*.msg': CMake stops without interfaces; "
             "they are in msgs/",
         ),
+        Example(
+            "a file and a missing one of a subdirectory",
+            {
+                "CMakeLists.txt": "project(talker)\nadd_subdirectory(scripts)\n",
+                "scripts/CMakeLists.txt": "install(PROGRAMS talk.py scripts/talk.py\n"
+                "  DESTINATION lib/${PROJECT_NAME}\n)\n"
+                "install(FILES ${PROJECT_SOURCE_DIR}/package.xml DESTINATION share)\n",
+                "scripts/talk.py": "",
+                "package.xml": "<package/>\n",
+            },
+            "scripts/CMakeLists.txt:1:26: installs scripts/scripts/talk.py, which does not exist: "
+            "the build stops",
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
@@ -335,31 +349,35 @@ class NamedFileMissing(Rule):
         yield from self._check_package(package)
 
     def _check_installed(self, package: Package) -> Iterator[Diagnostic]:
-        for install in package.cmake.installs:
+        for lists in (package.cmake, *(subdirectories(package) or ())):
+            yield from self._check_items(package, lists)
+
+    def _check_items(self, package: Package, cmake: CMakeLists) -> Iterator[Diagnostic]:
+        for install in cmake.installs:
             if install.kind not in {"PROGRAMS", "FILES", "DIRECTORY"} or install.command.has(
                 "OPTIONAL"
             ):
                 continue
             if install.command.has("FILES_MATCHING"):
                 continue  # CMake skips a missing directory
-            if not package.cmake.is_called(install.command):
+            if not cmake.is_called(install.command):
                 continue
             for item in install.items:
-                problem = self._problem(package, install, item)
+                problem = self._problem(package, cmake, install, item)
                 is_pattern = "*" in item.argument.raw and item.argument.raw == item.path
                 if is_pattern and install.kind in _FILE_KINDS:
                     problem = f"CMake does not expand {item.path}: the build stops; write each file"
                 if problem:
-                    written = package.cmake.where_written(
-                        install.command, item.argument, item.value
-                    )
+                    written = cmake.where_written(install.command, item.argument, item.value)
                     yield self.report(written, problem)
 
-    def _problem(self, package: Package, install: Install, item: InstallItem) -> str | None:
+    def _problem(
+        self, package: Package, cmake: CMakeLists, install: Install, item: InstallItem
+    ) -> str | None:
         path = item.path
         if not path or not self._is_own(path) or is_made_by_build(package, path):
             return None
-        if _runs_if_exists(package.cmake, install.command) or _is_elsewhere(package, path):
+        if _runs_if_exists(cmake, install.command) or _is_elsewhere(package, path):
             return None
         nested = [f"{directory}/" for directory in package.tree.nested]
         if any(f"{path}/".startswith(item) or item.startswith(f"{path}/") for item in nested):

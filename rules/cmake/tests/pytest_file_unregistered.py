@@ -10,6 +10,8 @@ _REGISTER = "ament_add_pytest_test({0} test/{0}.py)\n"
 _LISTS = "project(talker)\nfind_package(ament_cmake REQUIRED)\n{}ament_package()\n"
 _TEST = "def test_talk():\n    pass\n"
 
+_REGISTERING = ("ament_add_pytest_test", "ament_add_test", "add_test", "add_launch_test")
+
 
 class PytestFileUnregistered(Rule):
     """A test file is not registered in CMakeLists.txt.
@@ -48,14 +50,41 @@ class PytestFileUnregistered(Rule):
             "CMakeLists.txt:3:1: test/test_talk.py is not registered, so it never runs; add "
             "ament_add_pytest_test()",
         ),
+        Example(
+            "registered in a loop",
+            {
+                "CMakeLists.txt": "project(talker)\nfile(GLOB tests test/*.py)\n"
+                "foreach(path ${tests})\n  get_filename_component(name ${path} NAME_WE)\n"
+                "  ament_add_pytest_test(${name} ${path})\nendforeach()\nament_package()\n",
+                "test/test_talk.py": "def test_talk():\n    pass\n",
+            },
+        ),
+        Example(
+            "left out of a loop",
+            {
+                "CMakeLists.txt": "project(talker)\nset(tests test_talk test_hear)\n"
+                "foreach(name test_hear)\n"
+                "  ament_add_pytest_test(${name} test/${name}.py)\nendforeach()\nament_package()\n",
+                "test/test_hear.py": "def test_hear():\n    pass\n",
+                "test/test_talks.py": "def test_talks():\n    pass\n",
+            },
+            "CMakeLists.txt:6:1: test/test_talks.py is not registered, so it never runs; add "
+            "ament_add_pytest_test()",
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         cmake = package.cmake
         calls = cmake.find("ament_package")
-        if not calls or cmake.find("add_subdirectory", "include", "foreach", "function", "macro"):
+        if not calls or cmake.find("add_subdirectory", "include", "function", "macro"):
             return
         arguments = [value for command in cmake.commands for value in command.values]
+        for command in cmake.find(*_REGISTERING) if cmake.find("foreach") else ():
+            for turn in cmake.turns(command):
+                values = cmake.expand_list(command.arguments[:2], command, turn)
+                if values is None:
+                    return
+                arguments += values
         for path in package.glob("test/test_*.py") + package.glob("tests/test_*.py"):
             directory, _, name = path.rpartition("/")
             if any(name in value or _names(value, directory) for value in arguments):

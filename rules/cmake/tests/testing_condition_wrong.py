@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
 from scaffold.api.cmake import CMakeLists, Command
+from scaffold.api.launch import DATA_DIRECTORIES
 
 _TESTS = ("ament_lint_auto_find_test_dependencies", "ament_add_pytest_test", "ament_add_gtest")
 _LISTS = (
@@ -19,6 +20,8 @@ _LISTS_LOOP = (
 _NODE = "#!/usr/bin/env python3\nimport rclpy\n\nif __name__ == '__main__':\n    rclpy.init()\n"
 _INSTALL = "install(PROGRAMS talker/node.py DESTINATION lib/${PROJECT_NAME})\n"
 _LISTS_NODES = "project(talker)\n{}ament_package()\n"
+
+_FOR_USERS = frozenset(DATA_DIRECTORIES) | {"launch"}
 
 
 class TestingConditionWrong(Rule):
@@ -85,6 +88,18 @@ class TestingConditionWrong(Rule):
             "CMakeLists.txt:3:18: talker/node.py is installed only if tests are built: releases "
             "do not contain it",
         ),
+        Example(
+            "directories that releases lack, and one only for tests",
+            {
+                "package.xml": "<package><name>talker</name></package>\n",
+                "CMakeLists.txt": "project(talker)\nif(BUILD_TESTING)\n"
+                "  install(DIRECTORY launch test DESTINATION share/${PROJECT_NAME})\nendif()\n",
+                "launch/a.launch.py": "",
+                "test/test_a.py": "",
+            },
+            "CMakeLists.txt:3:21: launch/ is installed only if tests are built: releases do not "
+            "contain it",
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
@@ -116,10 +131,18 @@ class TestingConditionWrong(Rule):
     def _check_nodes(self, package: Package) -> Iterator[Diagnostic]:
         cmake = package.cmake
         for install in cmake.installs:
-            if install.kind != "PROGRAMS" or not cmake.guarded_by_testing(install.command):
+            if not cmake.guarded_by_testing(install.command):
                 continue
             for item in install.items:
                 path = item.path or ""
+                is_for_users = install.kind == "DIRECTORY" and path in _FOR_USERS
+                if is_for_users and install.destination == f"share/{package.name}":
+                    message = (
+                        f"{path}/ is installed only if tests are built: releases do not contain it"
+                    )
+                    yield self.report(item, message)
+                if install.kind != "PROGRAMS":
+                    continue
                 if path not in package.python_files or path.startswith("test"):
                     continue
                 module = package.module(path)

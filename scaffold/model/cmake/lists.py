@@ -62,6 +62,7 @@ class CMakeLists:
         self.followed: frozenset[Command] = frozenset()
         """The calls of ``include`` whose file is known."""
         self._glob: Glob | None = None
+        self._project_above: str | None = None
 
     @classmethod
     def parse(cls, source: Source) -> CMakeLists:
@@ -81,6 +82,11 @@ class CMakeLists:
         self._glob = glob
         for cached in ("_by_name", "_variables"):
             self.__dict__.pop(cached, None)
+
+    def place_below(self, project: str | None, glob: Glob) -> None:
+        """Make this the file of a subdirectory of a project, before anything else is asked."""
+        self._project_above = project
+        self._glob = glob
 
     def require(self) -> None:
         """Raise an error unless the file is valid.
@@ -161,9 +167,11 @@ class CMakeLists:
     @cached_property
     def _variables(self) -> Variables:
         project = self.project
-        name = project.arguments[0].text if project and project.arguments else None
+        above = self._project_above
+        name = project.arguments[0].text if project and project.arguments else above
         directory = self.source.path.rpartition("/")[0]
-        return Variables(self.commands, directory, name, self._glob)
+        is_below = above is not None and project is None
+        return Variables(self.commands, directory, name, self._glob, is_subdirectory=is_below)
 
     def expand(
         self,

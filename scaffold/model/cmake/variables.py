@@ -10,6 +10,7 @@ from functools import partial
 
 from scaffold import lazy_re
 from scaffold.model.cmake.parser import Argument, Command
+from scaffold.model.cmake.results import CHANGING, changed, place_of_output, text_of
 from scaffold.record import NamedTuple
 
 ROOT = "\0"
@@ -95,13 +96,14 @@ class _Entry(NamedTuple):
 
 
 class Variables:
-    """Tracks ``set``, ``list(APPEND)``, ``file(GLOB)``, ``unset``, ``foreach`` and calls.
+    """Tracks ``set``, ``list``, ``string``, ``file(GLOB)``, ``unset``, ``foreach`` and calls.
 
     Args:
         commands: The commands of the file, and of those that it includes.
         directory: The directory of the file.
         project: The name in ``project``, as it is written.
         glob: Lists the files of the package, if known.
+        is_subdirectory: Whether the project is that of a file above.
     """
 
     def __init__(
@@ -110,18 +112,18 @@ class Variables:
         directory: str,
         project: str | None,
         glob: Glob | None = None,
+        *,
+        is_subdirectory: bool = False,
     ) -> None:
         current = f"{ROOT}/{directory}" if directory else ROOT
+        top = ROOT if is_subdirectory else current
         self._glob = glob
-        self._fixed: dict[str, str] = dict.fromkeys(
-            (
-                "CMAKE_CURRENT_SOURCE_DIR",
-                "CMAKE_CURRENT_LIST_DIR",
-                "CMAKE_SOURCE_DIR",
-                "PROJECT_SOURCE_DIR",
-            ),
-            current,
-        )
+        self._fixed: dict[str, str] = {
+            "CMAKE_CURRENT_SOURCE_DIR": current,
+            "CMAKE_CURRENT_LIST_DIR": current,
+            "CMAKE_SOURCE_DIR": top,
+            "PROJECT_SOURCE_DIR": top,
+        }
         self._turns = _MAX_TURNS
         self._nesting = 0
         self._calls: dict[str, list[Command]] = {}
@@ -144,7 +146,7 @@ class Variables:
             name = self.evaluate(project, None, {})
             if name is not None:
                 self._fixed["PROJECT_NAME"] = self._fixed["CMAKE_PROJECT_NAME"] = name
-                self._fixed[f"{name}_SOURCE_DIR"] = current
+                self._fixed[f"{name}_SOURCE_DIR"] = top
         self._follow_all(commands)
 
     # -- asking
@@ -384,6 +386,10 @@ class Variables:
             self._note_each(command, 0, self._component)
         elif command.name == "file" and command.values[:1] in _GLOBS:
             self._note_each(command, 1, self._globbed)
+        elif command.name == "string" and (place := place_of_output(command.values)):
+            self._note_each(command, place, self._text)
+        elif command.name == "list" and command.values[:1] and command.values[0] in CHANGING:
+            self._note_each(command, 1, self._changed)
         else:
             return False
         return True
@@ -435,6 +441,26 @@ class Variables:
         path = posixpath.normpath(full.removeprefix(f"{ROOT}/"))
         paths = self._glob(path, command.values[0])
         return None if paths is None else [f"{ROOT}/{path}" for path in paths]
+
+    def _text(self, command: Command, bindings: Bindings) -> str | None:
+        """Return the result of ``string``."""
+        given = [self.evaluate(item.text, command, bindings) for item in command.arguments]
+        known = [value for value in given if value is not None]
+        return text_of(known) if len(known) == len(given) else None
+
+    def _changed(self, command: Command, bindings: Bindings) -> str | None:
+        """Return a list after ``list`` has removed or ordered items."""
+        action, name = command.values[:2]
+        if any(block.name in _LOOPS for block in command.blocks):
+            return None  # each turn changes what the one before left
+        before = self._value(name, command, bindings)
+        words: list[str] = []
+        for argument in command.arguments[2:]:
+            values = self.argument(argument, command, bindings)
+            if values is None:
+                return None
+            words += values
+        return None if before is None else changed(split_list(before), action, words, ROOT)
 
     def _parse_arguments(self, command: Command) -> None:
         """Note what ``cmake_parse_arguments(PREFIX flags single multiple ...)`` sets."""

@@ -14,7 +14,7 @@ from scaffold.record import NamedTuple
 from scaffold.source import ViewError
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Callable, Iterator, Sequence
 
     from scaffold.model.cmake.lists import InstallItem
     from scaffold.model.cmake.parser import Command
@@ -108,15 +108,30 @@ def nested(
                 continue
             visited.add(path)
             below = CMakeLists.parse(package.source(path))
+            below.place_below(package.cmake.project_name, package.listed)
             is_own = command.name == "add_subdirectory"
             pending.append((posixpath.dirname(path) if is_own else directory, below))
             yield below
 
 
+def subdirectories(package: Package) -> Sequence[CMakeLists] | None:
+    """Return the files that ``add_subdirectory`` always adds; ``None`` if some are not known."""
+    found = package.remember("subdirectories", lambda: [*nested(package, _is_conditional)])
+    result = [lists for lists in found if lists.source.path.endswith("/CMakeLists.txt")]
+    calls = [call for lists in (package.cmake, *result) for call in lists.find("add_subdirectory")]
+    is_known = len(calls) == len(result) and not any(lists.errors for lists in result)
+    return result if is_known else None
+
+
+def _is_conditional(_: CMakeLists, command: Command) -> bool:
+    return bool(command.blocks)
+
+
 def programs(package: Package) -> list[Program]:
     """Return the files that are installed as programs, as far as known."""
     result: list[Program] = []
-    for install in package.cmake.installs:
+    files = (package.cmake, *(subdirectories(package) or ()))
+    for install in (install for lists in files for install in lists.installs):
         if install.kind != "PROGRAMS":
             continue
         for item in install.items:

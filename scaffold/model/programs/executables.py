@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from scaffold.model.catalog import keys_of_module
-from scaffold.model.contents.ament_cmake import programs
+from scaffold.model.contents.ament_cmake import programs, subdirectories
 from scaffold.model.contents.python_facts import imports_of
 from scaffold.model.install.configured_scripts import (
     configured_scripts,
@@ -165,10 +165,17 @@ def _file_of(package: Package, module: str) -> str:
     return next(filter(package.has, paths), "")
 
 
+def _is_plain(lists: CMakeLists) -> bool:
+    """Return whether no command of a file may install executables in another way."""
+    plain = _PLAIN_COMMANDS | lists.defined | {"add_subdirectory"}
+    return all(command.name in plain or command in lists.followed for command in lists.commands)
+
+
 def _by_cmake(package: Package) -> Programs:
     cmake = package.cmake
-    plain = _PLAIN_COMMANDS | cmake.defined
-    complete = all(command.name in plain or command in cmake.followed for command in cmake.commands)
+    below = subdirectories(package)
+    files = (cmake, *(below or ()))
+    complete = below is not None and all(map(_is_plain, files))
     complete = complete and (installs_configured(package) or not installs_unknown_scripts(package))
     sources = _configured(package)
     for program in programs(package):
@@ -176,7 +183,7 @@ def _by_cmake(package: Package) -> Programs:
         if destination == f"lib/{package.name}":
             is_python = program.path in package.python_files
             sources[program.name] = program.path if is_python else ""
-    for install in cmake.installs:
+    for install in (install for lists in files for install in lists.installs):
         if install.kind == "TARGETS":
             complete = complete and all(item.value is not None for item in install.items)
             sources.update({item.value: "" for item in install.items if item.value})
@@ -185,10 +192,10 @@ def _by_cmake(package: Package) -> Programs:
         elif install.destination is None or install.kind == "DIRECTORY":
             lib = install.destination is None or install.destination.startswith("lib")
             complete = complete and not lib
-    for names in _made_by_commands(cmake):
+    for names in (names for lists in files for names in _made_by_commands(lists)):
         complete = complete and names is not None
         sources.update(dict.fromkeys(names or (), ""))
-    renames = any("OUTPUT_NAME" in command.values for command in cmake.commands)
+    renames = any("OUTPUT_NAME" in command.values for lists in files for command in lists.commands)
     return Programs(sources, complete and not renames)
 
 

@@ -48,6 +48,20 @@ TEXTS = {
     "parts of paths": "file(GLOB tools tools/*.py)\nforeach(tool ${tools})\n"
     "  get_filename_component(name ${tool} NAME_WE)\n"
     "  install(PROGRAMS ${tool} DESTINATION lib RENAME ${name})\nendforeach()\n",
+    "texts": "foreach(path nodes/talk.py nodes/Listen.py)\n"
+    '  string(REPLACE "nodes/" "" name ${path})\n'
+    '  string(REGEX REPLACE "\\\\.py$" "" name "${name}")\n  string(TOLOWER "${name}" lower)\n'
+    "  string(TOUPPER ${name} upper)\n  string(CONCAT both ${lower} _ ${upper})\n"
+    "  install(PROGRAMS ${path} DESTINATION lib RENAME ${both})\nendforeach()\n"
+    'string(STRIP "  a " a)\nstring(REGEX REPLACE "_.*$" "" b "x_y_z")\n'
+    "install(PROGRAMS ${a} ${b} DESTINATION lib)\n",
+    "changed lists": "set(all b.py a.py c.txt a.py)\n"
+    'list(FILTER all INCLUDE REGEX "\\\\.py$")\ninstall(PROGRAMS ${all} DESTINATION lib)\n'
+    "list(REMOVE_DUPLICATES all)\nlist(SORT all)\ninstall(PROGRAMS ${all} DESTINATION lib)\n"
+    "list(REVERSE all)\ninstall(PROGRAMS ${all} DESTINATION lib)\n"
+    "list(REMOVE_ITEM all a.py d.py)\ninstall(PROGRAMS ${all} DESTINATION lib)\n"
+    'file(GLOB_RECURSE nodes nodes/*.py)\nlist(FILTER nodes EXCLUDE REGEX "/deep/")\n'
+    "install(PROGRAMS ${nodes} DESTINATION lib)\n",
     "an included file": "include(cmake/macros.cmake)\nset(where lib/p)\nscripts(nodes/talk.py)\n"
     "install(FILES ${more} DESTINATION share)\n",
 }
