@@ -21,6 +21,7 @@ from scaffold.api.tests import (
     test_modules,
 )
 
+_CONFTEST = "import pytest\n\n\n@pytest.fixture\ndef {}():\n    return 1\n"
 _BUILT_IN = frozenset(
     {"cache", "capsys", "capsysbinary", "capfd", "capfdbinary", "caplog", "doctest_namespace"}
     | {"monkeypatch", "pytestconfig", "pytester", "record_property", "record_testsuite_property"}
@@ -162,6 +163,16 @@ class FixtureMisused(Rule):
             "test/test_motor.py:5:5: unknown fixture 'make_motor': 'make_motor'() is the fixture "
             "'motor'",
         ),
+        Example(
+            "a fixture of a conftest.py above, and of one elsewhere",
+            {
+                "test/conftest.py": _CONFTEST.format("near"),
+                "test/fixtures/conftest.py": _CONFTEST.format("away"),
+                "test/unit/test_a.py": "def test_a(near, away):\n    assert near == away\n",
+            },
+            "test/unit/test_a.py:1:5: the fixture 'away' of test/fixtures/conftest.py is only for "
+            "tests below test/fixtures/",
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
@@ -209,6 +220,7 @@ class FixtureMisused(Rule):
                     and not may_be_imported(package, module, name)
                 ):
                     message = _missing(module, test, name, available)
+                    message = message or _out_of_reach(package, name)
                     if message:
                         yield self.report(module.name_location(test.node), message)
 
@@ -240,6 +252,18 @@ def _missing(
     if closest:
         return f"unknown fixture {name!r}: the test fails; did you mean {closest[0]!r}?"
     return "" if name in _OF_PLUGINS else _undefined(module, name)
+
+
+def _out_of_reach(package: Package, name: str) -> str:
+    """Return the problem with a fixture that only another directory of tests has."""
+    if name in _BUILT_IN or name in _OF_PLUGINS:
+        return ""
+    for other in package.modules(files_of_tests(package)):
+        is_shared = other.path.endswith("/conftest.py")
+        if is_shared and any(fixture.name == name for fixture in own_fixtures(other)):
+            directory = other.path.rpartition("/")[0]
+            return f"the fixture {name!r} of {other.path} is only for tests below {directory}/"
+    return ""
 
 
 def _undefined(module: PythonModule, name: str) -> str:

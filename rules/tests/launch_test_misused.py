@@ -34,6 +34,8 @@ _RIGHT = (
 )
 _OTHER = _TEST.format("", *_RIGHT[1:3], "object")
 
+_AFTER = "launch_testing.post_shutdown_test"
+
 
 class LaunchTestMisused(Rule):
     """A launch_testing test never becomes ready, runs without its nodes, or contains no tests.
@@ -108,6 +110,17 @@ class LaunchTestMisused(Rule):
             "test/test_talker.py:12:7: TestTalker is not a TestCase: launch_testing does not run "
             "it; inherit from unittest.TestCase",
         ),
+        Example(
+            "a decorator that is not called",
+            {
+                "setup.py": "",
+                "test/test_talker.py": _TEST.format(*_RIGHT)
+                + "\n\n@launch_testing.post_shutdown_test\nclass TestEnd(unittest.TestCase):\n"
+                "    pass\n\n\n@launch_testing.post_shutdown_test()\n"
+                "class TestLater(unittest.TestCase):\n    pass\n",
+            },
+            "test/test_talker.py:18:2: post_shutdown_test is not called: TypeError; add ()",
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
@@ -125,6 +138,10 @@ class LaunchTestMisused(Rule):
                 plain = not class_.node.bases or module.qualified_names(class_.node.bases[0]) == {
                     "object"
                 }
+                for decorator in class_.node.decorator_list:
+                    if module.qualified_name(decorator) == _AFTER:
+                        message = "post_shutdown_test is not called: TypeError; add ()"
+                        yield self.report(module.location(decorator), message)
                 if is_test_case(module, class_.node):
                     yield from self._check_arguments(module, class_.node)
                 if has_tests and plain and not module.index.names(class_.name):

@@ -5,9 +5,15 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, TestRule
+from scaffold.api import Diagnostic, Example, Package, TestRule, fact
 from scaffold.api.python import PythonModule
-from scaffold.api.tests import keywords, marks, test_functions
+from scaffold.api.tests import (
+    keywords,
+    marks,
+    pytest_settings,
+    settings_or_tests_mention,
+    test_functions,
+)
 
 _MEANT = {
     **dict.fromkeys(
@@ -18,6 +24,15 @@ _MEANT = {
     **dict.fromkeys(("usefixture", "use_fixtures", "use_fixture"), "usefixtures"),
     **dict.fromkeys(("x_fail", "xFail", "expected_fail"), "xfail"),
 }
+_OF_PLUGINS = frozenset(
+    """
+    anyio asyncio benchmark copyright cppcheck cpplint dependency django_db filterwarnings flake8
+    flaky forked isort launch launch_test linter lint_cmake mypy no_cover order parametrize pep257
+    repeat rostest skip skipif timeout trio tryfirst trylast uncrustify usefixtures xdist_group
+    xfail xmllint
+    """.split()  # noqa: SIM905  a column of quoted names would hide them
+)
+"""The marks of pytest, its common plugins, and the linters of ament."""
 _PARAMETERS = (
     "import pytest\n\n\n@pytest.mark.parametrize('word, count', {})\n"
     "def test_text(word, count):\n    assert len(word) == count\n"
@@ -89,14 +104,40 @@ class MarkMisused(TestRule):
             },
             "6:2: 2 names, but (1, 2, 3) has 3 values: pytest stops",
         ),
+        Example(
+            "a mark that strict settings do not know, and those that they do",
+            {
+                "pytest.ini": "[pytest]\naddopts = --strict-markers\nmarkers =\n    slow: long\n",
+                "test/test_text.py": "import pytest\n\n\n@pytest.mark.slow\n@pytest.mark.linter\n"
+                "@pytest.mark.hardware\ndef test_one():\n    pass\n",
+            },
+            "test/test_text.py:6:2: mark 'hardware' is not in the markers of the settings: pytest "
+            "stops",
+        ),
     )
 
-    def check_file(self, module: PythonModule) -> Iterator[Diagnostic]:
+    def check_in(self, package: Package, module: PythonModule) -> Iterator[Diagnostic]:
+        registered = _registered(package)
         for test in test_functions(module):
             for name, decorator in marks(module, test.node):
                 problem = _mark_problem(module, name, decorator)
+                if not problem and registered is not None and name not in registered:
+                    problem = f"mark {name!r} is not in the markers of the settings: pytest stops"
                 if problem:
                     yield self.report(module.location(decorator), problem)
+
+
+@fact
+def _registered(package: Package) -> frozenset[str] | None:
+    """Return the marks that pytest accepts; ``None`` if it accepts all, or plugins add some."""
+    settings = pytest_settings(package)
+    options = settings["addopts"].words if "addopts" in settings else ()
+    if not {"--strict", "--strict-markers"}.intersection(options):
+        return None
+    if settings_or_tests_mention(package, ("addinivalue_line", "pytest_plugins", "-p ")):
+        return None
+    words = settings["markers"].words if "markers" in settings else ()
+    return frozenset(word.partition(":")[0].partition("(")[0] for word in words) | _OF_PLUGINS
 
 
 def _mark_problem(module: PythonModule, name: str, decorator: ast.expr) -> str:

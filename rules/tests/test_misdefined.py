@@ -179,9 +179,14 @@ class TestMisdefined(Rule):
                 yield self.report(settings["addopts"].location, message, severity=severity)
         files, usual = files_collected(package, settings), files_collected(package, {})
         if not files and usual:
-            name = "python_files" if "python_files" in settings else "testpaths"
-            message = f"no test file matches {name}: pytest does not collect {usual[0]}"
-            yield self.report(settings[name].location, message)
+            names = ("norecursedirs", "python_files", "testpaths")
+            setting, name = next((settings[name], name) for name in names if name in settings)
+            of_file = f" of {setting.file}" if setting.file else ""
+            problem = f"no test file matches {name}{of_file}"
+            if name == "norecursedirs":
+                problem = f"{name}{of_file} leaves out all tests"
+            message = f"{problem}: pytest does not collect {usual[0]}"
+            yield self.report(setting.location, message)
         is_other = any("import" in option or "ignore" in option for option in options)
         if not is_other and "norecursedirs" not in settings:
             yield from self._check_names(package, files)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from scaffold.model.contents.pytest_settings import (
+from scaffold.model.install.pytest_settings import (
     Setting,
     files_collected,
     module_name,

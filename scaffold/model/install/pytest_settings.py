@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import posixpath
 import re
 import shlex
@@ -10,8 +11,9 @@ from contextlib import suppress
 from fnmatch import fnmatchcase
 from typing import TYPE_CHECKING, Any
 
+from scaffold.model.discovery.gitignore import directories_above
 from scaffold.record import NamedTuple
-from scaffold.source import Location, ViewError
+from scaffold.source import Location, Source, ViewError
 
 if TYPE_CHECKING:
     from scaffold.model.package import Package
@@ -27,6 +29,9 @@ class Setting(NamedTuple):
 
     words: Sequence[str]
     location: Location
+    """The start of the package for a file above it."""
+    file: str = ""
+    """The file above the package, such as ``../pytest.ini``."""
 
 
 def pytest_settings(package: Package) -> Mapping[str, Setting]:
@@ -39,14 +44,41 @@ def pytest_settings(package: Package) -> Mapping[str, Setting]:
         for name, section in _LATER_SECTIONS.items():
             if found is None and package.has(name):
                 found = _of_ini(package, name, section)
-        return found or {}
+        return _above(package) if found is None else found
+    return {}
+
+
+def _above(package: Package) -> Mapping[str, Setting]:
+    """Return the settings in the first file above a package, which pytest reads as well.
+
+    Without ``testpaths``, which only counts for tests run in the directory of that file.
+    """
+    for depth, directory in enumerate(directories_above(package), 1):
+        for name, section in (_SECTIONS | _LATER_SECTIONS).items():
+            path = os.path.join(directory, name)
+            if not package.outside.is_file(path):
+                continue
+            with suppress(OSError):
+                source = Source.decode(name, package.outside.read(path))
+                found = _in_section(source, section)
+                if found is not None:
+                    start, shown = package.start_of("package.xml"), f"{'../' * depth}{name}"
+                    return {
+                        key: Setting(setting.words, start, shown)
+                        for key, setting in found.items()
+                        if key != "testpaths"
+                    }
     return {}
 
 
 def _of_ini(package: Package, name: str, section: str) -> Mapping[str, Setting] | None:
+    return _in_section(package.source(name), section)
+
+
+def _in_section(source: Source, section: str) -> Mapping[str, Setting] | None:
     from scaffold.formats.ini import IniFile
 
-    found = IniFile.parse(package.source(name)).sections.get(section)
+    found = IniFile.parse(source).sections.get(section)
     if found is None:
         return None
     return {
@@ -78,6 +110,7 @@ def _of_toml(package: Package) -> Mapping[str, Setting] | None:
 def files_collected(package: Package, settings: Mapping[str, Setting]) -> list[str]:
     """Return the test files that pytest collects with some settings."""
     patterns = settings["python_files"].words if "python_files" in settings else _PATTERNS
+    skipped = settings["norecursedirs"].words if "norecursedirs" in settings else _SKIPPED
     given = settings["testpaths"].words if "testpaths" in settings else ()
     paths = [posixpath.normpath(path) for path in given]
     tops = [top for top in paths if any(_is_below(path, top) for path in package.files)]
@@ -85,7 +118,7 @@ def files_collected(package: Package, settings: Mapping[str, Setting]) -> list[s
         path
         for path in package.files
         if path.endswith(".py")
-        and _SKIPPED.isdisjoint(path.split("/"))
+        and not any(fnmatchcase(part, item) for part in path.split("/")[:-1] for item in skipped)
         and any(fnmatchcase(path.rpartition("/")[2], pattern) for pattern in patterns)
         and (not tops or any(_is_below(path, top) for top in tops))
     ]
