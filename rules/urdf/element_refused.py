@@ -15,7 +15,7 @@ from scaffold.api import (
     closest_name,
 )
 from scaffold.api.formats import Element
-from scaffold.api.robot import Part, is_known, robot_file, robot_paths, robots, urdf_parts
+from scaffold.api.robot import Part, is_known, robot_file, robot_paths, robots, shown, urdf_parts
 
 _ROBOT = (
     '<robot name="robot">\n  <link name="base_link">\n    <inertial>\n      <mass {}="2.0"/>\n'
@@ -317,7 +317,7 @@ class ElementRefused(Rule):
                 continue
             if any(child.tag.startswith("xacro:") for child in part.element.children):
                 continue  # a macro or a condition may add it
-            name = part.get("name")
+            name = shown(part.get("name") or "")
             for tag in ("parent", "child"):
                 if part.one(tag) is None:
                     message = f"joint {name!r} has no <{tag}>: urdfdom rejects the whole file"

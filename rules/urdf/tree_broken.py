@@ -15,7 +15,7 @@ from scaffold.api import (
     Severity,
     closest_name,
 )
-from scaffold.api.robot import UNKNOWN_MARK, Expansion, Part, is_known, robots
+from scaffold.api.robot import Expansion, Part, is_known, may_be, robots, shown
 
 _DRIVEN = frozenset(
     {"joint_name", "left_joint", "left_steering_joint", "right_joint", "right_steering_joint"}
@@ -236,6 +236,22 @@ class TreeBroken(Rule):
             },
             "16:8: right_joint 'axle' is not a joint of this robot: the plugin fails",
         ),
+        Example(
+            "links with a prefix that is an argument",
+            {
+                "robot.urdf.xacro": '<robot name="a" xmlns:xacro="http://www.ros.org/wiki/xacro">\n'
+                '<xacro:arg name="prefix" default=""/>\n'
+                '<xacro:property name="prefix" value="$(arg prefix)"/>\n'
+                '<link name="${prefix}base"/>\n<link name="${prefix}wheel"/>\n'
+                '<joint name="${prefix}a" type="fixed">\n'
+                '  <parent link="${prefix}base"/>\n  <child link="${prefix}wheel"/>\n</joint>\n'
+                '<link name="${prefix}mast"/>\n<joint name="${prefix}b" type="fixed">\n'
+                '  <parent link="${prefix}chassis"/>\n  <child link="${prefix}mast"/>\n</joint>\n'
+                "</robot>\n"
+            },
+            "12:17: parent '${prefix}chassis' of joint '${prefix}b' is not a link of this robot: "
+            "robot_state_publisher exits",
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
@@ -301,7 +317,7 @@ class TreeBroken(Rule):
                 if other.element is part.element:
                     where = "an earlier call of the macro"
                 message = (
-                    f"a {tag} {_shown(name)!r} is already defined in {where}: urdfdom rejects "
+                    f"a {tag} {shown(name)!r} is already defined in {where}: urdfdom rejects "
                     "the whole file"
                 )
                 cause = f"defined again in {part.location.path}"
@@ -311,7 +327,7 @@ class TreeBroken(Rule):
         links = [part.get("name") or "" for part in robot.root.all("link")]
         joints = [part.get("name") or "" for part in robot.root.all("joint")]
         for joint in robot.root.all("joint"):
-            name = joint.get("name")
+            name = joint.get("name") or ""
             for tag in ("parent", "child"):
                 end = joint.one(tag)
                 link = end.get("link") if end is not None else None
@@ -319,7 +335,7 @@ class TreeBroken(Rule):
                     continue
                 hint = _hint(package, link, links)
                 message = (
-                    f"{tag} {link!r} of joint {name!r} is not a link of this robot: "
+                    f"{tag} {shown(link)!r} of joint {shown(name)!r} is not a link of this robot: "
                     f"robot_state_publisher exits{hint}"
                 )
                 if _is_here(package, end):
@@ -339,7 +355,7 @@ class TreeBroken(Rule):
             if reference and links and not _is_among(reference, [*links, *joints, *added]):
                 hint = _hint(package, reference, links)
                 message = (
-                    f"gazebo reference {reference!r} is not a link or joint of this robot: "
+                    f"gazebo reference {shown(reference)!r} is not a link or joint of this robot: "
                     f"Gazebo ignores it{hint}"
                 )
                 if _is_here(package, part):
@@ -356,7 +372,9 @@ class TreeBroken(Rule):
                 name = part.get("name")
                 if name and joints and not _is_among(name, joints) and _is_here(package, part):
                     hint = _hint(package, name, joints)
-                    message = f"ros2_control joint {name!r} is not a joint of this robot{hint}"
+                    message = (
+                        f"ros2_control joint {shown(name)!r} is not a joint of this robot{hint}"
+                    )
                     yield self.report(part.at("name"), message)
 
     def _check_driven(
@@ -380,8 +398,9 @@ class TreeBroken(Rule):
         mimic = joint.one("mimic")
         other = mimic.get("joint") if mimic is not None else None
         if mimic is not None and other and not _is_among(other, joints):
-            name, hint = joint.get("name"), _hint(package, other, joints)
-            message = f"{name!r} mimics {other!r}, which is not a joint of this robot{hint}"
+            name, hint = shown(joint.get("name") or ""), _hint(package, other, joints)
+            problem = f"{shown(other)!r}, which is not a joint of this robot{hint}"
+            message = f"{name!r} mimics {problem}"
             if _is_here(package, mimic):
                 yield self.report(mimic.at("joint"), message)
 
@@ -408,10 +427,6 @@ def _end(joint: Part, tag: str) -> str:
     return (end.get("link") if end is not None else None) or ""
 
 
-def _shown(name: str) -> str:
-    return name.replace("\0", "")
-
-
 def _has_root(robot: Expansion) -> bool:
     """Return whether a link is not a child of a joint; included parts are attached by others."""
     links = {part.get("name") for part in robot.root.all("link")}
@@ -430,14 +445,4 @@ def _hint(package: Package, name: str, names: Sequence[str]) -> str:
 
 def _is_among(name: str, names: Sequence[str]) -> bool:
     """Return whether a name may be one of some others, which may be partly unknown."""
-    if name in names:
-        return True
-    if not is_known(name):
-        return True
-    patterns = (item for item in names if not is_known(item))
-    return any(re.fullmatch(_pattern(item), name) for item in patterns)
-
-
-def _pattern(name: str) -> str:
-    parts = name.split(UNKNOWN_MARK)
-    return ".*".join(re.escape(part) for part in parts[::2])
+    return any(may_be(name, item) for item in names)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from scaffold.model.robot.expressions import UNKNOWN_MARK, is_known
+from scaffold.model.robot.expressions import UNKNOWN_MARK, is_known, may_be, shown
 from scaffold.model.robot.files import RobotFile, robot_file, robot_paths
 from scaffold.model.robot.robots import (
     Robots,
@@ -29,9 +29,11 @@ __all__ = [
     "is_argument_given",
     "is_known",
     "is_launched",
+    "may_be",
     "named_files",
     "robot_file",
     "robot_paths",
     "robots",
+    "shown",
     "urdf_parts",
 ]

@@ -9,6 +9,7 @@ from __future__ import annotations
 import ast
 import math
 import operator
+import re
 from collections.abc import Callable, Iterator, Mapping
 
 from scaffold import lazy_re
@@ -61,6 +62,36 @@ def is_known(value: object) -> bool:
 def unknown(text: str) -> str:
     """Return a placeholder for a text that is only known at run time."""
     return f"{UNKNOWN_MARK}{text.replace(UNKNOWN_MARK, '')}{UNKNOWN_MARK}"
+
+
+def shown(text: str) -> str:
+    """Return a text for messages, with placeholders as references to what is unknown."""
+    return re.sub(f"{UNKNOWN_MARK}([^{UNKNOWN_MARK}]*){UNKNOWN_MARK}", _reference, text)
+
+
+def _reference(mark: re.Match[str]) -> str:
+    name = mark[1].partition(" ")[0]
+    return f"$({mark[1]})" if name == "arg" else f"${{{name}}}"
+
+
+def may_be(name: str, other: str) -> bool:
+    """Return whether two names may be the same, as far as they are known."""
+    if name == other:
+        return True
+    if is_known(name) or is_known(other):
+        text, pattern = (name, other) if is_known(name) else (other, name)
+        parts = pattern.split(UNKNOWN_MARK)
+        return re.fullmatch(".*".join(map(re.escape, parts[::2])), text) is not None
+    first, second = _start(name), _start(other)
+    is_common = bool(first) and first == second
+    rest = (name.removeprefix(first), other.removeprefix(first))
+    return not is_common or not all(map(is_known, rest)) or rest[0] == rest[1]
+
+
+def _start(name: str) -> str:
+    """Return the placeholder that a name starts with, which has one value; empty if none."""
+    match = re.match(f"{UNKNOWN_MARK}[^{UNKNOWN_MARK}]*{UNKNOWN_MARK}", name)
+    return match[0] if match is not None else ""
 
 
 def literal(text: str) -> Value:
