@@ -30,7 +30,13 @@ from scaffold.model.launch.evaluation.share_paths import (
     why_missing,
 )
 from scaffold.model.launch.files import DATA_DIRECTORIES, data_files, is_named, launch_files
-from scaffold.model.launch.includes import Included, given_arguments, included
+from scaffold.model.launch.includes import (
+    Given,
+    Included,
+    given_arguments,
+    included,
+    included_at,
+)
 from scaffold.model.launch.markup_file import (
     MarkupElement,
     MarkupFile,
@@ -90,6 +96,7 @@ __all__ = [
     "Attribute",
     "CommandLine",
     "Entity",
+    "Given",
     "GivenParameter",
     "Included",
     "LaunchCall",
@@ -113,6 +120,7 @@ __all__ = [
     "given_arguments",
     "has_similar_file",
     "included",
+    "included_at",
     "is_given_as_parameters",
     "is_known",
     "is_left_to_the_user",

@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator, Mapping
 
 from scaffold.api import Diagnostic, Example, LaunchRule, Location
-from scaffold.api.launch import LaunchFile
+from scaffold.api.launch import LaunchCall, LaunchFile
 
 _ENDINGS: Mapping[str, tuple[str, ...]] = {
     "PythonLaunchDescriptionSource": (".launch.xml", ".launch.yaml", ".launch.yml", ".xml"),
@@ -93,11 +93,21 @@ class FileOfOtherKind(LaunchRule):
             yield self.report(at, message)
         for kind, endings in _ENDINGS.items():
             for source in launch.find(kind):
-                path = launch.text(source, "launch_file_path")
-                if isinstance(path, str) and path.endswith(endings):
-                    name = path.rpartition("/")[2]
-                    advice = "write AnyLaunchDescriptionSource"
-                    yield self.report(source, f"{kind} cannot read {name}: {advice}")
+                for path in _paths(launch, source):
+                    if path.endswith(endings):
+                        name = path.rpartition("/")[2]
+                        advice = "write AnyLaunchDescriptionSource"
+                        yield self.report(source, f"{kind} cannot read {name}: {advice}")
+                        break
+
+
+def _paths(launch: LaunchFile, source: LaunchCall) -> Iterator[str]:
+    """Yield the paths that a source reads, in each call of the function around it."""
+    for case in launch.cases(source.call) or (None,):
+        with launch.evaluator.bound(case.values if case is not None else {}):
+            path = launch.text(source, "launch_file_path")
+        if isinstance(path, str):
+            yield path
 
 
 def _places_reading(launch: LaunchFile) -> Iterator[Location]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Collection, Iterator, Mapping
 from difflib import get_close_matches
 
@@ -21,6 +22,7 @@ from scaffold.api.launch import (
     BY_LAUNCH,
     MarkupElement,
     MarkupFile,
+    included_at,
     markup_files,
     may_be_set_elsewhere,
     substitution_words,
@@ -45,6 +47,7 @@ _SUBSTITUTIONS: Mapping[str, str] = {
 }
 _LISTS = frozenset({"children", "choice", "launch"})
 """Keys of YAML besides those of actions and their parts."""
+_INCLUDED = re.compile(r"\$\(find-pkg-share ([\w-]+)\)/([\w./-]+)")
 _MOST_OF_EVAL = 2
 """An expression, and the modules that it uses."""
 _CAUSE = "launch files of ROS 1"
@@ -77,7 +80,9 @@ class MarkupRefused(Rule):
 
     code = "LF046"
     name = "markup-refused"
-    other_severities = {Severity.WARNING: "the launch file is not installed"}
+    other_severities = {
+        Severity.WARNING: "the launch file is not installed, or an included one ignores an argument"
+    }
     examples = (
         Example("syntax of ROS 2", {"launch/a.launch.xml": _LAUNCH.format("exec", "a")}),
         Example(
@@ -192,6 +197,22 @@ class MarkupRefused(Rule):
             "7:5: 'node' has no key 'params': the launch stops; did you mean 'param'?",
             "9:14: $(var rate) is never set; declared here: nothing",
         ),
+        Example(
+            "an argument that the included file does not have",
+            {
+                "package.xml": "<package><name>talker</name></package>\n",
+                "launch/a.launch.xml": "<launch>\n"
+                "  <include file='$(find-pkg-share talker)/launch/b.launch.xml'>\n"
+                "    <arg name='rate' value='1'/>\n    <arg name='speed' value='1'/>\n"
+                "  </include>\n</launch>\n",
+                "launch/b.launch.xml": "<launch>\n  <arg name='rate'/>\n</launch>\n",
+            },
+            Report(
+                "launch/a.launch.xml:4:16",
+                "launch/b.launch.xml has no argument 'speed': it is ignored; it has rate",
+                severity=Severity.WARNING,
+            ),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
@@ -207,6 +228,8 @@ class MarkupRefused(Rule):
                     yield self.report(at, problem, severity=severity, cause=cause)
             for at, problem in _unset(package, file):
                 yield self.report(at, problem, severity=severity)
+            for at, problem in _ignored(package, file):
+                yield self.report(at, problem, severity=Severity.WARNING)
 
 
 def _unset(package: Package, file: MarkupFile) -> Iterator[tuple[Location, str]]:
@@ -233,6 +256,24 @@ def _unset(package: Package, file: MarkupFile) -> Iterator[tuple[Location, str]]
             is_set.add(element.attributes["name"].value)
         elif element.tag == "include":
             is_set |= names  # perhaps by the included file
+
+
+def _ignored(package: Package, file: MarkupFile) -> Iterator[tuple[Location, str]]:
+    """Yield the arguments of includes that the included file of the workspace does not have."""
+    setters = Counter(item.attributes["name"].value for item in file.elements if _is_setter(item))
+    given = Counter(name.value for item in file.elements for name in item.arguments)
+    for element in file.elements:
+        target = element.attributes.get("file") if element.tag == "include" else None
+        path = _INCLUDED.fullmatch(target.value) if target is not None else None
+        other = included_at(package, path[1], path[2]) if path is not None else None
+        for name in element.arguments if other is not None and not other.is_open else ():
+            is_declared = given[name.value] < setters[name.value]
+            if other is not None and name.value not in other.names and not is_declared:
+                has = listed_names(other.names, name.value, "none")
+                problem = (
+                    f"{other.path} has no argument {name.value!r}: it is ignored; it has {has}"
+                )
+                yield name.location, problem
 
 
 def _is_setter(element: MarkupElement) -> bool:

@@ -39,7 +39,7 @@ _NO_ENTRY_POINT = "nodes without entry points: error"
 
 
 class ExecutableMissing(Rule):
-    """A launch file names a package or an executable that does not exist.
+    """A launch file or smoke.yaml names a package or an executable that does not exist.
 
     **Why.** ``ros2 launch`` stops: ``package 'talker_dmeo' not found, searching: [...]``, or
     ``executable 'talker' not found on the libexec directory '.../install/talker/lib/talker'``.
@@ -144,6 +144,29 @@ class ExecutableMissing(Rule):
                 "launch/c.launch.xml": '<launch>\n  <node pkg="rviz2" exec="rviz2"/>\n'
                 '  <node pkg="talker_demo" exec="$(var program)"/>\n</launch>\n',
             },
+        ),
+        Example(
+            "executables in smoke.yaml",
+            {
+                **_FILES,
+                "smoke.yaml": "executables:\n  talk: {skip: true}\n  talker: {skip: true}\n",
+            },
+            "smoke.yaml:3:3: talker has no executable 'talker'; did you mean 'talk'?",
+        ),
+        Example(
+            "executables in a loop and in a helper function",
+            {
+                **_FILES,
+                "launch/a.launch.py": "from launch import LaunchDescription\n"
+                "from launch_ros.actions import Node\n\n\n"
+                "def node(name):\n    return Node(package='talker', executable=name)\n\n\n"
+                "def generate_launch_description():\n    ld = LaunchDescription()\n"
+                "    for name, space in {'talk': 'a', 'hear': 'b'}.items():\n"
+                "        ld.add_action(Node(package='talker', executable=name, namespace=space))\n"
+                "    ld.add_action(node('talk'))\n    ld.add_action(node('say'))\n    return ld\n",
+            },
+            "launch/a.launch.py:11:38: talker has no executable 'hear'; it has talk",
+            "launch/a.launch.py:14:24: talker has no executable 'say'; it has talk",
         ),
     )
 

@@ -34,6 +34,8 @@ class MarkupElement(NamedTuple):
     has_parameter_files: bool
     nested: dict[str, Location]
     """The keys of YAML whose values are lists or mappings: what XML has as elements."""
+    arguments: list[Attribute]
+    """The names of the arguments that an include gives."""
 
 
 _ARGUMENTS = frozenset({"args", "ros_args"})
@@ -180,11 +182,12 @@ def _of_xml(element: Element) -> MarkupElement:
         _renamed(remaps),
         any("name" not in given for given in parameters),
         {},
+        _names(child.attributes for child in element.children if child.tag in {"arg", "let"}),
     )
 
 
 def _of_yaml(tag: str, node: Mapping) -> MarkupElement:
-    children: dict[str, list[Mapping]] = {"param": [], "remap": []}
+    children: dict[str, list[Mapping]] = {"arg": [], "let": [], "param": [], "remap": []}
     for key, value in node.pairs:
         if key.text in children and isinstance(value, Sequence):
             children[key.text] += [item for item in value.items if isinstance(item, Mapping)]
@@ -199,7 +202,12 @@ def _of_yaml(tag: str, node: Mapping) -> MarkupElement:
         len(parameters) < len(children["param"])
         or any("name" not in given for given in parameters),
         {key.text: key.location for key, value in node.pairs if not isinstance(value, Scalar)},
+        _names(dict(_scalars(item)) for item in (*children["arg"], *children["let"])),
     )
+
+
+def _names(given: Iterable[dict[str, Attribute]]) -> list[Attribute]:
+    return [attributes["name"] for attributes in given if "name" in attributes]
 
 
 def _is_plain(node: Mapping) -> bool:

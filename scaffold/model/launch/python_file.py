@@ -9,6 +9,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from scaffold.model.launch.calls import LaunchCall, launch_call
+from scaffold.model.launch.evaluation.cases import Case, cases, innermost_frame
 from scaffold.model.launch.evaluation.evaluator import LaunchEvaluator, share_path
 from scaffold.model.package import mentions
 from scaffold.model.python.evaluation.given_arguments import given_once
@@ -140,6 +141,10 @@ class LaunchFile:
             return UNKNOWN if call.is_open else None
         return self.evaluator.joined_text(call.given[name])
 
+    def cases(self, node: ast.AST) -> Sequence[Case]:
+        """Return the calls of functions and turns of loops around an expression, if known."""
+        return cases(self.evaluator, node)
+
     def location(self, node: ast.AST) -> Location:
         """Return the place of a node."""
         return self.module.location(node)
@@ -247,18 +252,46 @@ class LaunchFile:
     @cached_property
     def share_paths(self) -> Sequence[SharePath]:
         """The complete paths below share directories."""
-        paths: list[SharePath] = []
-        for node in self._path_expressions():
-            path = share_path(self.evaluator.joined_text(node))
-            if path is not None:
-                paths.append(SharePath(*path, self.location(node), node))
-        return paths
-
-    def _path_expressions(self) -> Iterator[ast.expr]:
-        """Yield the outermost expressions that are paths below a share directory."""
         candidates: list[ast.expr] = [*self.module.walk(ast.Call), *self.module.walk(ast.BinOp)]
         candidates += self.module.walk(ast.List)
         candidates += self.module.walk(ast.JoinedStr)
+        paths: list[SharePath] = []
+        for node in self._path_expressions(candidates):
+            path = share_path(self.evaluator.joined_text(node))
+            if path is not None:
+                paths.append(SharePath(*path, self.location(node), node))
+        return [*paths, *self._paths_by_case({path.node for path in paths}, candidates)]
+
+    def _paths_by_case(
+        self, known: set[ast.expr], candidates: Sequence[ast.expr]
+    ) -> Iterator[SharePath]:
+        """Yield the paths in helper functions and loops, at the arguments that complete them."""
+        inside: dict[ast.AST, list[ast.expr]] = {}
+        for node in candidates:
+            frame = innermost_frame(self.module, node)
+            if frame is not None and not self._tests_files(frame):
+                inside.setdefault(frame, []).append(node)
+        seen: set[tuple[str, str, ast.expr]] = set()
+        for nodes in inside.values():
+            for case in cases(self.evaluator, nodes[0]):
+                with self.evaluator.bound(case.values):
+                    for node in self._path_expressions(nodes):
+                        path = share_path(self.evaluator.joined_text(node))
+                        place = case.place(self.module, node)
+                        is_new = path is not None and (*path, place) not in seen
+                        if path is None or node in known or place is node or not is_new:
+                            continue
+                        seen.add((*path, place))
+                        if not self.is_optional(place):
+                            yield SharePath(*path, self.location(place), node)
+
+    def _tests_files(self, frame: ast.AST) -> bool:
+        """Return whether a function or loop handles files that do not exist."""
+        text = self.module.text(frame)
+        return any(word in text for word in ("try:", "exists(", "isfile(", "is_file("))
+
+    def _path_expressions(self, candidates: Sequence[ast.expr]) -> Iterator[ast.expr]:
+        """Yield the outermost expressions that are paths below a share directory."""
         paths = {node for node in candidates if self._is_path(node)}
         for node in sorted(paths, key=lambda node: (node.lineno, node.col_offset)):
             parent = self.module.parent(node)

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import ast
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 from scaffold.model.launch.calls import launch_call
@@ -25,6 +27,16 @@ class LaunchEvaluator(Evaluator):
     def __init__(self, module: PythonModule, package_name: str) -> None:
         super().__init__(module)
         self._package_name = package_name
+
+    @contextmanager
+    def bound(self, values: Mapping[tuple[ast.AST, str], object]) -> Iterator[None]:
+        """Bind variables of functions and loops to values temporarily."""
+        outer = self._local
+        self._local = {**outer, **values}
+        try:
+            yield
+        finally:
+            self._local = outer
 
     def argument(self, node: ast.arg) -> object:
         """Return the argument for a parameter in the only call of a function of the file."""

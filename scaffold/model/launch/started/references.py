@@ -1,4 +1,4 @@
-"""The packages and programs that launch files refer to."""
+"""The packages and programs that launch files refer to, and those of smoke.yaml."""
 
 from __future__ import annotations
 
@@ -6,11 +6,12 @@ from collections.abc import Iterator, Mapping
 from contextlib import suppress
 from typing import TYPE_CHECKING
 
+from scaffold.formats import yaml as yaml_tree
 from scaffold.model.catalog import ROS_PACKAGES, is_near, similar_package
 from scaffold.model.discovery.repos_files import is_fetched, is_included
 from scaffold.model.facts import fact
 from scaffold.model.launch.markup_file import is_known, markup_files
-from scaffold.model.launch.python_file import LaunchFile, launch_paths
+from scaffold.model.launch.python_file import NODES, LaunchFile, launch_paths
 from scaffold.model.launch.unused.unlaunched import is_never_used
 from scaffold.model.programs.executables import programs_of
 from scaffold.model.python.evaluation.values import UNKNOWN, Unknown
@@ -23,6 +24,7 @@ if TYPE_CHECKING:
     from scaffold.source import Location
 
 
+_SMOKE = "smoke.yaml"
 _VERBS = ("action", "bag", "component", "interface", "launch", "lifecycle", "node", "param")
 _OWNERS: Mapping[str, str] = {
     "xacro": "xacro",
@@ -60,7 +62,9 @@ class Suggestion(NamedTuple):
 
 def package_uses(package: Package) -> list[Reference]:
     """Return the packages that the launch files name, in the order of the text."""
-    return package.remember("launch_uses", lambda: [*_in_python(package), *_in_xml(package)])
+    return package.remember(
+        "launch_uses", lambda: [*_in_python(package), *_in_xml(package), *_expected(package)]
+    )
 
 
 def _in_python(package: Package) -> Iterator[Reference]:
@@ -85,12 +89,29 @@ def _in_launch_file(package: Package, path: str) -> tuple[Reference, ...]:
             call is not None and is_never_used(launch, call.call)
         )
         result.append(Reference(use.name, use.location, executable, at, optional))
+    result += _in_cases(launch)
     for program, node in launch.programs:
         owner = _OWNERS.get(program)
         if owner is not None:
             at = launch.location(node)
             result.append(Reference(owner, at, None, at, launch.is_optional(node), program))
     return tuple(result)
+
+
+def _in_cases(launch: LaunchFile) -> Iterator[Reference]:
+    """Yield the programs of nodes in helper functions and loops, each where it is named."""
+    for call in launch.find(*NODES):
+        node, program = call.given.get("package"), call.given.get("executable")
+        if node is None or program is None or isinstance(launch.text(call, "executable"), str):
+            continue
+        optional = launch.is_optional(call.call) or is_never_used(launch, call.call)
+        for case in launch.cases(call.call):
+            with launch.evaluator.bound(case.values):
+                names = launch.text(call, "package"), launch.text(call, "executable")
+            if isinstance(names[0], str) and isinstance(names[1], str):
+                places = (case.place(launch.module, item) for item in (node, program))
+                at, program_at = map(launch.location, places)
+                yield Reference(names[0], at, names[1], program_at, optional)
 
 
 def _in_xml(package: Package) -> Iterator[Reference]:
@@ -105,6 +126,16 @@ def _in_xml(package: Package) -> Iterator[Reference]:
                 yield Reference(node.package.value, node.package.location, executable, at)
         for path in file.paths:
             yield Reference(path.package, path.location, None, path.location)
+
+
+def _expected(package: Package) -> Iterator[Reference]:
+    """Yield the executables of the package that its smoke.yaml describes."""
+    if not package.has(_SMOKE):
+        return
+    with suppress(ViewError):
+        for key, node in yaml_tree.mappings(yaml_tree.parse(package.source(_SMOKE))):
+            for name, _ in node.pairs if key == "executables" else ():
+                yield Reference(package.name, name.location, name.text, name.location)
 
 
 def exists(package: Package, name: str) -> bool:

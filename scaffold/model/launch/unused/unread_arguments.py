@@ -57,8 +57,9 @@ def _is_open(package: Package, launch: LaunchFile) -> bool:
         return True
     names = [launch.text(call, "variable_name") for call in launch.find("LaunchConfiguration")]
     includes = launch.find("IncludeLaunchDescription")
+    others = [included(package, launch, call) for call in includes]
     return not all(isinstance(name, str) for name in names) or any(
-        included(package, launch, call) is None for call in includes
+        other is None or other.package != package.name for other in others
     )
 
 
