@@ -13,6 +13,7 @@ from scaffold.api.setup_py import is_requirement, is_specifier, is_version, requ
 _STRICT = 66
 """The first version of setuptools that only accepts versions as PEP 440 defines them."""
 _ATTRIBUTE = re.compile(r"attr:\s*([\w.]+)\.(\w+)\s*")
+_LINE = re.compile(r"line (\d+)")
 _TABLE = re.compile(r"^\[project\]", re.MULTILINE)
 _KEYS = ("name", "version")
 _SETUP = "from setuptools import setup\n\nsetup(\n    name='talker',\n    {},\n)\n"
@@ -114,6 +115,11 @@ class SetupValueRefused(Rule):
             "setup.cfg:3:11: no module talker.about: setuptools finds no version and the build "
             "stops",
         ),
+        Example(
+            "a pyproject.toml that is not TOML",
+            {"setup.py": "", "pyproject.toml": "[tool.ruff]\nselect = ['E'\n[tool.black]\n"},
+            "pyproject.toml:3:1: not TOML: Unclosed array: setuptools stops the build",
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
@@ -170,12 +176,17 @@ class SetupValueRefused(Rule):
             yield self.report(option, f"{where}: setuptools finds no version and the build stops")
 
     def _check_project(self, package: Package) -> Iterator[Diagnostic]:
-        """Check that the project has a name and a version."""
+        """Check that pyproject.toml is TOML, and that the project has a name and a version."""
         source = package.source("pyproject.toml")
         table = _TABLE.search(source.text)
         try:
             project = toml.loads(source.text).get("project")
-        except (toml.TOMLDecodeError, ValueError, RecursionError):
+        except toml.TOMLDecodeError as error:
+            reason, line = str(error).partition(" (at")[0], _LINE.search(str(error))
+            at = source.line_location(min(int(line[1]), len(source.lines)) if line else 1)
+            yield self.report(at, f"not TOML: {reason}: setuptools stops the build")
+            return
+        except (ValueError, RecursionError):
             return
         if table is None or not isinstance(project, dict):
             return
