@@ -11,10 +11,10 @@ from scaffold.diagnostic import Diagnostic, Severity
 from scaffold.model.package import Package
 from scaffold.printable import printable
 from scaffold.reporters import ReportOptions
-from scaffold.reporters.entries import Entry, Place, in_order
 from scaffold.reporters.order import SEVERITIES
 from scaffold.reporters.paths import in_repository
 from scaffold.reporters.summary import summary
+from scaffold.reporters.terminal.entries import Entry, Place, in_order
 
 _COMMANDS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "notice"}
 _MAX_LISTED = 100

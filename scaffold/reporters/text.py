@@ -27,7 +27,7 @@ def report(results: Sequence[Result], out: TextIO, options: ReportOptions) -> No
     if options.statistics:
         _statistics(results, out)
     elif out.isatty():
-        from scaffold.reporters import screen
+        from scaffold.reporters.terminal import screen
 
         screen.report(results, out, options)
         return

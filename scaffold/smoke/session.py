@@ -19,7 +19,8 @@ from scaffold.model.package import Package as Source
 from scaffold.reporters.paths import in_repository
 from scaffold.smoke import environment as environments
 from scaffold.smoke import launching
-from scaffold.smoke.build import Layout, build
+from scaffold.smoke.building.build import Layout, build
+from scaffold.smoke.building.unavailable import unavailable
 from scaffold.smoke.cleanup import leftovers
 from scaffold.smoke.cleanup.interruption import InterruptedBySignalError, Interruption
 from scaffold.smoke.cleanup.leftovers import Run
@@ -38,7 +39,6 @@ from scaffold.smoke.scenario.model import FILE, NOTHING, Scenario
 from scaffold.smoke.scenario.reader import scenarios
 from scaffold.smoke.scenario.verdicts import overridden
 from scaffold.smoke.together import of_executables, run_together
-from scaffold.smoke.unavailable import unavailable
 from scaffold.source import ParseError
 
 _INTERFACES = (".msg", ".srv", ".action", ".idl")
@@ -361,7 +361,7 @@ class _Session:
                 await run_together(plan, group, done.append)
 
     async def _test(self, built: Sequence[Source]) -> None:
-        from scaffold.smoke.testing import run_tests
+        from scaffold.smoke.building.testing import run_tests
 
         self._report_progress(f"testing {', '.join(source.name for source in built)}")
         await run_tests(

@@ -12,8 +12,8 @@ from scaffold.configuration import content
 from scaffold.diagnostic import Diagnostic, Severity
 from scaffold.model.package import Package
 from scaffold.reporters import ReportOptions
-from scaffold.reporters.crowded import choose
-from scaffold.reporters.entries import Entry, by_cause, in_order, merged_causes
+from scaffold.reporters.terminal.crowded import choose
+from scaffold.reporters.terminal.entries import Entry, by_cause, in_order, merged_causes
 from scaffold.source import Location
 
 WIDTH = 80

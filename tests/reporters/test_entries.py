@@ -11,7 +11,7 @@ from scaffold.check.rules import registry
 from scaffold.configuration import content
 from scaffold.diagnostic import Diagnostic, Effect, Severity
 from scaffold.model.package import Package
-from scaffold.reporters.entries import by_cause, in_order, merged
+from scaffold.reporters.terminal.entries import by_cause, in_order, merged
 from scaffold.source import Location
 
 

@@ -11,8 +11,8 @@ import pytest
 from scaffold.errors import EnvironmentMissingError
 from scaffold.model.package import Package
 from scaffold.smoke import environment
+from scaffold.smoke.building.unavailable import unavailable
 from scaffold.smoke.environment import Environment
-from scaffold.smoke.unavailable import unavailable
 from tests.smoke.smoke_packages import python_package
 from tests.smoke.smoke_runs import NEEDS_ROS
 

@@ -19,8 +19,9 @@ import pytest
 
 from scaffold.errors import EnvironmentMissingError
 from scaffold.programs import installation
-from scaffold.smoke import build, environment
+from scaffold.smoke import environment
 from scaffold.smoke import run as trial
+from scaffold.smoke.building import build
 from scaffold.smoke.isolation import domain, shared_memory
 from scaffold.smoke.probe import messages
 from scaffold.smoke.processes import ending, marks, output, process

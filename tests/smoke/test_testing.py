@@ -9,9 +9,9 @@ from pathlib import Path
 
 import pytest
 
+from scaffold.smoke.building.testing import read
 from scaffold.smoke.reports import report
 from scaffold.smoke.result import Build, PackageResult, Smoke, TestCase, Tests
-from scaffold.smoke.testing import read
 from tests.reporters.test_junit import test_result
 from tests.smoke.smoke_packages import ONCE, python_package, write
 from tests.smoke.smoke_runs import NEEDS_ROS, command_line, variables

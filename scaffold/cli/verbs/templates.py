@@ -168,7 +168,7 @@ def _build(tried: Sequence[Tried]) -> int:
     """Build the rendered packages; return the number of failures."""
     import tempfile
 
-    from scaffold.smoke.only_build import only_build
+    from scaffold.smoke.building.only_build import only_build
 
     failed = 0
     for together in _build_rounds(tried):

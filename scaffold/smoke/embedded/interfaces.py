@@ -16,7 +16,7 @@ from scaffold import distributions
 from scaffold.files import home
 from scaffold.model.package import Package
 from scaffold.programs import wheels
-from scaffold.smoke.build import Layout, build
+from scaffold.smoke.building.build import Layout, build
 from scaffold.smoke.embedded.sources import Bundle
 from scaffold.smoke.environment import Environment
 from scaffold.smoke.processes.process import Origin

@@ -11,10 +11,16 @@ from rich.text import Text
 from scaffold.diagnostic import Severity
 from scaffold.printable import printable
 from scaffold.reporters import ReportOptions
-from scaffold.reporters.entries import Entry, Place, dependency_of, names_dependencies, pattern
 from scaffold.reporters.excerpt import excerpt
 from scaffold.reporters.paths import place
 from scaffold.reporters.summary import count
+from scaffold.reporters.terminal.entries import (
+    Entry,
+    Place,
+    dependency_of,
+    names_dependencies,
+    pattern,
+)
 
 _COLORS = {Severity.ERROR: "bold red", Severity.WARNING: "bold yellow", Severity.INFO: "bold cyan"}
 _MAX_PLACES = 3

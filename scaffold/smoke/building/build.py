@@ -21,7 +21,7 @@ from scaffold.smoke.result import Build
 _COMPILED = (".c", ".cc", ".cpp", ".cxx", ".h", ".hpp", ".msg", ".srv", ".action", ".idl")
 """Files that need a compiler, or from which such files are generated."""
 
-_INCLUDES = Path(__file__).with_name("embedded") / "includes.cmake"
+_INCLUDES = Path(__file__).parents[1] / "embedded" / "includes.cmake"
 
 _JOB = lazy_re.compile(
     r"\[(?P<time>[\d.]+)\] \((?P<name>[^)]*)\) "

@@ -10,9 +10,9 @@ from rich.text import Text
 
 from scaffold.record import NamedTuple
 from scaffold.reporters import ReportOptions
-from scaffold.reporters.entries import Entry
-from scaffold.reporters.entry_text import brief, full, height
 from scaffold.reporters.order import is_set_aside
+from scaffold.reporters.terminal.entries import Entry
+from scaffold.reporters.terminal.entry_text import brief, full, height
 
 _FULL = 0
 _LARGER = (2, 3, 4, 5, 6, _FULL)

@@ -11,7 +11,7 @@ from pathlib import Path
 from lxml import etree
 
 from scaffold.model.package import Package as Source
-from scaffold.smoke.build import Layout, variables
+from scaffold.smoke.building.build import Layout, variables
 from scaffold.smoke.environment import Environment
 from scaffold.smoke.isolation import domain
 from scaffold.smoke.isolation.station import isolated

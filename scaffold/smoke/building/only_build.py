@@ -8,7 +8,7 @@ from collections.abc import Sequence
 
 from scaffold.model.package import Package
 from scaffold.smoke import environment
-from scaffold.smoke.build import Layout, build
+from scaffold.smoke.building.build import Layout, build
 from scaffold.smoke.cleanup import leftovers
 from scaffold.smoke.result import Build
 

@@ -15,17 +15,18 @@ from scaffold.check.result import Result
 from scaffold.diagnostic import Diagnostic, Severity
 from scaffold.printable import printable
 from scaffold.record import NamedTuple
-from scaffold.reporters import ReportOptions, crowded, rule_pages
-from scaffold.reporters.entries import (
+from scaffold.reporters import ReportOptions, rule_pages
+from scaffold.reporters.order import SEVERITIES, is_style
+from scaffold.reporters.summary import by_severity, count, fixable, summary
+from scaffold.reporters.terminal import crowded
+from scaffold.reporters.terminal.entries import (
     Entry,
     by_cause,
     in_order,
     merged,
     merged_causes,
 )
-from scaffold.reporters.entry_text import full, height
-from scaffold.reporters.order import SEVERITIES, is_style
-from scaffold.reporters.summary import by_severity, count, fixable, summary
+from scaffold.reporters.terminal.entry_text import full, height
 
 _MAX_NAMED = 4
 """The maximum number of packages or codes listed with counts."""

@@ -1,0 +1,1 @@
+"""The report on a terminal, which fits one screen."""

@@ -1,0 +1,1 @@
+"""Builds packages and runs their tests with colcon."""
