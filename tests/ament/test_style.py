@@ -217,6 +217,8 @@ def test_locations_names_and_severities() -> None:
         ("print(version)\n", "F821", Severity.ERROR),
         ("exec(open('version.py').read())\nprint(version)\n", "F821", Severity.WARNING),
         ("exec('', {})\nprint(version)\n", "F821", Severity.ERROR),
+        ("if 'version' in globals():\n    print(version)\n", "F821", Severity.WARNING),
+        ("if 'other' in globals():\n    print(version)\n", "F821", Severity.ERROR),
         ("__all__ = ['hello']\n", "F822", Severity.ERROR),
         (
             "__all__ = ['hello']\n\n\ndef __getattr__(name):\n    return name\n",

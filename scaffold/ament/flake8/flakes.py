@@ -67,6 +67,8 @@ CODES: Mapping[str, str] = {
 }
 """The flake8 codes of pyflakes messages; F824 is checked by ``indirect_names``."""
 _STUBS = frozenset({"stubs", "typings"})
+_NAMESPACES = ("dir", "globals", "locals", "vars")
+"""Functions that return the names of a module or a function."""
 _GIVEN = {"conf.py": frozenset({"tags"})}
 """Names that Sphinx defines for its configuration."""
 
@@ -161,7 +163,13 @@ def _is_made_when_run(text: PythonText, code: str, arguments: Sequence[object]) 
     if code == "F821":
         # A configuration such as .cmake-format.py is run by its program, which defines names.
         is_given = not _GIVEN.get(text.name, frozenset()).isdisjoint(arguments)
-        return text.name.startswith(".") or is_given or _executes_text(text) or _is_stub(text)
+        return (
+            text.name.startswith(".")
+            or is_given
+            or _executes_text(text)
+            or _is_asked_for(text, *map(str, arguments))
+            or _is_stub(text)
+        )
     return code == "F822" and _has_getattr(text)
 
 
@@ -170,6 +178,17 @@ def _executes_text(text: PythonText) -> bool:
     return "exec" in text.text and any(
         isinstance(node.func, ast.Name) and node.func.id == "exec" and len(node.args) == 1
         for node in text.nodes(ast.Call)
+    )
+
+
+def _is_asked_for(text: PythonText, *names: str) -> bool:
+    """Return whether a file tests if it has a name: ``'strip' in globals()``."""
+    return any(
+        isinstance(node.left, ast.Constant)
+        and node.left.value in names
+        and isinstance(node.comparators[0], ast.Call)
+        and getattr(node.comparators[0].func, "id", "") in _NAMESPACES
+        for node in (text.nodes(ast.Compare) if any(map(text.text.count, _NAMESPACES)) else ())
     )
 
 

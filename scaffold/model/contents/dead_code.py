@@ -33,8 +33,8 @@ def is_dead(package: Package, path: str, line: int) -> bool:
 
     It is after a statement that leaves its block; in a branch whose condition is false; or in a
     function that a later one replaces. The condition asks for a constant of the file, of its class,
-    or of a module that the file sets; or for an attribute that only ``__init__`` sets, to a
-    constant.
+    of the function, or of a module that the file sets; or for an attribute that only ``__init__``
+    sets, to a constant.
 
     Raises:
         ViewError: the file cannot be read.
@@ -101,11 +101,13 @@ def _truth(package: Package, module: PythonModule, test: ast.expr) -> bool | Non
 
 
 def _constant(package: Package, module: PythonModule, node: ast.expr) -> ast.Constant | None:
-    """Return the only value of a global variable, or of an attribute of ``self`` or a module."""
+    """Return the only value of a variable, or of an attribute of ``self`` or a module."""
     match node:
         case ast.Name(id=name):
             scope, bindings = module.index.lookup(name, node) or (None, ())
-            value = bindings[0].value if len(bindings) == 1 and scope is module.tree else None
+            value = bindings[0].value if len(bindings) == 1 else None
+            if isinstance(scope, ast.FunctionDef | ast.AsyncFunctionDef):
+                return value if isinstance(value, ast.Constant) else None
         case ast.Attribute(value=ast.Name(id="self" | "cls"), attr=name):
             value = _only_value(module, node)
         case ast.Attribute(value=ast.Name(), attr=name):

@@ -63,6 +63,21 @@ def test_function_that_is_defined_again(between: str, *, dead: bool) -> None:
 
 
 @pytest.mark.parametrize(
+    ("dead", "body"),
+    [
+        (True, "    loud = False\n    if loud:\n        print('here')\n"),
+        (True, "    loud = True\n    if loud:\n        return\n    else:\n        print('here')\n"),
+        (False, "    loud = True\n    if loud:\n        print('here')\n"),
+        (False, "    loud = False\n    loud |= ask()\n    if loud:\n        print('here')\n"),
+        (False, "    for loud in (False, True):\n        if loud:\n            print('here')\n"),
+        (False, "    if is_loud:\n        print('here')\n"),
+    ],
+)
+def test_branch_of_a_local_constant(body: str, *, dead: bool) -> None:
+    assert is_dead_at(f"def talk(is_loud=False):\n{body}") == dead
+
+
+@pytest.mark.parametrize(
     ("dead", "condition", "other"),
     [
         (True, "self.LOUD", ""),
