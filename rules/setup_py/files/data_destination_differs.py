@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import ast
+import re
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Effect, Example, Package, Rule
+from scaffold.api import Diagnostic, Effect, Example, Package, Report, Rule, Severity
+from scaffold.api.distributions import target
 from scaffold.api.launch import DATA_DIRECTORIES
 from scaffold.api.python import Glob
 from scaffold.api.setup_py import DataFile
@@ -27,7 +29,8 @@ class DataDestinationDiffers(Rule):
 
     **Why.** Files outside of ``share/<package>`` are not found: ``file 'talk.launch.py' was not
     found in the share directory of package 'talker'``. An absolute path is outside of the
-    workspace, or stops colcon.
+    workspace, or stops colcon. The modules of the package are in the directory of the Python of
+    the distribution: 3.12 for Jazzy, 3.10 for Humble.
 
     **Fix.** Write ``(os.path.join('share', package_name, 'launch'), glob('launch/*.launch.py'))``.
 
@@ -38,7 +41,40 @@ class DataDestinationDiffers(Rule):
     code = "SP052"
     name = "data-destination-differs"
     effect = Effect.SPOILS_INSTALL
+    other_severities = {
+        Severity.WARNING: "it is the directory of the Python of the distribution, which others do "
+        "not search"
+    }
     examples = (
+        Example(
+            "the directory of another Python version",
+            {
+                **_FILES,
+                "talker/words.ui": "",
+                "setup.py": _SETUP.format(
+                    "'lib/python3.10/site-packages/talker'", "['talker/words.ui']"
+                ),
+            },
+            "setup.py:6:10: installs talker/words.ui to lib/python3.10/site-packages/talker, "
+            "which only that Python version searches; write package_data={...}",
+        ),
+        Example(
+            "the directory of the Python of the distribution",
+            {
+                **_FILES,
+                "talker/words.ui": "",
+                "setup.py": _SETUP.format(
+                    "'lib/python3.10/site-packages/talker'", "['talker/words.ui']"
+                ),
+            },
+            Report(
+                "setup.py:6:10",
+                "installs talker/words.ui to lib/python3.10/site-packages/talker, "
+                "which only that Python version searches; write package_data={...}",
+                severity=Severity.WARNING,
+            ),
+            distro="humble",
+        ),
         Example(
             "the share directory",
             {**_FILES, "setup.py": _SETUP.format("'share/talker/launch'", _GLOB)},
@@ -149,7 +185,9 @@ class DataDestinationDiffers(Rule):
             problem = _problem(data, share)
             is_copy = copied.issuperset(data.sources) and "absolute" not in problem
             if problem and not is_copy:
-                yield self.report(data.destination_location, problem)
+                is_searched = f"/python{target().python_version}/" in problem
+                severity = Severity.WARNING if is_searched else None
+                yield self.report(data.destination_location, problem, severity=severity)
         keyword = setup.keywords.get("data_files")
         for call in ast.walk(keyword.node) if keyword else ():
             if isinstance(call, ast.Call) and isinstance(call.func, ast.Tuple):
@@ -158,29 +196,34 @@ class DataDestinationDiffers(Rule):
 
 
 def _problem(data: DataFile, share: str) -> str:
-    target = data.destination
-    if not isinstance(target, str):
+    place = data.destination
+    if not isinstance(place, str):
         return ""
-    if target.startswith("/"):
-        return (
-            f"installs to the absolute path {target}, outside of the workspace; write {share}/..."
-        )
+    if place.startswith("/"):
+        return f"installs to the absolute path {place}, outside of the workspace; write {share}/..."
     sources = [
         source.pattern if isinstance(source, Glob) else str(source) for source in data.sources
     ]
+    if sources and _OF_PYTHON.match(place):
+        return (
+            f"installs {sources[0]} to {place.rstrip('/')}, which only that Python version "
+            "searches; write package_data={...}"
+        )
     is_data = bool(sources) and all(
         source == "package.xml" or source.startswith(tuple(f"{name}/" for name in _DIRECTORIES))
         for source in sources
     )
-    is_marker = target.startswith(_INDEX) and all(
+    is_marker = place.startswith(_INDEX) and all(
         source.rpartition("/")[2] == share.rpartition("/")[2] for source in sources
     )
-    is_found = is_marker or f"{target}/".startswith(f"{share}/")
+    is_found = is_marker or f"{place}/".startswith(f"{share}/")
     if is_data and not is_found:
-        return f"installs {sources[0]} to {target}, but ROS 2 searches {share}/"
+        return f"installs {sources[0]} to {place}, but ROS 2 searches {share}/"
     return ""
 
 
 _INDEX = "share/ament_index/resource_index/"
 """The directory with markers of any type, named after packages."""
 _DIRECTORIES = ("launch", *DATA_DIRECTORIES)
+_OF_PYTHON = re.compile(r"lib/python\d[\d.]*/")
+"""Matches the directory of one version of Python."""
