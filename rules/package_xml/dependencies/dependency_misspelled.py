@@ -7,14 +7,13 @@ from collections.abc import Iterator
 from scaffold.api import Diagnostic, Edit, Effect, Example, Fix, Package, Report, Rule
 from scaffold.api.catalog import (
     OTHER_NAMES,
-    ROS_PACKAGES,
-    is_near,
-    is_released,
     similar_key,
     similar_package,
 )
 from scaffold.api.interfaces import KINDS
-from scaffold.api.manifest import is_fetched, is_included
+from scaffold.api.manifest import is_fetched
+
+from ._meant_packages import similar_neighbor
 
 
 class DependencyMisspelled(Rule):
@@ -157,7 +156,7 @@ class DependencyMisspelled(Rule):
             if key is not None and not _is_known(package, name):
                 message = f"unknown rosdep key {name!r}: rosdep stops; did you mean {key!r}?"
                 yield self.report(dependency, message)
-            closest = similar_package(name) or _similar_neighbor(package, name)
+            closest = similar_package(name) or similar_neighbor(package, name)
             if closest is not None and not _has_others(package, name, closest):
                 message = f"unknown package {name!r}: rosdep stops; did you mean {closest!r}?"
                 edit = Edit("package.xml", *dependency.element.text_span, closest)
@@ -174,17 +173,6 @@ def _has_others(package: Package, name: str, closest: str) -> bool:
             if names is not None and any(imported.name not in names for imported in item.names):
                 return True
     return False
-
-
-def _similar_neighbor(package: Package, name: str) -> str | None:
-    """Return the only workspace package that an unknown name can refer to, if any."""
-    if is_released(name) or name in ROS_PACKAGES or _is_known(package, name):
-        return None
-    similar = [other.name for other in package.workspace if is_near(name, other.name)]
-    if len(similar) != 1 or similar[0] == package.name:
-        return None
-    is_imported = any(name in module.imports_by_root for module in package.modules())
-    return None if is_imported or is_included(package, name) else similar[0]
 
 
 def _is_known(package: Package, name: str) -> bool:

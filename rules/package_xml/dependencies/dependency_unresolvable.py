@@ -25,6 +25,7 @@ from scaffold.api.distributions import removed_package, target
 from scaffold.api.manifest import declared, is_fetched
 from scaffold.api.workspace import IGNORE_MARKERS
 
+from ._meant_packages import package_of_key, similar_neighbor
 from ._names_without_key import why_no_key
 
 _PACKAGE = re.compile(r"[a-z][a-z0-9_]*")
@@ -116,6 +117,19 @@ class DependencyUnresolvable(Rule):
             {"package.xml": _MANIFEST.format("python3-open3d")},
             "3:11: rosdep has no rule for 'python3-open3d' on Ubuntu Noble, the system of "
             "Jazzy: it stops; 'python3-open3d-pip' has one",
+        ),
+        Example(
+            "a key in place of the package that the distribution has",
+            {"package.xml": _MANIFEST.format("python3-py-trees")},
+            "3:11: unknown dependency 'python3-py-trees': rosdep has no rule for it, and it is "
+            "not a package in the workspace or AMENT_PREFIX_PATH; the package is 'py_trees'",
+        ),
+        Example(
+            "another spelling of a package of the workspace, which PX022 reports",
+            {"package.xml": _MANIFEST.format("arm-planner")},
+            neighbors={
+                "arm_planner": {"package.xml": "<package><name>arm_planner</name></package>"}
+            },
         ),
         Example(
             "a key of the vendor of other unknown packages",
@@ -264,6 +278,7 @@ def _is_known(package: Package, name: str) -> bool:
         or similar_key(name)
         or module_of_key(name)
         or package.workspace.get(name) is not None
+        or similar_neighbor(package, name)
     ):
         return True
     prefixes = os.environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep)
@@ -286,6 +301,8 @@ def _ignored(package: Package, name: str) -> str:
 def _hint(package: Package, name: str) -> str:
     if is_released(name):
         return f"; {target().title} lacks it, other distributions have it"
+    if meant := package_of_key(name):
+        return f"; the package is {meant!r}"
     rosdep = package.workspace.rosdep
     module = module_of_key(name.removeprefix("python3-"))
     if module is not None:

@@ -28,6 +28,7 @@ from scaffold.api.tests import test_modules
 
 from ._debian import key_of_debian
 from ._embedded_pythons import is_for_embedded_python
+from ._meant_packages import package_of_key
 
 _LAUNCH = frozenset({"launch", "launch_ros"})
 """Packages installed wherever launch files can be started."""
@@ -112,11 +113,11 @@ class ImportUndeclared(Rule):
             },
         ),
         Example(
-            "declared with a key that rosdep cannot resolve, which PX028 reports",
+            "declared with keys that rosdep cannot resolve, which PX028 reports",
             {
-                "package.xml": _manifest("python3-open3d"),
+                "package.xml": _manifest("python3-open3d", "python3-py-trees"),
                 "talker/__init__.py": "",
-                "talker/cloud.py": "import open3d\n",
+                "talker/cloud.py": "import open3d\nimport py_trees\n",
             },
         ),
         Example(
@@ -831,7 +832,10 @@ class ImportUndeclared(Rule):
             is_from_pip = is_in_requirements(package, need.module)
             if need.module in _INDEX and (is_from_pip or _is_required(package, need.module)):
                 continue
-            alike = ((key_of_debian(x.name), f"{x.name}-pip") for x in manifest.dependencies)
+            alike = (
+                (key_of_debian(item.name), f"{item.name}-pip", package_of_key(item.name))
+                for item in manifest.dependencies
+            )
             if not all(map(frozenset(need.keys).isdisjoint, alike)):
                 continue  # reported by dependency-malformed or dependency-unresolvable
             if _is_by_rospkg(package, need) or _adds_sources(package, need):

@@ -1,0 +1,31 @@
+"""The package that an unknown dependency surely means."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from scaffold.api.catalog import ROS_PACKAGES, has_rosdep_rule, is_near, is_released
+from scaffold.api.manifest import is_included
+
+if TYPE_CHECKING:
+    from scaffold.api import Package
+
+
+def package_of_key(name: str) -> str:
+    """Return the released package of ``python3-py-trees``: ``py_trees``, or nothing."""
+    package = name.removeprefix("python3-").replace("-", "_")
+    is_key = package != name and is_released(package) and has_rosdep_rule(package)
+    return package if is_key else ""
+
+
+def similar_neighbor(package: Package, name: str) -> str | None:
+    """Return the only workspace package that an unknown name can refer to, if any."""
+    rosdep = package.workspace.rosdep
+    is_known = rosdep is not None and rosdep.resolves(name) is not False
+    if is_released(name) or name in ROS_PACKAGES or is_known:
+        return None
+    similar = [other.name for other in package.workspace if is_near(name, other.name)]
+    if len(similar) != 1 or similar[0] == package.name:
+        return None
+    is_imported = any(name in module.imports_by_root for module in package.modules())
+    return None if is_imported or is_included(package, name) else similar[0]
