@@ -72,6 +72,12 @@ def test_long_messages_have_two_lines_if_there_is_room() -> None:
     assert [len(line) > WIDTH for line in _shown(entries, room=3)[0]] == [True, False]
 
 
+def test_message_after_a_long_path_fills_the_line_that_it_starts() -> None:
+    directory = "a" * (WIDTH - 30)
+    line = _shown(_entries([("TY003", "word " * 40)], directory), room=1)[0][0]
+    assert len(line) == 2 * WIDTH
+
+
 def test_further_places_are_counted() -> None:
     entries = _entries([("TY003", "same"), ("TY003", "same"), ("TY003", "same")])
     (line,), _ = _shown(entries, room=1)

@@ -76,6 +76,8 @@ def brief(entry: Entry, width: int, lines: int, link: str | None = None) -> Text
         f" (and {count(others, 'more place')})" if others and not below else "", style="dim"
     )
     room = min(lines, 2) * width - len(_line(entry, "", link)) - len(more)
+    if room < _MIN_BRIEF:
+        room += width  # it fills another line anyway
     message = _cut(printable(entry.first.text), max(_MIN_BRIEF, room))
     return Text("\n").join([_line(entry, message, link) + more, *below])
 
