@@ -70,6 +70,20 @@ class SubstitutionUsedAsText(LaunchRule):
             {"launch/a.launch.py": _LAUNCH.format("'a'\n    print(f'{name}', str(name))", "name")},
         ),
         Example(
+            "methods of strings, and a comparison",
+            {
+                "launch/a.launch.py": _LAUNCH.format(
+                    "name.upper()", "'b' if name == 'a' else name.lower()"
+                )
+            },
+            "10:12: LaunchConfiguration has no value yet in upper(): it is evaluated when the "
+            "launch runs",
+            "12:81: LaunchConfiguration has no value yet in a comparison: it is evaluated when "
+            "the launch runs",
+            "12:98: LaunchConfiguration has no value yet in lower(): it is evaluated when the "
+            "launch runs",
+        ),
+        Example(
             "joined by Python",
             {"launch/a.launch.py": _LAUNCH.format("os.path.join('a', name)", "'x' + name")},
             "10:30: LaunchConfiguration has no value yet in os.path.join(): it is evaluated when "

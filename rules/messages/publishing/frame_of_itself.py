@@ -53,6 +53,19 @@ class FrameOfItself(RclpyRule):
             "16:36: the child frame is the parent frame: tf2 ignores the transform",
         ),
         Example(
+            "child frame equal to the parent frame, both given to the constructor",
+            {
+                "beacon.py": "from geometry_msgs.msg import TransformStamped\n"
+                "from std_msgs.msg import Header\nfrom tf2_ros import TransformBroadcaster\n\n"
+                "import rclpy\n\n"
+                "BEACON = TransformStamped(\n"
+                "    header=Header(frame_id='map'), child_frame_id='map')\n\n\n"
+                "def main():\n    rclpy.init()\n    node = rclpy.create_node('beacon')\n"
+                "    TransformBroadcaster(node).sendTransform(BEACON)\n"
+            },
+            "8:51: the child frame is the parent frame: tf2 ignores the transform",
+        ),
+        Example(
             "base_footprint as the parent of odom",
             {"odometry.py": _NODE.format("'base_footprint'", "'odom'")},
             Report(
