@@ -215,7 +215,7 @@ class ParameterUndeclared(Rule):
                 severity=Severity.WARNING,
             ),
             "launch/a.launch.py:10:13: node 'talker' declares no parameter 'raet': the value is "
-            "ignored; did you mean 'rate'?",
+            "ignored; it has limits.high, rate",
         ),
         Example(
             "a node whose name is set on the command line",
@@ -232,7 +232,7 @@ class ParameterUndeclared(Rule):
                 severity=Severity.WARNING,
             ),
             "launch/a.launch.py:10:13: this node declares no parameter 'raet': the value is "
-            "ignored; did you mean 'rate'?",
+            "ignored; it has limits.high, rate",
         ),
         Example(
             "misspelled, and missing",
@@ -308,9 +308,12 @@ class _Ignored(NamedTuple):
         """Return a hint at the parameters of the node, and the severity."""
         names = sorted({key for declared in self.declarations for key in declared.types})
         closest = closest_name(self.package, self.name, names, 0.6)
+        unset = [name for name in names if name not in self.others]
+        meant = closest_name(self.package, self.name, unset, 0.6)
+        meant = meant or closest_name(self.package, self.name, names, 0.8)
         hint = f"it has {listed_names(names, self.name)}"
-        if closest:
-            hint = f"did you mean {closest!r}?"
+        if meant:
+            hint = f"did you mean {meant!r}?"
         pairs = zip(self.owners, self.declarations, strict=True)
         is_empty = self.value == comparable("")
         is_harmless = is_empty or all(self._has_value(*pair, closest) for pair in pairs)

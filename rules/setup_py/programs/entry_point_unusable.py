@@ -27,6 +27,8 @@ from scaffold.api.setup_py import (
     installs_configured,
 )
 
+_SIMILAR = 0.7
+"""How similar the names of modules are if one is meant."""
 _MISSING = "there is no"
 _SETUP = (
     "from setuptools import setup\n\n"
@@ -203,8 +205,7 @@ class EntryPointUnusable(Rule):
                 "  node = talker.node:main\n  talk = talker.talk:main\n"
                 "  run = talker.node:run\n",
             },
-            "setup.cfg:4:3: `ros2 run` of 'talk' fails: there is no talker/talk.py; did you mean "
-            "talker/node.py?",
+            "setup.cfg:4:3: `ros2 run` of 'talk' fails: there is no talker/talk.py",
             "setup.cfg:5:3: `ros2 run` of 'run' fails: talker/node.py has no 'run'",
         ),
         Example(
@@ -356,10 +357,13 @@ class EntryPointUnusable(Rule):
         base = entry.module.replace(".", "/")
         path = next((p for p in (f"{base}.py", f"{base}/__init__.py") if package.has(p)), None)
         if path is None:
-            modules = [path for path in package.python_files if not path.endswith("__.py")]
-            same = [path for path in modules if path.endswith(f"/{base.rpartition('/')[2]}.py")]
-            closest = same or get_close_matches(f"{base}.py", modules, n=1)
-            hint = f"; did you mean {closest[0]}?" if closest else ""
+            modules = {
+                path.rpartition("/")[2].removesuffix(".py"): path
+                for path in reversed(package.python_files)
+                if not path.endswith("__.py")
+            }
+            closest = get_close_matches(base.rpartition("/")[2], modules, 1, _SIMILAR)
+            hint = f"; did you mean {modules[closest[0]]}?" if closest else ""
             return f"{_MISSING} {base}.py{hint}"
         try:
             exports = exports_of(package, path)
