@@ -24,7 +24,7 @@ def diagnostics(package: Package, code: str) -> Iterator[Diagnostic]:
 
         return cmake_diagnostics.diagnostics(package, code)
     if linters == XMLLINT:
-        from scaffold.ament import xml_diagnostics
+        from scaffold.ament.xml import diagnostics as xml_diagnostics
 
         return xml_diagnostics.diagnostics(package, code)
     from scaffold.ament import copyright_diagnostics

@@ -212,7 +212,7 @@ def _prepare() -> None:
     """Import lazily loaded modules of the rules ahead of time."""
     from importlib import import_module
 
-    for linter in ("cmake_diagnostics", "copyright_diagnostics", "xml_diagnostics"):
+    for linter in ("cmake_diagnostics", "copyright_diagnostics", "xml.diagnostics"):
         import_module(f"scaffold.ament.{linter}")
     changes.of_kind("name")
 

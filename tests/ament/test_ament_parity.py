@@ -17,8 +17,8 @@ from lxml import etree
 
 from scaffold.ament import copyright as notices
 from scaffold.ament import lint_cmake
-from scaffold.ament.xmllint import check as check_xml
-from scaffold.ament.xmllint import violations
+from scaffold.ament.xml.xmllint import check as check_xml
+from scaffold.ament.xml.xmllint import violations
 from scaffold.check import runner
 from scaffold.check.fixes import fixer
 from scaffold.check.rules import registry

@@ -317,7 +317,7 @@ def test_other_signals_leave_no_temporary_files(
     shutil.copytree(package, tmp_path / "talker")
 
     # The type checker has its files by then.
-    run = run_with_signal("scaffold.ament.xmllint", number, tmp_path, TMPDIR=str(scratch))
+    run = run_with_signal("scaffold.ament.xml.xmllint", number, tmp_path, TMPDIR=str(scratch))
 
     assert (run.returncode, run.stdout, run.stderr) == (-number, "", "")
     assert [*scratch.iterdir()] == []

@@ -28,7 +28,7 @@ WRITERS = {
     "scaffold/cli/status_line.py": "draws one line again and again",
     "scaffold/cli/verbs/smoke.py": "its reporters write as they go",
     "scaffold/generate/templates/foreign_worker.py": "its output is for the parent",
-    "scaffold/ament/xml_validate.py": "a process of its own; its output is JSON for the parent",
+    "scaffold/ament/xml/validate.py": "a process of its own; its output is JSON for the parent",
     "scaffold/check/cluster/batch_process.py": "a process of its own; its output is for the parent",
     "scaffold/smoke/probe/main.py": "a process of its own; its output is JSON for the parent",
 }

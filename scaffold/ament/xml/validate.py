@@ -1,6 +1,6 @@
 """A subprocess that validates XML documents, so that libxml2 can be killed on a timeout.
 
-``scaffold.ament.xmllint`` starts it with limits on time and memory; the argument is the directory
+The ``xmllint`` next to it starts it with limits on time and memory; the argument is the directory
 that contains lxml. It reads jobs from standard input and writes one line of JSON for each.
 """
 

@@ -13,8 +13,8 @@ from functools import lru_cache
 from typing import TYPE_CHECKING
 from xml.parsers import expat
 
-from scaffold.ament import xml_validate
 from scaffold.ament.files import broken_links, lintable
+from scaffold.ament.xml import validate
 from scaffold.distributions import DATA
 from scaffold.files.disk import LargeFileError
 from scaffold.model.package import Package
@@ -125,7 +125,7 @@ def _is_xml(path: str) -> bool:
 
 
 XML_SCHEMA = "http://www.w3.org/2001/XMLSchema"
-RELAX_NG = xml_validate.RELAX_NG
+RELAX_NG = validate.RELAX_NG
 HINT = "{http://www.w3.org/2001/XMLSchema-instance}noNamespaceSchemaLocation"
 MAX_BYTES = 200_000
 """The maximum size of a schema; that of package.xml has 30 kB."""
@@ -163,7 +163,7 @@ def verdicts(package: Package) -> list[Verdict]:
     """
     uses = [use for path in of_package(package) for use in _uses(package, path)]
     verdict_of: dict[_Use, Verdict | None] = {}
-    jobs: dict[_Use, xml_validate.Job] = {}
+    jobs: dict[_Use, validate.Job] = {}
     for use in uses:
         verdict = _judge(package, use)
         if isinstance(verdict, bytes):
@@ -262,7 +262,7 @@ def _read(package: Package, path: str) -> bytes:
     return package.outside.read(os.path.join(package.root, path), MAX_BYTES)
 
 
-def _validated(jobs: Mapping[_Use, xml_validate.Job]) -> Iterator[tuple[_Use, Verdict | None]]:
+def _validated(jobs: Mapping[_Use, validate.Job]) -> Iterator[tuple[_Use, Verdict | None]]:
     """Yield the verdicts of libxml2 on documents that it finishes in time."""
     lines = _run(list(jobs.values())) if jobs else []
     for at, use in enumerate(jobs):
@@ -281,7 +281,7 @@ def _validated(jobs: Mapping[_Use, xml_validate.Job]) -> Iterator[tuple[_Use, Ve
         )
 
 
-def _run(jobs: list[xml_validate.Job]) -> list[bytes]:
+def _run(jobs: list[validate.Job]) -> list[bytes]:
     """Return the output lines of the validator until it ends or is killed."""
     import subprocess
 
@@ -289,7 +289,7 @@ def _run(jobs: list[xml_validate.Job]) -> list[bytes]:
 
     library = os.path.dirname(os.path.dirname(os.path.abspath(etree.__file__)))
     with subprocess.Popen(
-        [sys.executable, "-I", xml_validate.__file__, library],
+        [sys.executable, "-I", validate.__file__, library],
         stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,
         stderr=subprocess.DEVNULL,

@@ -7,9 +7,9 @@ from collections.abc import Callable, Iterator, Mapping
 from difflib import get_close_matches
 
 from scaffold import lazy_re
-from scaffold.ament import xmllint
 from scaffold.ament.codes import diagnostic
 from scaffold.ament.use import linter_use
+from scaffold.ament.xml import xmllint
 from scaffold.diagnostic import Diagnostic, Severity
 from scaffold.edits import Edit, Fix, Safety
 from scaffold.files.tree import MANIFEST

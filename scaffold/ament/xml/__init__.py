@@ -1,0 +1,1 @@
+"""What ament_xmllint reports about XML files."""
