@@ -17,7 +17,7 @@ _NODE = (
     "        self.declare_parameter('rate', {})\n"
     "        self.rate = self.get_parameter('rate').value\n"
 )
-_LAUNCH = (".py", ".launch.xml", ".launch.yaml", ".launch.yml")
+_LAUNCH = (".py", ".launch", ".launch.xml", ".launch.yaml", ".launch.yml")
 _PARAMETERS = (".yaml", ".yml")
 _STARTING = (
     "from launch import LaunchDescription\nfrom launch_ros.actions import Node\n\n\n"
@@ -79,6 +79,20 @@ class RequiredNeverSet(RclpyRule):
                 "bringup": {
                     "package.xml": "<package><name>bringup</name></package>\n",
                     "launch/all.launch.py": "PARAMETERS = [{'rate': 3.0}]\n",
+                }
+            },
+        ),
+        Example(
+            "set by a launch file in XML of another package",
+            {
+                "package.xml": "<package><name>demo</name></package>\n",
+                "talker.py": _NODE.format("Parameter.Type.DOUBLE"),
+            },
+            neighbors={
+                "bringup": {
+                    "package.xml": "<package><name>bringup</name></package>\n",
+                    "launch/all.launch": "<launch><node pkg='demo' exec='talker.py'>"
+                    "<param name='rate' value='3.0'/></node></launch>\n",
                 }
             },
         ),

@@ -224,6 +224,14 @@ class ShareDirectoryNotInstalled(Rule):
             },
         ),
         Example(
+            "files from which others are generated for the subdirectory",
+            {
+                **_FILES_PATHS,
+                "CMakeLists.txt": _LISTS_PATHS.format("config/", "")
+                + _LISTS_PATHS.format("${CMAKE_CURRENT_BINARY_DIR}/made", "/config"),
+            },
+        ),
+        Example(
             "launch files, which `ros2 launch` finds in any subdirectory",
             {"launch/talk.launch.py": "", "CMakeLists.txt": _LISTS_PATHS.format("launch/", "")},
         ),
@@ -314,6 +322,7 @@ class ShareDirectoryNotInstalled(Rule):
 
     def _check_paths(self, package: Package) -> Iterator[Diagnostic]:
         name = package.cmake.project_name
+        destinations = {f"{install.destination}".rstrip("/") for install in package.cmake.installs}
         for install in package.cmake.installs:
             target = (install.destination or "").rstrip("/")
             if install.kind != "DIRECTORY" or install.command.name != "install":
@@ -324,6 +333,8 @@ class ShareDirectoryNotInstalled(Rule):
                 if directory not in DIRECTORIES or item.argument.quoted:
                     continue
                 slash = written.endswith("/")
+                if f"share/{name}/{directory}" in destinations - {target}:
+                    continue  # where other files are, such as those that are generated from these
                 if slash and target == f"share/{name}" and directory != "launch":
                     end = item.argument.end
                     edit = Edit(item.argument.path, end - 1, end, "")
