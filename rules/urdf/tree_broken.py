@@ -249,8 +249,8 @@ class TreeBroken(Rule):
                 '  <parent link="${prefix}chassis"/>\n  <child link="${prefix}mast"/>\n</joint>\n'
                 "</robot>\n"
             },
-            "12:17: parent '${prefix}chassis' of joint '${prefix}b' is not a link of this robot: "
-            "robot_state_publisher exits",
+            "12:17: parent '$(arg prefix)chassis' of joint '$(arg prefix)b' is not a link of this "
+            "robot: robot_state_publisher exits",
         ),
     )
 

@@ -91,6 +91,10 @@ class Values:
         try:
             return expressions.evaluate(inner, lambda name: self._looked_up(name, frame))
         except NotKnownError:
+            scope = frame.scope.find(inner.strip())
+            value = self.resolved(inner.strip(), scope, frame) if scope is not None else ""
+            if isinstance(value, str) and value:
+                return value  # what is known of it stays so
             return unknown(f"{inner} {' '.join(used)}")
 
     def _looked_up(self, name: str, frame: Frame) -> Value:
