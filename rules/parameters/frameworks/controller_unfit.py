@@ -303,6 +303,22 @@ class ControllerUnfit(Rule):
             "another robot that cannot be parsed",
             {**_files(joint="rear"), "urdf/arm.xacro": "<!DOCTYPE robot>\n<robot/>\n"},
         ),
+        Example(
+            "spawners in a loop",
+            {
+                **_files(),
+                "launch/robot.launch.py": _LAUNCH.format(
+                    "controllers.yaml", "name", "base_controller"
+                )
+                .replace(
+                    "        Node(package='controller_manager', executable='spaw",
+                    "        *[\n            Node(package='controller_manager', executable='spaw",
+                )
+                .replace("[name]),", "[name]) for name in ['base_controller', 'arm']],"),
+            },
+            "launch/robot.launch.py:14:64: no file sets the type of 'arm' for the controller "
+            "manager: it is not loaded; known: base_controller",
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:

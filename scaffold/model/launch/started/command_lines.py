@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from scaffold import lazy_re
 from scaffold.model.launch.calls import LaunchCall
+from scaffold.model.launch.evaluation.cases import Case
 from scaffold.model.launch.evaluation.evaluator import joined_value
 from scaffold.model.launch.markup_file import markup_files
 from scaffold.model.launch.python_file import NODES, LaunchFile
@@ -104,18 +105,32 @@ def processes(package: Package) -> Iterator[CommandLine]:
 
 
 def _in_python(launch: LaunchFile, call: LaunchCall, keyword: str) -> Iterator[CommandLine]:
+    """Yield the command line of an action, in each case of the functions and loops around it."""
+    line = _line(launch, call, keyword, None)
+    is_known = line is None or all(UNSAID not in word.text for word in line.words)
+    for case in (() if is_known else launch.cases(call.call)) or (None,):
+        with launch.evaluator.bound(case.values if case is not None else {}):
+            line = _line(launch, call, keyword, case)
+        if line is not None:
+            yield line
+
+
+def _line(
+    launch: LaunchFile, call: LaunchCall, keyword: str, case: Case | None
+) -> CommandLine | None:
     expression = call.given.get(keyword)
     elements = launch.evaluator.elements(expression) if expression is not None else None
     if expression is None or elements is None or not elements.complete or not elements.items:
-        return
+        return None
     words: list[Word] = []
     is_shell = launch.evaluator.evaluate(call.given.get("shell")) is True
     for item in elements.items:
         text = joined_value(item.value)
         texts = [UNSAID] if not isinstance(text, str) else text.split() if is_shell else [text]
-        node = item.node if len(texts) == 1 else None
-        words += [Word(part, launch.location(item.node), node) for part in texts]
-    yield CommandLine(call.location, launch.location(expression), words, launch, expression)
+        place = item.node if case is None else case.place(launch.module, item.node)
+        node = item.node if len(texts) == 1 and place is item.node else None
+        words += [Word(part, launch.location(place), node) for part in texts]
+    return CommandLine(call.location, launch.location(expression), words, launch, expression)
 
 
 def _split(attribute: Attribute) -> list[Word]:
