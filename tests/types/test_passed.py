@@ -229,3 +229,6 @@ def test_calls_of_inherited_methods(call: str, functions: list[str]) -> None:
     )
     names = own_names(text.encode(), "talker.talker")
     assert [place.function for place in places(text, names)] == functions
+    mixed = text.replace("(Hub)", "(Node, Hub)")
+    of_node = [name for name in functions if name != "talker.hub.Hub"]
+    assert [place.function for place in places(mixed, names)] == of_node

@@ -77,6 +77,22 @@ def test_functions_without_known_result(body: str) -> None:
 
 
 @pytest.mark.parametrize(
+    ("others", "is_known"),
+    [
+        ("", True),
+        ("        self.all['x'] = B()\n", False),
+        ("        self.all = {'x': B()}\n", False),
+    ],
+)
+def test_elements_under_the_key_of_a_parameter(others: str, is_known: bool) -> None:
+    text = (
+        "class A:\n    def made(self, key):\n        self.all = {}\n"
+        f"        self.all[key] = A(key)\n{others}        return self.all[key]\n"
+    )
+    assert bool(types(text, {"key"})) is is_known
+
+
+@pytest.mark.parametrize(
     ("value", "is_known"),
     [
         ("given", False),

@@ -32,8 +32,8 @@ _TAKING = lazy_re.compile(rb"\bdef (?!main\b)\w+\((?!\s{0,9}(?:self|cls)?\s{0,9}
 _MOST_PACKAGES = 60
 """In larger workspaces, calls by other packages are not followed: each depends on all others."""
 _BOUND = lazy_re.compile(r"\b(?:def|lambda|for|as|global|nonlocal|del|import)\b")
-_CLASS = lazy_re.compile(r"^class \w+\((\w+(?:\.\w+)?)[ ]*(?:,[^()\n]*)?\):[^\n]*\n", re.MULTILINE)
-"""Matches the head of a class with its first base."""
+_CLASS = lazy_re.compile(r"^class \w+\(([\w., ]+)\):[^\n]*\n", re.MULTILINE)
+"""Matches the head of a class with its bases."""
 _OF_SELF = lazy_re.compile(r"(?<![\w.])(?:(self)|super\(\))\.(\w+)\((?!\))")
 """Matches the start of a method call of ``self`` with arguments."""
 _REGISTERING = lazy_re.compile(r"\.create_(subscription|service)\(")
@@ -136,19 +136,19 @@ def registered_callbacks(text: str, names: Mapping[str, str]) -> Iterator[Place]
 
 
 def _inherited(text: str, names: Mapping[str, str]) -> Iterator[Place]:
-    """Yield the calls of methods that classes inherit from a class of another module."""
+    """Yield the calls of methods that classes inherit from classes of other modules."""
     for class_ in _CLASS.finditer(text) if names else ():
-        imported, _, attribute = class_[1].partition(".")
-        if imported not in names:
-            continue
-        base = names[imported] + (f".{attribute}" if attribute else "")
+        parts = [base.strip().partition(".") for base in class_[1].split(",")]
+        bases = [names[name] + dot + rest for name, dot, rest in parts if name in names]
         start = class_.end()
         body = start + len(function_body(text, class_.start(), start - 1)) - 1
-        for call in _OF_SELF.finditer(text, start, body):
+        for call in _OF_SELF.finditer(text, start, body) if bases else ():
             is_own = call[1] is not None and text.find(f"def {call[2]}(", start, body) >= 0
             if not is_own and call[2] not in _OF_NODES:
                 method = "" if call[2] == "__init__" else f".{call[2]}"
-                yield Place(f"{base}{method}", call.start(), call.end())
+                first = bases[:1] if parts[0][0] in names else ()
+                for base in bases if method else first:
+                    yield Place(f"{base}{method}", call.start(), call.end())
 
 
 def calls_of_object(text: str, name: str, class_: str) -> Iterator[Place]:

@@ -52,6 +52,8 @@ _GENERIC = frozenset(
     | {"copy", "deepcopy", "partial", "super"}
 )
 """Functions whose return type depends on their arguments."""
+_ELEMENT = lazy_re.compile(r"self\.(\w+)\[[^\W\d]\w*\]")
+"""Matches an element of a container, under the key in a variable."""
 _SET = lazy_re.compile(r"^([\w ,]+)(?::[^=\n]*)?[-+*/|&%]?=(?!=)([^\n]*)", re.MULTILINE)
 """Matches assignments to names, and statements that start like one."""
 _BOUND = lazy_re.compile(r"\bfor ([\w, ()]{1,200}?) in\b([^\n]*)|\bas (\w+)")
@@ -262,6 +264,11 @@ class _Attributes:
             values.setdefault(match[1], set()).add(_callee(match[2].strip()))
         return values
 
+    def has_one_kind(self, name: str) -> bool:
+        """Return whether one statement sets all elements of an attribute."""
+        is_empty = self._values.get(name) == {"{}"}
+        return is_empty and len(re.findall(rf"\bself\.{name}\[[^]\n]*\] = ", self._text)) == 1
+
     def is_of_one(self, name: str) -> bool:
         """Return whether all values of an attribute are created in the same way."""
         values = self._values.get(name, set()) - {"None"}
@@ -271,6 +278,9 @@ class _Attributes:
 def _common_creation(value: str, body: str, attributes: _Attributes) -> str:
     """Return how a value is created; empty if there are several ways, as with a factory."""
     form = _callee(value)
+    element = _ELEMENT.fullmatch(value)
+    if element is not None:
+        return form if attributes.has_one_kind(element[1]) else ""
     of_self = _OF_SELF.match(value)
     if of_self is not None:
         return form if attributes.is_of_one(of_self[1]) else ""
@@ -298,7 +308,7 @@ def _callee(value: str) -> str:
 
 def _is_independent(value: str, names: set[str]) -> bool:
     """Return whether the type of an expression does not depend on some variables."""
-    if names.isdisjoint(_WORD.findall(value)):
+    if names.isdisjoint(_WORD.findall(value)) or _ELEMENT.fullmatch(value):
         return True
     called = _CALL.match(value)
     return called is not None and called[1] not in _GENERIC and called[1] not in names
