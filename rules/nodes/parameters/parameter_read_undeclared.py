@@ -84,6 +84,39 @@ class ParameterReadUndeclared(RclpyRule):
             "mean 'rates'?",
         ),
         Example(
+            "all in a table for declare_parameters, and another one",
+            {
+                "package.xml": "<package><name>demo</name></package>\n",
+                "demo/tables.py": "RATES = (('rate', 1.0), ('gain', 2))\nGAINS = [('gain', 2)]\n",
+                **{
+                    f"demo/{name.lower()}.py": "from demo.tables import GAINS, RATES\n"
+                    + _NODE.format(f"        self.declare_parameters('', {name})\n", "")
+                    for name in ("RATES", "GAINS")
+                },
+            },
+            "demo/gains.py:9:21: parameter 'rate' is not declared: ParameterNotDeclaredException",
+        ),
+        Example(
+            "a table that a derived class replaces, and one that it does not",
+            {
+                "package.xml": "<package><name>demo</name></package>\n",
+                **{
+                    f"demo/{name}.py": _NODE.format(
+                        "        self.declare_parameters('', self.TABLE)\n", ""
+                    ).replace("    def", "    TABLE = (('rate', 1.0),)\n\n    def", 1)
+                    + "        self.gain = 1.0\n\n\nclass Other(Talker):\n"
+                    + table
+                    + "\n    def read(self):\n        return self.get_parameter('rats')\n"
+                    for name, table in (
+                        ("same", "    pass\n"),
+                        ("own", "    TABLE = (('rats', 1.0),)\n"),
+                    )
+                },
+            },
+            "demo/same.py:18:16: parameter 'rats' is not declared: ParameterNotDeclaredException; "
+            "did you mean 'rate'?",
+        ),
+        Example(
             "all in a table of the class, and another one",
             {
                 f"{name}.py": _NODE.format(

@@ -82,12 +82,14 @@ def _declared_at(package: Package, path: str, number: int) -> Declared:
     places: dict[str, DeclaredParameter] = {}
     complete = True
     current: NodeDefinition | None = owner
+    redefined: set[str] = set()
     while current is not None:
         divide = divisors(current.file)
         is_dynamic = current.file.module.mentions("dynamic_typing", "set_descriptor(")
         for parameter in (*current.parameters, *_from_outside(current, package)):
             name = parameter.name
-            if not isinstance(name, str) or parameter.has_unknown_arguments:
+            is_known = isinstance(name, str) and not _names_any(parameter, redefined)
+            if not isinstance(name, str) or not is_known or parameter.has_unknown_arguments:
                 complete = False
                 continue
             kind = _fixed_type(parameter, may_be_dynamic=is_dynamic)
@@ -97,6 +99,7 @@ def _declared_at(package: Package, path: str, number: int) -> Declared:
         complete = complete and not current.declares_automatically and not escapes(current, package)
         complete = complete and all(item.owner is not None for item in current.file.parameters)
         complete = complete and not (isinstance(current, NodeClass) and current.is_made_later)
+        redefined.update(_class_names(current))
         current = current.base if isinstance(current, NodeClass) else None
     return Declared(types, places, complete)
 
@@ -153,19 +156,39 @@ def _declared(
     The results of `_passed_on` for their files are cached.
     """
     parameters: list[Parameter] = []
+    redefined: set[str] = set()
     owner: NodeClass | None = node
     while owner is not None:
         if owner.declares_automatically or owner.is_lifecycle or len(owner.node.bases) != 1:
             return None
-        if any(not isinstance(parameter.name, str) for parameter in owner.parameters):
+        if any(
+            not isinstance(parameter.name, str) or _names_any(parameter, redefined)
+            for parameter in owner.parameters
+        ):
             return None
         if owner.file not in passed_on:
             passed_on[owner.file] = _passed_on(owner.file)
         if owner.node in passed_on[owner.file]:
             return None
         parameters += owner.parameters
+        redefined.update(_class_names(owner))
         owner = owner.base
     return None if _declares_on_others(node.file) else parameters
+
+
+def _class_names(node: NodeDefinition) -> Iterable[str]:
+    """Return the names that a class defines, which may replace those of its bases."""
+    return node.file.module.index.bindings(node.node) if isinstance(node, NodeClass) else ()
+
+
+def _names_any(parameter: Parameter, names: set[str]) -> bool:
+    """Return whether a declaration is computed of an attribute that a derived class defines."""
+    arguments = parameter.call.args if names else ()
+    return any(
+        isinstance(node, ast.Attribute) and node.attr in names
+        for argument in arguments
+        for node in ast.walk(argument)
+    )
 
 
 def _bases(file: RclpyFile) -> frozenset[ast.ClassDef | None]:

@@ -7,10 +7,11 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from scaffold.model.python.evaluation.values import UNKNOWN, Unknown
+from scaffold.model.python.evaluation.values import UNKNOWN, Unknown, is_known
 from scaffold.record import NamedTuple
 
 if TYPE_CHECKING:
+    from scaffold.model.python.evaluation.evaluator import Element
     from scaffold.model.python.module import PythonModule
     from scaffold.model.rclpy.evaluation.evaluator import NodeEvaluator
 
@@ -73,12 +74,14 @@ class Declarations:
             for row in self._rows(row_parts[0]):
                 yield Declaration(prefix, *(_in_row(node, row) for node in row_parts[:3]))
             return
+        value = self._evaluator.single_value(listed) if listed else None
+        listed = value if isinstance(value, ast.Tuple) else listed  # which cannot be changed
         items, is_complete = self._evaluator.elements(listed) if listed else ((), True)
         if not is_complete:
             yield Declaration(UNKNOWN, None, None, None)
         for item in items:
-            if isinstance(item.node, ast.Tuple | ast.List) and item.node.elts:
-                parts = item.node.elts
+            parts = _parts_of(item)
+            if parts:
                 value, descriptor = (parts[at] if len(parts) > at else None for at in (1, 2))
                 yield Declaration(prefix, parts[0], value, descriptor)
             else:
@@ -212,6 +215,15 @@ class Declarations:
                         result.setdefault(text, []).append((owner, item.value))
         self._is_indexing = False
         return result
+
+
+def _parts_of(item: Element) -> Sequence[ast.expr]:
+    """Return the parts of a row of a table, also of a constant of another module."""
+    if isinstance(item.node, ast.Tuple | ast.List):
+        return item.node.elts
+    if not isinstance(item.value, list | tuple) or not is_known(item.value):
+        return ()
+    return [ast.copy_location(ast.Constant(part), item.node) for part in item.value]
 
 
 def _in_row(node: ast.expr | None, row: Mapping[str, ast.expr]) -> ast.expr | None:
