@@ -62,6 +62,14 @@ class VariableReferenceWrong(Rule):
             "CMakeLists.txt:3:15: missing '}' in 'lib/${PROJECT_NAME': CMake stops",
         ),
         Example(
+            "a variable that a package sets",
+            {
+                "CMakeLists.txt": "project(talker)\nset(CMAKE_INCLUDE_CURRENT_DIR ON)\n"
+                "find_package(rviz_ogre_vendor REQUIRED)\n"
+                "include_directories(${OGRE_INCLUDE_DIRS})\nament_package()\n"
+            },
+        ),
+        Example(
             "the other name of a list that nothing reads",
             {
                 "CMakeLists.txt": "project(talker)\nset(scripts a.py)\nset(nodes b.py)\n"
@@ -133,11 +141,14 @@ def _is_meant(name: str) -> bool:
 
 
 def _unread(cmake: CMakeLists, name: str) -> str:
-    """Return the variable with a similar name that is set and never read; empty if none is."""
+    """Return the variable with a similar name that is set and never read; empty if none is.
+
+    Variables that packages set have capitals: ``Eigen3_INCLUDE_DIRS``.
+    """
     given = [command.values[0] for command in cmake.find("set", "option") if command.values]
     given += [command.values[1] for command in cmake.find("file", "list") if command.values[1:]]
     closest = get_close_matches(name, {*given}, 1, _SIMILAR)
-    if not closest or name.startswith("CMAKE_"):
+    if not closest or not name.islower():
         return ""
     values = [value for command in cmake.commands for value in command.values]
     is_read = any(f"{{{closest[0]}}}" in value for value in values)

@@ -20,7 +20,10 @@ _LISTS_LOOP = (
 _NODE = "#!/usr/bin/env python3\nimport rclpy\n\nif __name__ == '__main__':\n    rclpy.init()\n"
 _INSTALL = "install(PROGRAMS talker/node.py DESTINATION lib/${PROJECT_NAME})\n"
 _LISTS_NODES = "project(talker)\n{}ament_package()\n"
-
+_LISTS_LAUNCH = (
+    "project(talker)\n{}if(BUILD_TESTING)\n"
+    "  install(DIRECTORY launch test DESTINATION share/${{PROJECT_NAME}})\nendif()\n"
+)
 _FOR_USERS = frozenset(DATA_DIRECTORIES) | {"launch"}
 
 
@@ -89,15 +92,23 @@ class TestingConditionWrong(Rule):
             "do not contain it",
         ),
         Example(
+            "a package that installs nothing without tests",
+            {
+                "package.xml": "<package><name>talker</name></package>\n",
+                "CMakeLists.txt": _LISTS_LAUNCH.format(""),
+                "launch/a.launch.py": "",
+            },
+        ),
+        Example(
             "directories that releases lack, and one only for tests",
             {
                 "package.xml": "<package><name>talker</name></package>\n",
-                "CMakeLists.txt": "project(talker)\nif(BUILD_TESTING)\n"
-                "  install(DIRECTORY launch test DESTINATION share/${PROJECT_NAME})\nendif()\n",
+                "CMakeLists.txt": _LISTS_LAUNCH.format(_INSTALL),
                 "launch/a.launch.py": "",
+                "talker/node.py": _NODE,
                 "test/test_a.py": "",
             },
-            "CMakeLists.txt:3:21: launch/ is installed only if tests are built: releases do not "
+            "CMakeLists.txt:4:21: launch/ is installed only if tests are built: releases do not "
             "contain it",
         ),
     )
@@ -130,12 +141,12 @@ class TestingConditionWrong(Rule):
 
     def _check_nodes(self, package: Package) -> Iterator[Diagnostic]:
         cmake = package.cmake
-        for install in cmake.installs:
-            if not cmake.guarded_by_testing(install.command):
-                continue
+        with_tests = [x for x in cmake.installs if cmake.guarded_by_testing(x.command)]
+        others = len(cmake.installs) - len(with_tests)
+        for install in with_tests:
             for item in install.items:
                 path = item.path or ""
-                is_for_users = install.kind == "DIRECTORY" and path in _FOR_USERS
+                is_for_users = others and install.kind == "DIRECTORY" and path in _FOR_USERS
                 if is_for_users and install.destination == f"share/{package.name}":
                     message = (
                         f"{path}/ is installed only if tests are built: releases do not contain it"
