@@ -793,10 +793,10 @@ def test_existing_finding_may_mention_new_names(
     setup = PYTHON["setup.py"].replace("demo.hello:main", "demo.hallo:main")
     demo = write(tmp_path / "demo", {**PYTHON, "setup.py": setup})
     (demo / "demo" / "hello.py").unlink()
-    assert add(demo, "publisher", "talker") == 0
+    assert add(demo, "publisher", "halo") == 0
     assert "SP001" not in capsys.readouterr().err
     main(["check", str(demo)])
-    assert "there is no demo/hallo.py; did you mean demo/talker.py?" in capsys.readouterr().out
+    assert "there is no demo/hallo.py; did you mean demo/halo.py?" in capsys.readouterr().out
 
 
 def test_duplicate_node_name_is_noted(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
