@@ -130,6 +130,16 @@ class TestMisdefined(Rule):
             "test/test_talk.py",
         ),
         Example(
+            "settings that leave out the directory of the tests",
+            {
+                "setup.py": "",
+                "pytest.ini": "[pytest]\nnorecursedirs = test\n",
+                "test/test_talker.py": "def test_talker():\n    pass\n",
+            },
+            "pytest.ini:2:17: norecursedirs leaves out all tests: pytest does not collect "
+            "test/test_talker.py",
+        ),
+        Example(
             "a pattern that matches no tests",
             {
                 **_PACKAGE,

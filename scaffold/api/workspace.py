@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from scaffold.model.discovery.colcon import IGNORE_MARKERS, is_ignored
+from scaffold.model.discovery.colcon import is_ignored
 from scaffold.model.discovery.gitignore import is_of_submodule, is_untracked
 
 __all__ = [
-    "IGNORE_MARKERS",
     "is_ignored",
     "is_of_submodule",
     "is_untracked",

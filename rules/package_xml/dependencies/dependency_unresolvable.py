@@ -23,7 +23,6 @@ from scaffold.api.catalog import (
 )
 from scaffold.api.distributions import removed_package, target
 from scaffold.api.manifest import declared, is_fetched
-from scaffold.api.workspace import IGNORE_MARKERS
 
 from ._meant_packages import package_of_key, similar_neighbor
 from ._names_without_key import why_no_key
@@ -235,7 +234,7 @@ def _problem(package: Package, name: str) -> tuple[str, Severity | None]:
         return f"rosdep has no rule for {name!r} on {system}: it stops{hint}", None
     if is_in_cache or (is_in_cache is None and (is_key or _is_of_target(name))):
         return "", None
-    hint = _ignored(package, name) or _hint(package, name)
+    hint = _hint(package, name)
     message = (
         f"unknown dependency {name!r}: rosdep has no rule for it, and it is not a package in the "
         f"workspace or AMENT_PREFIX_PATH{hint}"
@@ -286,16 +285,6 @@ def _is_known(package: Package, name: str) -> bool:
     return any(
         package.outside.is_file(os.path.join(prefix, marker)) for prefix in prefixes if prefix
     )
-
-
-def _ignored(package: Package, name: str) -> str:
-    """Return why colcon does not see a package next to this one; empty if there is none."""
-    above = os.path.dirname(package.root) if package.root is not None else ""
-    for marker in IGNORE_MARKERS if above else ():
-        path = os.path.join(above, name, marker)
-        if package.outside.is_file(path):
-            return f"; ../{name}/{marker} hides it from colcon"
-    return ""
 
 
 def _hint(package: Package, name: str) -> str:

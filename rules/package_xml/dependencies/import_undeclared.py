@@ -49,10 +49,6 @@ def _manifest(*lines: str) -> str:
     return _MANIFEST.format(text)
 
 
-_TESTS = re.compile(r"test[^/]*\.py|\*\.py|(?:^|/)tests?/?$")
-"""Matches a test file, a pattern of Python files, or a directory of tests."""
-
-
 class ImportUndeclared(Rule):
     """Python code imports a package that package.xml does not declare.
 
@@ -936,8 +932,14 @@ def _runs_no_test(package: Package) -> bool:
     """
     if package.build_type == "ament_cmake":
         values = (value for command in package.cmake.commands for value in command.values)
-        return not any(map(_TESTS.search, values))
+        return not any(map(_names_tests, values))
     return lacks_pytest(package) and not any(file.classes for file in test_modules(package))
+
+
+def _names_tests(value: str) -> bool:
+    """Return whether a value is a test file, a pattern of Python files, or a directory of tests."""
+    name = value.rstrip("/").rpartition("/")[2]
+    return name in {"test", "tests"} or (".py" in name and ("*" in name or "test" in name))
 
 
 def _is_required(package: Package, module: str) -> bool:

@@ -266,8 +266,11 @@ class _Attributes:
 
     def has_one_kind(self, name: str) -> bool:
         """Return whether one statement sets all elements of an attribute."""
-        is_empty = self._values.get(name) == {"{}"}
-        return is_empty and len(re.findall(rf"\bself\.{name}\[[^]\n]*\] = ", self._text)) == 1
+        if self._values.get(name) != {"{}"}:
+            return False
+        lines = (line.strip() for line in self._text.splitlines())
+        elements = (line for line in lines if line.startswith(f"self.{name}["))
+        return sum(line.partition("]")[2].startswith(" = ") for line in elements) == 1
 
     def is_of_one(self, name: str) -> bool:
         """Return whether all values of an attribute are created in the same way."""
