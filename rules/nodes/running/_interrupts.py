@@ -1,4 +1,4 @@
-"""What runs after a call that spins: once Ctrl-C has ended it, or a callback."""
+"""The statements that run after a spin that Ctrl-C or a callback has ended."""
 
 from __future__ import annotations
 
@@ -12,23 +12,26 @@ def run_after_interrupt(file: RclpyFile, spin: RclpyCall) -> Iterator[ast.stmt]:
     """Yield the statements that run once Ctrl-C has ended a call that spins."""
     handler: ast.ExceptHandler | None = None
     goes_on = False
+    child: ast.AST = spin.call
     for parent in file.module.parents(spin.call):
         if isinstance(parent, ast.FunctionDef | ast.AsyncFunctionDef | ast.Module):
             return
         if isinstance(parent, ast.For | ast.While):
             goes_on = goes_on and handler is not None and _breaks(handler)
         if isinstance(parent, ast.Try):
-            if handler is None:
+            block = file.module.index.place(child)[0]
+            if handler is None and block == "body":
                 handler = next((x for x in parent.handlers if _catches_interrupt(file, x)), None)
                 goes_on = handler is not None and not any(map(leaves, ast.walk(handler)))
                 yield from handler.body if handler is not None else ()
-            yield from parent.finalbody
+            yield from parent.finalbody if block != "finalbody" else ()
         if goes_on and isinstance(parent, ast.stmt):
             yield from following(file, parent)
+        child = parent
 
 
 def run_after_return(file: RclpyFile, spin: RclpyCall) -> Iterator[ast.stmt]:
-    """Yield the statements that run once a callback that shuts down rclpy has ended a spin."""
+    """Yield the statements that run once a callback has ended a spin by shutting down rclpy."""
     is_endless = spin.name.rpartition(".")[2] == "spin"
     for parent in file.module.parents(spin.call):
         if isinstance(parent, ast.FunctionDef | ast.AsyncFunctionDef | ast.Module | ast.For):
@@ -62,6 +65,7 @@ def _catches_interrupt(file: RclpyFile, handler: ast.ExceptHandler) -> bool:
 
 
 def leaves(node: ast.AST) -> bool:
+    """Return whether a node leaves its function, or ends the program."""
     match node:
         case ast.Return() | ast.Raise() | ast.Name(id="exit" | "quit"):
             return True

@@ -138,10 +138,11 @@ def _shut_down_by(file: RclpyFile, call: RclpyCall) -> str:
     caught = [spin for spin in spins if spin.catches_keyboard_interrupt]
     if any(after in around for spin in caught for after in run_after_interrupt(file, spin)):
         return "after Ctrl-C: RCLError"
+    if not any(after in around for spin in spins for after in run_after_return(file, spin)):
+        return ""
     for other in file.shutdown_calls:
-        is_last = not any(map(leaves, ast.walk(other.function))) if other.function else False
-        if other is call or not is_last or other.function not in phases_of(file).running:
+        if other is call or other.function not in phases_of(file).running:
             continue
-        if any(after in around for spin in spins for after in run_after_return(file, spin)):
+        if other.function is not None and not any(map(leaves, ast.walk(other.function))):
             return f"by the callback in line {other.location.line}: RuntimeError"
     return ""

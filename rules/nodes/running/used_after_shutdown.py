@@ -1,11 +1,12 @@
-"""ND140: nodes publish as long as rclpy runs and they exist."""
+"""ND140: nodes publish only before rclpy is shut down and they are destroyed."""
 
 from __future__ import annotations
 
 import ast
 from collections.abc import Iterator, Sequence
+from typing import NamedTuple
 
-from scaffold.api import Diagnostic, Example, RclpyRule
+from scaffold.api import Diagnostic, Example, Location, RclpyRule
 from scaffold.api.python import is_handled
 from scaffold.api.rclpy import RclpyFile, class_of
 
@@ -15,7 +16,8 @@ _PUBLISHING = {
     "publish": "rclpy.publisher.Publisher",
     "sendTransform": "tf2_ros.TransformBroadcaster",
 }
-_MOST_CALLS = 3
+_MAX_DEPTH = 3
+"""Deeper calls are not followed."""
 _MAIN = (
     "import rclpy\nfrom geometry_msgs.msg import Twist\nfrom rclpy.node import Node\n\n\n"
     "class Driver(Node):\n"
@@ -28,6 +30,7 @@ _MAIN = (
     "    finally:\n{}"
 )
 _PUBLISH = "        self.pub.publish(Twist())\n"
+_NO = "signal_handler_options=SignalHandlerOptions.NO"
 _STOP = "        node.stop()\n        node.destroy_node()\n        rclpy.try_shutdown()\n"
 
 
@@ -50,9 +53,7 @@ class UsedAfterShutdown(RclpyRule):
         Example(
             "signal handlers that leave rclpy running",
             {
-                "driver.py": _MAIN.format(
-                    _PUBLISH, "signal_handler_options=SignalHandlerOptions.NO", _STOP
-                ).replace(
+                "driver.py": _MAIN.format(_PUBLISH, _NO, _STOP).replace(
                     "import Node\n", "import Node\nfrom rclpy.signals import SignalHandlerOptions\n"
                 )
             },
@@ -70,10 +71,21 @@ class UsedAfterShutdown(RclpyRule):
             },
         ),
         Example(
+            "before a spin that is in the finally",
+            {
+                "driver.py": _MAIN.format(
+                    _PUBLISH, "", "        node.stop()\n        rclpy.spin(node)\n"
+                ).replace(
+                    "try:\n        rclpy.spin(node)\n    except",
+                    "try:\n        print()\n    except",
+                )
+            },
+        ),
+        Example(
             "after Ctrl-C",
             {"driver.py": _MAIN.format(_PUBLISH, "", _STOP)},
-            "23:9: stop() publishes in line 12, after Ctrl-C, which shuts down rclpy: RCLError, "
-            "and nothing is sent; use SignalHandlerOptions.NO",
+            "23:9: stop() publishes (line 12) after Ctrl-C has shut down rclpy: RCLError, nothing "
+            "is sent; use SignalHandlerOptions.NO",
         ),
         Example(
             "after Ctrl-C, in the handler",
@@ -82,86 +94,112 @@ class UsedAfterShutdown(RclpyRule):
                     "pass", "node.pub.publish(Twist())"
                 )
             },
-            "21:9: publish() after Ctrl-C, which shuts down rclpy: RCLError, and nothing is sent; "
-            "use SignalHandlerOptions.NO",
+            "21:9: publish() is called after Ctrl-C has shut down rclpy: RCLError, nothing is "
+            "sent; use SignalHandlerOptions.NO",
         ),
         Example(
             "after the shutdown, and after the node was destroyed",
             {
-                "driver.py": _MAIN.format(
-                    _PUBLISH, "", "        node.destroy_node()\n        node.stop()\n"
-                ).replace("except KeyboardInterrupt:", "except RuntimeError:"),
+                "destroyed.py": _MAIN.format(
+                    _PUBLISH, _NO, "        node.destroy_node()\n        node.stop()\n"
+                ),
                 "late.py": _MAIN.format(
-                    _PUBLISH, "", "        rclpy.shutdown()\n        node.stop()\n"
-                ).replace("except KeyboardInterrupt:", "except RuntimeError:"),
+                    _PUBLISH, _NO, "        rclpy.shutdown()\n        node.stop()\n"
+                ),
+                "new.py": _MAIN.format(
+                    _PUBLISH,
+                    _NO,
+                    "        node.destroy_node()\n        node = Driver()\n        node.stop()\n",
+                ),
             },
-            "driver.py:24:9: stop() publishes in line 12, after Ctrl-C, which shuts down rclpy: "
-            "RCLError, and nothing is sent; use SignalHandlerOptions.NO",
-            "late.py:24:9: stop() publishes in line 12, after Ctrl-C, which shuts down rclpy: "
-            "RCLError, and nothing is sent; use SignalHandlerOptions.NO",
+            "destroyed.py:24:9: stop() publishes (line 12) after destroy_node() in line 23: "
+            "InvalidHandle, nothing is sent",
+            "late.py:24:9: stop() publishes (line 12) after the shutdown in line 23: RCLError, "
+            "nothing is sent",
+        ),
+        Example(
+            "in a method of a base class in another file",
+            {
+                "arm/base.py": _MAIN.format(_PUBLISH, "", "        pass\n"),
+                "arm/run.py": "import rclpy\nfrom arm.base import Driver\n\n\n"
+                "class Arm(Driver):\n    pass\n\n\n"
+                "def main():\n    rclpy.init()\n    node = Arm()\n"
+                "    rclpy.shutdown()\n    node.stop()\n",
+                "arm/__init__.py": "",
+                "package.xml": "<package><name>arm</name></package>\n",
+            },
+            "arm/run.py:13:5: stop() publishes (line 12 of arm/base.py) after the shutdown in "
+            "line 12: RCLError, nothing is sent",
         ),
     )
 
     def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
         reported: set[ast.AST] = set()
-        for statements, of, event, error in _stretches(file):
-            for call, what in _uses(file, statements, of):
-                if call not in reported:
-                    reported.add(call)
-                    yield self.report(file.module.location(call), f"{what} after {event}: {error}")
-                break  # raises, so that nothing after it runs
+        for end in _ends(file):
+            call, what = _first_publishing(file, end) or (None, "")
+            if call is not None and call not in reported:
+                reported.add(call)
+                yield self.report(file.module.location(call), f"{what} after {end.event}")
 
 
-def _stretches(file: RclpyFile) -> Iterator[tuple[Sequence[ast.stmt], str, str, str]]:
-    """Yield statements that run after an event, the node it is about or "", and its error."""
+class _End(NamedTuple):
+    """The end of rclpy, or of a node."""
+
+    event: str
+    """What ends it, and the error that publishing raises then."""
+    after: Sequence[ast.stmt]
+    """The statements that run after it."""
+    node: str = ""
+    """The variable of the node; empty for all nodes."""
+
+
+def _ends(file: RclpyFile) -> Iterator[_End]:
     words = [word.arg for init in file.init_calls for word in init.call.keywords]
     has_handlers = file.init_calls and "signal_handler_options" not in words
     if has_handlers and not file.module.mentions("signal.signal", "install_signal_handlers"):
         for spin in file.spin_calls:
-            error = "RCLError, and nothing is sent; use SignalHandlerOptions.NO"
-            yield [*run_after_interrupt(file, spin)], "", "Ctrl-C, which shuts down rclpy", error
+            event = (
+                "Ctrl-C has shut down rclpy: RCLError, nothing is sent; use SignalHandlerOptions.NO"
+            )
+            yield _End(event, [*run_after_interrupt(file, spin)])
     for shutdown in file.shutdown_calls:
         statement = file.module.parent(shutdown.call)
         if isinstance(statement, ast.Expr) and not shutdown.call.args:
-            event = f"the shutdown in line {statement.lineno}"
-            yield following(file, statement), "", event, "RCLError, and nothing is sent"
-    for attribute in file.module.index.attributes("destroy_node"):
-        call = file.module.parent(attribute)
-        statement = file.module.parent(call) if isinstance(call, ast.Call) else None
-        if isinstance(statement, ast.Expr) and isinstance(attribute.value, ast.Name):
-            event = f"destroy_node() in line {statement.lineno}"
-            error = "InvalidHandle, and nothing is sent"
-            yield following(file, statement), attribute.value.id, event, error
+            event = f"the shutdown in line {statement.lineno}: RCLError, nothing is sent"
+            yield _End(event, following(file, statement))
+    for call, method in file.module.method_calls("destroy_node"):
+        statement = file.module.parent(call)
+        if isinstance(statement, ast.Expr) and isinstance(method.value, ast.Name):
+            event = f"destroy_node() in line {statement.lineno}: InvalidHandle, nothing is sent"
+            yield _End(event, following(file, statement), method.value.id)
 
 
-def _uses(
-    file: RclpyFile, statements: Sequence[ast.stmt], of: str
-) -> Iterator[tuple[ast.Call, str]]:
-    """Yield the calls in some statements that publish, directly or in a method of the node."""
-    for statement in statements:
+def _first_publishing(file: RclpyFile, end: _End) -> tuple[ast.Call, str] | None:
+    """Return the first call after an end that publishes, itself or in a method; it raises."""
+    for statement in end.after:
         for call in file.module.below(statement, ast.Call):
             if file.module.qualified_name(call.func) == "rclpy.init":
-                return
+                return None
             if not isinstance(call.func, ast.Attribute) or _is_guarded(file, call):
                 continue
-            if of and not ast.unparse(call.func).startswith(f"{of}."):
+            if end.node and not ast.unparse(call.func).startswith(f"{end.node}."):
                 continue
             if _publishes(file, call):
-                yield call, f"{call.func.attr}()"
-            elif line := _publishes_in(file, call):
-                yield call, f"{call.func.attr}() publishes in {line},"
-        if of and any(
-            isinstance(name.ctx, ast.Store) and name.id == of
-            for name in file.module.below(statement, ast.Name)
-        ):
-            return
+                return call, f"{call.func.attr}() is called"
+            if at := _publishing_in(file, call):
+                of_file = "" if at.path == file.module.path else f" of {at.path}"
+                return call, f"{call.func.attr}() publishes (line {at.line}{of_file})"
+        names = file.module.below(statement, ast.Name) if end.node else ()
+        if any(name.id == end.node and isinstance(name.ctx, ast.Store) for name in names):
+            return None
+    return None
 
 
 def _publishes(file: RclpyFile, call: ast.Call) -> bool:
     match call.func:
-        case ast.Attribute(attr="publish", value=ast.Attribute(value=holder, attr=name)):
+        case ast.Attribute(attr="publish", value=ast.Attribute(value=holder, attr=attribute)):
             node = file.owner_of(holder)
-            if node is not None and any(item.attribute == name for item in node.publishers):
+            if node is not None and any(x.attribute == attribute for x in node.publishers):
                 return True
     match call.func:
         case ast.Attribute(attr=name, value=owner) if name in _PUBLISHING:
@@ -169,18 +207,18 @@ def _publishes(file: RclpyFile, call: ast.Call) -> bool:
     return False
 
 
-def _publishes_in(file: RclpyFile, call: ast.Call, depth: int = 0) -> str:
-    """Return the line where a called method publishes in any case; empty if it does not."""
+def _publishing_in(file: RclpyFile, call: ast.Call, depth: int = 0) -> Location | None:
+    """Return where a called method publishes in any case; ``None`` if it does not."""
     other, function = file.definition_of(call.func) or (file, None)
     for inner in other.calls_in(function) if isinstance(function, ast.FunctionDef) else ():
         if _is_guarded(other, inner):
             continue
         if _publishes(other, inner):
-            return f"line {inner.lineno}" + ("" if other is file else f" of {other.module.path}")
-        line = _publishes_in(other, inner, depth + 1) if depth < _MOST_CALLS else ""
-        if line:
-            return line if other is file or " of " in line else f"{line} of {other.module.path}"
-    return ""
+            return other.module.location(inner)
+        at = _publishing_in(other, inner, depth + 1) if depth < _MAX_DEPTH else None
+        if at is not None:
+            return at
+    return None
 
 
 def _is_guarded(file: RclpyFile, call: ast.Call) -> bool:
