@@ -269,11 +269,14 @@ class LaunchFile:
         inside: dict[ast.AST, list[ast.expr]] = {}
         for node in candidates:
             frame = innermost_frame(self.module, node)
-            if frame is not None and not self._tests_files(frame):
+            if frame is not None:
                 inside.setdefault(frame, []).append(node)
         seen: set[tuple[str, str, ast.expr]] = set()
-        for nodes in inside.values():
-            for case in cases(self.evaluator, nodes[0]):
+        for frame, nodes in inside.items():
+            known_cases = cases(self.evaluator, nodes[0])
+            if known_cases and self._tests_files(frame):
+                continue
+            for case in known_cases:
                 with self.evaluator.bound(case.values):
                     for node in self._path_expressions(nodes):
                         path = share_path(self.evaluator.joined_text(node))

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Mapping
 
-from scaffold.formats.ini import IniFile, IniLine, IniOption
+from scaffold.formats.ini import IniFile, IniLine, IniOption, IniSection
 from scaffold.model.python.evaluation.values import Glob
 from scaffold.model.setup_py.data_files import DataFile
 from scaffold.model.setup_py.keywords import FindPackages, Keyword
@@ -17,47 +17,25 @@ _WILDCARDS = frozenset("*?[{")
 
 def configured(cfg: IniFile, call: ast.expr) -> Iterator[Keyword]:
     """Yield the keywords, each with the call of setup() as its expression."""
-    for key in ("scripts", "py_modules"):
+    for key, read in _OPTIONS.items():
         option = cfg.option("options", key)
         if option is not None:
-            value: object = [line.text for line in _items(option)]
-            yield Keyword(key, value, call, option.location)
+            yield Keyword(key, read(option), call, option.location)
     option = cfg.option("options", "packages")
     if option is not None:
         yield Keyword("packages", _packages(cfg, option), call, option.location)
-    option = cfg.option("options", "package_dir")
-    if option is not None:
-        pairs = [line.text.partition("=") for line in _items(option)]
-        value = {name.strip(): place.strip() for name, _, place in pairs}
-        yield Keyword("package_dir", value, call, option.location)
-    option = cfg.option("options", "include_package_data")
-    if option is not None:
-        value = option.value.strip().lower() in {"1", "true", "yes"}
-        yield Keyword("include_package_data", value, call, option.location)
-    section = cfg.sections.get("options.entry_points")
-    if section is not None:
-        yield Keyword("entry_points", section.options, call, section.name_location)
-    section = cfg.sections.get("options.package_data")
-    if section is not None:
-        value = {
-            key: [line.text for line in _items(option)] for key, option in section.options.items()
-        }
-        yield Keyword("package_data", value, call, section.name_location)
-    section = cfg.sections.get("options.data_files")
-    if section is not None:
-        files = [_data_file(option, call) for option in section.options.values()]
-        yield Keyword("data_files", files, call, section.name_location)
+    for key, read_section in _SECTIONS.items():
+        section = cfg.sections.get(f"options.{key}")
+        if section is not None:
+            yield Keyword(key, read_section(section, call), call, section.name_location)
 
 
 def _packages(cfg: IniFile, option: IniOption) -> list[str] | FindPackages:
     is_namespace = _FIND.get(option.value.strip())
     if is_namespace is None:
-        return [line.text.rstrip("/").replace("/", ".") for line in _items(option)]
+        return [text.rstrip("/").replace("/", ".") for text in _texts(option)]
     section = cfg.sections.get("options.packages.find")
-    given = {
-        key: tuple(line.text for line in _items(item))
-        for key, item in (section.options.items() if section else ())
-    }
+    given = {key: tuple(_texts(item)) for key, item in (section.options.items() if section else ())}
     return FindPackages(
         next(iter(given.get("where") or ()), "."),
         given.get("exclude", ()),
@@ -93,3 +71,35 @@ def _items(option: IniOption) -> list[IniLine]:
         for text in line.text.split(",")
         if text.strip()
     ]
+
+
+def _texts(option: IniOption) -> list[str]:
+    return [line.text for line in _items(option)]
+
+
+def _directories(option: IniOption) -> dict[str, str]:
+    pairs = (text.partition("=") for text in _texts(option))
+    return {name.strip(): place.strip() for name, _, place in pairs}
+
+
+def _flag(option: IniOption) -> bool:
+    return option.value.strip().lower() in {"1", "true", "yes"}
+
+
+_OPTIONS: Mapping[str, Callable[[IniOption], object]] = {
+    "scripts": _texts,
+    "py_modules": _texts,
+    "package_dir": _directories,
+    "include_package_data": _flag,
+}
+"""What the options in ``[options]`` mean."""
+_SECTIONS: Mapping[str, Callable[[IniSection, ast.expr], object]] = {
+    "entry_points": lambda section, _: section.options,
+    "package_data": lambda section, _: {
+        key: _texts(option) for key, option in section.options.items()
+    },
+    "data_files": lambda section, call: [
+        _data_file(option, call) for option in section.options.values()
+    ],
+}
+"""What the sections ``[options.…]`` mean."""
