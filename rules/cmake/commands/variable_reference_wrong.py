@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections import Counter
+from collections.abc import Iterator, Mapping
 from difflib import get_close_matches
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, Safety
 from scaffold.api.cmake import Argument, CMakeLists
 
 _SIMILAR = 0.6
-"""How similar the names of two variables are if one is set and the other one is read."""
+"""Minimum similarity, from 0 to 1, between an undefined variable and one that is never read."""
 _WANTED = "PROJECT_NAME"
 _OTHERS = frozenset({"PACKAGE_NAME", "PKG_NAME", "PACKAGE", "PROJECT", "PROJECTNAME"})
 _KNOWN = frozenset({"CMAKE_PROJECT_NAME", "PROJECT_NAME"})
@@ -70,7 +71,7 @@ class VariableReferenceWrong(Rule):
             },
         ),
         Example(
-            "the other name of a list that nothing reads",
+            "a misspelled list, and one with two names that are read",
             {
                 "CMakeLists.txt": "project(talker)\nset(scripts a.py)\nset(nodes b.py)\n"
                 "install(PROGRAMS ${script_files} DESTINATION lib/talker)\n"
@@ -96,13 +97,13 @@ class VariableReferenceWrong(Rule):
         cmake = package.cmake
         if cmake.includes_unknown or cmake.find("add_subdirectory"):
             return
-        named = {value for command in cmake.commands for value in command.values}
+        values = Counter(value for command in cmake.commands for value in command.values)
         for command in cmake.commands:
             for argument in command.arguments:
                 for name in _variables(argument):
-                    if name in named or _is_made(cmake, name):
+                    if name in values or _is_made(cmake, name):
                         continue
-                    meant = _WANTED if _is_meant(name) else _unread(cmake, name)
+                    meant = _WANTED if _is_meant(name) else _unread(cmake, name, values)
                     if meant:
                         yield self._report(argument, name, meant)
 
@@ -140,19 +141,20 @@ def _is_meant(name: str) -> bool:
     return name in _OTHERS or name.upper() == _WANTED or bool(close)
 
 
-def _unread(cmake: CMakeLists, name: str) -> str:
-    """Return the variable with a similar name that is set and never read; empty if none is.
+def _unread(cmake: CMakeLists, name: str, values: Mapping[str, int]) -> str:
+    """Return the most similar variable that is set, if it is never read; empty without one.
 
-    Variables that packages set have capitals: ``Eigen3_INCLUDE_DIRS``.
+    ``values`` counts the values of all arguments.
     """
+    if not name.islower():
+        return ""  # packages set variables with capitals, such as Eigen3_INCLUDE_DIRS
     given = [command.values[0] for command in cmake.find("set", "option") if command.values]
     given += [command.values[1] for command in cmake.find("file", "list") if command.values[1:]]
     closest = get_close_matches(name, {*given}, 1, _SIMILAR)
-    if not closest or not name.islower():
+    if not closest or values[closest[0]] != 1:
         return ""
-    values = [value for command in cmake.commands for value in command.values]
     is_read = any(f"{{{closest[0]}}}" in value for value in values)
-    return "" if is_read or values.count(closest[0]) != 1 else closest[0]
+    return "" if is_read else closest[0]
 
 
 def _is_made(cmake: CMakeLists, name: str) -> bool:
