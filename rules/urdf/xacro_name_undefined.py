@@ -36,7 +36,7 @@ _GOOD = (
     "xacro:",
 )
 _SIMILAR = 0.6
-"""How similar a suggested name is at least, from 0 to 1."""
+"""Minimum similarity, from 0 to 1, of a suggested name."""
 _PLAIN = (
     '<robot name="robot">\n  <link name="base">\n    <visual>\n      <geometry>'
     '<mesh filename="$(find robot)/base.stl"/></geometry>\n    </visual>\n  </link>\n</robot>\n'

@@ -63,7 +63,8 @@ class CallRepeated(Rule):
                 "  ament_add_pytest_test(${name} test/${name}.py)\n"
                 "  ament_add_pytest_test(all test/${name}.py)\nendforeach()\n"
             },
-            "4:25: ament_add_pytest_test(all) is called in each iteration: CMake stops",
+            "4:25: ament_add_pytest_test(all) is called in every iteration of the loop: CMake "
+            "stops",
         ),
         Example("two names", {"CMakeLists.txt": _LISTS.format("more"), **_FILES}),
         Example(
@@ -118,7 +119,8 @@ class CallRepeated(Rule):
                 "    get_filename_component(name ${path} NAME_WE)\n"
                 "    ament_add_pytest_test(${name} ${path})\n  endforeach()\nendif()\n"
             },
-            "5:27: ament_add_pytest_test(test_a) is called in 2 iterations: CMake stops",
+            "5:27: ament_add_pytest_test(test_a) is called in 2 iterations of the loop: CMake "
+            "stops",
         ),
     )
 
@@ -159,8 +161,8 @@ class CallRepeated(Rule):
             names = [cmake.expand(first, command, turn) for turn in turns]
             name, times = Counter(names).most_common(1)[0] if names else (None, 0)
             if times > 1 and None not in names and command.name != _LAUNCH_TEST:
-                how = "each iteration" if times == len(names) else f"{times} iterations"
-                message = f"{command.name}({name}) is called in {how}: CMake stops"
+                how = "every iteration" if times == len(names) else f"{times} iterations"
+                message = f"{command.name}({name}) is called in {how} of the loop: CMake stops"
                 yield self.report(first, message)
 
     def _may_skip(self, command: Command) -> bool:

@@ -24,7 +24,8 @@ _LISTS_LAUNCH = (
     "project(talker)\n{}if(BUILD_TESTING)\n"
     "  install(DIRECTORY launch test DESTINATION share/${{PROJECT_NAME}})\nendif()\n"
 )
-_FOR_USERS = frozenset(DATA_DIRECTORIES) | {"launch"}
+_FOR_USERS = frozenset({"launch", *DATA_DIRECTORIES})
+"""Directories whose files nodes and users need, not only tests."""
 
 
 class TestingConditionWrong(Rule):
@@ -115,7 +116,7 @@ class TestingConditionWrong(Rule):
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         yield from self._check_tests(package)
-        yield from self._check_nodes(package)
+        yield from self._check_installed(package)
 
     def _check_tests(self, package: Package) -> Iterator[Diagnostic]:
         cmake = package.cmake
@@ -139,14 +140,14 @@ class TestingConditionWrong(Rule):
             )
             yield self.report(argument, message, Fix(f"Replace {name} with BUILD_TESTING", (edit,)))
 
-    def _check_nodes(self, package: Package) -> Iterator[Diagnostic]:
+    def _check_installed(self, package: Package) -> Iterator[Diagnostic]:
         cmake = package.cmake
         with_tests = [x for x in cmake.installs if cmake.guarded_by_testing(x.command)]
-        others = len(cmake.installs) - len(with_tests)
+        has_others = len(cmake.installs) > len(with_tests)
         for install in with_tests:
             for item in install.items:
                 path = item.path or ""
-                is_for_users = others and install.kind == "DIRECTORY" and path in _FOR_USERS
+                is_for_users = has_others and install.kind == "DIRECTORY" and path in _FOR_USERS
                 if is_for_users and install.destination == f"share/{package.name}":
                     message = (
                         f"{path}/ is installed only if tests are built: releases do not contain it"

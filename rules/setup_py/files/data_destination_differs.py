@@ -29,8 +29,8 @@ class DataDestinationDiffers(Rule):
 
     **Why.** Files outside of ``share/<package>`` are not found: ``file 'talk.launch.py' was not
     found in the share directory of package 'talker'``. An absolute path is outside of the
-    workspace, or stops colcon. The modules of the package are in the directory of the Python of
-    the distribution: 3.12 for Jazzy, 3.10 for Humble.
+    workspace, or stops colcon. Modules are installed for the Python of the distribution: 3.12 for
+    Jazzy, 3.10 for Humble.
 
     **Fix.** Write ``(os.path.join('share', package_name, 'launch'), glob('launch/*.launch.py'))``.
 
@@ -42,12 +42,12 @@ class DataDestinationDiffers(Rule):
     name = "data-destination-differs"
     effect = Effect.SPOILS_INSTALL
     other_severities = {
-        Severity.WARNING: "it is the directory of the Python of the distribution, which others do "
-        "not search"
+        Severity.WARNING: "it is the directory of the distribution's Python, so only other "
+        "distributions lose the file"
     }
     examples = (
         Example(
-            "the directory of another Python version",
+            "the package directory of another Python version",
             {
                 **_FILES,
                 "talker/words.ui": "",
@@ -56,10 +56,10 @@ class DataDestinationDiffers(Rule):
                 ),
             },
             "setup.py:6:10: installs talker/words.ui to lib/python3.10/site-packages/talker, "
-            "which only that Python version searches; write package_data={...}",
+            "which only Python 3.10 searches; write package_data={...}",
         ),
         Example(
-            "the directory of the Python of the distribution",
+            "the package directory of the distribution's Python",
             {
                 **_FILES,
                 "talker/words.ui": "",
@@ -70,7 +70,7 @@ class DataDestinationDiffers(Rule):
             Report(
                 "setup.py:6:10",
                 "installs talker/words.ui to lib/python3.10/site-packages/talker, "
-                "which only that Python version searches; write package_data={...}",
+                "which only Python 3.10 searches; write package_data={...}",
                 severity=Severity.WARNING,
             ),
             distro="humble",
@@ -185,7 +185,8 @@ class DataDestinationDiffers(Rule):
             problem = _problem(data, share)
             is_copy = copied.issuperset(data.sources) and "absolute" not in problem
             if problem and not is_copy:
-                is_searched = f"/python{target().python_version}/" in problem
+                python = _OF_PYTHON.match(f"{data.destination}")
+                is_searched = python is not None and python[1] == target().python_version
                 severity = Severity.WARNING if is_searched else None
                 yield self.report(data.destination_location, problem, severity=severity)
         keyword = setup.keywords.get("data_files")
@@ -204,9 +205,10 @@ def _problem(data: DataFile, share: str) -> str:
     sources = [
         source.pattern if isinstance(source, Glob) else str(source) for source in data.sources
     ]
-    if sources and _OF_PYTHON.match(place):
+    python = _OF_PYTHON.match(place)
+    if sources and python is not None:
         return (
-            f"installs {sources[0]} to {place.rstrip('/')}, which only that Python version "
+            f"installs {sources[0]} to {place.rstrip('/')}, which only Python {python[1]} "
             "searches; write package_data={...}"
         )
     is_data = bool(sources) and all(
@@ -225,5 +227,5 @@ def _problem(data: DataFile, share: str) -> str:
 _INDEX = "share/ament_index/resource_index/"
 """The directory with markers of any type, named after packages."""
 _DIRECTORIES = ("launch", *DATA_DIRECTORIES)
-_OF_PYTHON = re.compile(r"lib/python\d[\d.]*/")
-"""Matches the directory of one version of Python."""
+_OF_PYTHON = re.compile(r"lib/python(\d[\d.]*)/")
+"""Matches the directory of one version of Python, with the version."""

@@ -50,8 +50,8 @@ class KeywordMisspelled(Rule):
     """``setup`` or setup.cfg has an unknown keyword, section or group of entry points.
 
     **Why.** setuptools only warns ``Unknown distribution option``, or ignores the name silently: no
-    executable or file is installed. At a section it stops: ``Unsupported distribution option
-    section``.
+    executable or file is installed. An unknown section stops the build: ``Unsupported
+    distribution option section``.
 
     **Fix.** Correct the spelling: ``entry_points``, ``data_files``, ``console_scripts``.
 
@@ -118,11 +118,11 @@ class KeywordMisspelled(Rule):
             for key, option in section.options.items():
                 if name == GROUPS and key in _WRONG_GROUPS:
                     yield self._report_group(option.key_location, key)
-                known = _KNOWN if name == "options" else ()
-                closest = get_close_matches(key, known, 1, 0.8) if key not in known else []
-                if closest and key.replace("-", "_") not in known:
-                    message = f"setuptools ignores the unknown option {key!r}; did you mean "
-                    yield self.report(option.key_location, f"{message}{closest[0]!r}?")
+                elif name == "options" and key.replace("-", "_") not in _KNOWN:
+                    closest = get_close_matches(key, _KNOWN, 1, 0.8)
+                    message = f"setuptools ignores the unknown option {key!r}; did you mean"
+                    if closest:
+                        yield self.report(option.key_location, f"{message} {closest[0]!r}?")
 
     def _check_setup(self, package: Package) -> Iterator[Diagnostic]:
         setup = package.setup_py

@@ -116,9 +116,9 @@ class SetupValueRefused(Rule):
             "stops",
         ),
         Example(
-            "a pyproject.toml that is not TOML",
+            "a pyproject.toml that is not valid TOML",
             {"setup.py": "", "pyproject.toml": "[tool.ruff]\nselect = ['E'\n[tool.black]\n"},
-            "pyproject.toml:3:1: not TOML: Unclosed array: setuptools stops the build",
+            "pyproject.toml:3:1: invalid TOML (Unclosed array): setuptools stops the build",
         ),
     )
 
@@ -176,7 +176,7 @@ class SetupValueRefused(Rule):
             yield self.report(option, f"{where}: setuptools finds no version and the build stops")
 
     def _check_project(self, package: Package) -> Iterator[Diagnostic]:
-        """Check that pyproject.toml is TOML, and that the project has a name and a version."""
+        """Check that pyproject.toml is valid TOML and gives the project a name and a version."""
         source = package.source("pyproject.toml")
         table = _TABLE.search(source.text)
         try:
@@ -184,7 +184,7 @@ class SetupValueRefused(Rule):
         except toml.TOMLDecodeError as error:
             reason, line = str(error).partition(" (at")[0], _LINE.search(str(error))
             at = source.line_location(min(int(line[1]), len(source.lines)) if line else 1)
-            yield self.report(at, f"not TOML: {reason}: setuptools stops the build")
+            yield self.report(at, f"invalid TOML ({reason}): setuptools stops the build")
             return
         except (ValueError, RecursionError):
             return

@@ -28,7 +28,7 @@ from scaffold.api.setup_py import (
 )
 
 _SIMILAR = 0.7
-"""How similar the names of modules are if one is meant."""
+"""Minimum similarity, from 0 to 1, of a suggested module name."""
 _MISSING = "there is no"
 _SETUP = (
     "from setuptools import setup\n\n"
