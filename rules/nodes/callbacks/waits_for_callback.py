@@ -167,6 +167,20 @@ class WaitsForCallback(RclpyRule):
             },
         ),
         Example(
+            "loops that take from a queue, down to a length that another callback sets",
+            {
+                "relay.py": _NODE.format(
+                    "        while len(self.queue) > self.last:\n"
+                    "            self.queue.pop(0)\n"
+                    "        while self.sizes['a'] > self.last:\n"
+                    "            self.drop('a')\n"
+                ).replace(
+                    "    def hear",
+                    "    def drop(self, key):\n        self.sizes[key] -= 1\n\n    def hear",
+                )
+            },
+        ),
+        Example(
             "an event",
             {"relay.py": _NODE.format("        self.arrived.wait()\n")},
             "22:9: callback 'answer' waits for self.arrived, which another callback sets: that "
@@ -306,8 +320,33 @@ def _waits(file: RclpyFile, executed: Executed) -> Iterator[tuple[ast.expr | ast
                     yield node, {name}
             case ast.While() if not _may_end(node):
                 names = attributes_asked(file, node)
-                if names:
+                if names and not _changes(file, node, names):
                     yield node, names
+
+
+def _changes(file: RclpyFile, loop: ast.While, names: set[str]) -> bool:
+    """Return whether a loop, or what it calls, changes the content of an attribute."""
+    places: list[ast.AST] = [*loop.body]
+    for call in file.module.below(loop, ast.Call):
+        called = file.callback(call.func).function
+        places += file.reached(called) if called else []
+    return any(
+        isinstance(node, ast.Attribute) and node.attr in names and _is_changed(file, node)
+        for place in places
+        for node in ast.walk(place)
+    )
+
+
+def _is_changed(file: RclpyFile, node: ast.AST) -> bool:
+    """Return whether an item is set in a value, or a method of it is called."""
+    parent = file.module.parent(node)
+    while isinstance(parent, ast.Subscript | ast.Attribute) and parent.value is node:
+        if not isinstance(parent.ctx, ast.Load):
+            return True
+        node, parent = parent, file.module.parent(parent)
+        if isinstance(node, ast.Attribute) and isinstance(parent, ast.Call):
+            return parent.func is node
+    return False
 
 
 def _is_limited(node: ast.AST) -> bool:
