@@ -8,9 +8,11 @@ from scaffold.api import Diagnostic, Example, Package, Rule, Severity
 from scaffold.api.catalog import ROS_PACKAGES
 from scaffold.api.cmake import has_unknown_commands
 
+from ._pure_packages import PURE_PACKAGES
+
 KINDS = ("build_depend", "buildtool_depend")
 _NOT_FOUND_BY_NAME = (
-    "ament_cmake_",
+    "ament_cmake",  # rosidl_default_generators also finds it
     "rosidl_",
     "ament_index",
     "ament_lint",
@@ -55,6 +57,18 @@ class DeclaredNotFound(Rule):
             },
         ),
         Example(
+            "ament_cmake, found by another package; a package to run, without CMake files",
+            {
+                "package.xml": _MANIFEST.replace(
+                    "<build_depend>std_msgs</build_depend>",
+                    "<buildtool_depend>ament_cmake</buildtool_depend>\n"
+                    "  <buildtool_depend>ros2run</buildtool_depend>",
+                ),
+                "CMakeLists.txt": "project(talker)\n"
+                "find_package(rosidl_default_generators REQUIRED)\nament_package()\n",
+            },
+        ),
+        Example(
             "found in a loop",
             {
                 "package.xml": _MANIFEST,
@@ -92,7 +106,7 @@ class DeclaredNotFound(Rule):
             name = dependency.name
             if dependency.kind not in KINDS or dependency.condition or cmake.finds(name):
                 continue
-            if name not in ROS_PACKAGES or name.startswith(_NOT_FOUND_BY_NAME):
+            if name not in ROS_PACKAGES - PURE_PACKAGES or name.startswith(_NOT_FOUND_BY_NAME):
                 continue
             if not any(name in argument for argument in self._arguments(package)):
                 message = (

@@ -10,18 +10,9 @@ from scaffold.api.catalog import similar_package
 from scaffold.api.cmake import Argument, uses_ament
 from scaffold.api.manifest import is_fetched
 
-_LISTS = "project(talker)\nfind_package({} REQUIRED)\n"
-_PURE = frozenset(
-    """
-    ament_copyright ament_flake8 ament_index_python ament_lint ament_mypy ament_pep257
-    ament_python demo_nodes_py joint_state_publisher launch launch_pytest launch_ros
-    launch_testing launch_testing_ros launch_xml launch_yaml nav2_simple_commander numpy pytest
-    ros2bag ros2cli ros2launch ros2node ros2param ros2pkg ros2run ros2service ros2topic
-    rosidl_runtime_py sensor_msgs_py setuptools teleop_twist_keyboard tf2_ros_py
-    tf_transformations topic_monitor yaml
-    """.split()  # noqa: SIM905  a column of quoted names would hide them
-)
+from ._pure_packages import PURE_PACKAGES
 
+_LISTS = "project(talker)\nfind_package({} REQUIRED)\n"
 _KEYWORDS = ("CONFIG", "EXACT", "MODULE", "NO_MODULE", "QUIET", "REQUIRED")
 
 
@@ -175,7 +166,7 @@ class FindImpossible(Rule):
         for call in package.cmake.found_packages:
             if not call.required or package.workspace.get(call.name) is not None:
                 continue
-            if call.name.startswith(("python3-", "python-")) or call.name in _PURE:
+            if call.name.startswith(("python3-", "python-")) or call.name in PURE_PACKAGES:
                 message = f"{call.name!r} is a pure Python package without CMake files: CMake stops"
                 yield self.report(call, message)
             elif call.name == "catkin" and call.command.depth == 0 and _is_for_ament(package):
