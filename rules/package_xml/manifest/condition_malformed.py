@@ -48,6 +48,10 @@ class ConditionMalformed(Rule):
             {"package.xml": _MANIFEST.format("$ROS_DISTRO == foxy or $WITH_ROBOT == 1")},
         ),
         Example(
+            "a custom variable that ends like one of ROS",
+            {"package.xml": _MANIFEST.format("$GZ_VERSION == '' or $GZ_VERSION == harmonic")},
+        ),
+        Example(
             "a misspelled name",
             {"package.xml": _MANIFEST.format("$ROS_DISTRO == lyrcal")},
             Report(

@@ -74,7 +74,8 @@ def misspelled(condition: str) -> Iterator[tuple[str, str]]:
 
     variables = {f"${name}" for name in VARIABLES}
     for token in _tokens(condition):
-        if token.kind == "variable" and token.text not in variables:
+        is_custom = not token.text.startswith("$R")  # such as GZ_VERSION
+        if token.kind == "variable" and token.text not in variables and not is_custom:
             close = get_close_matches(token.text, variables, 1, _NEAR)
             yield from ((token.text, suggestion) for suggestion in close)
     for name in _unknown_distributions(condition):
