@@ -436,6 +436,7 @@ class ImportUndeclared(Rule):
                 "CMakeLists.txt": "project(talker)\nif(BUILD_TESTING)\n"
                 "  add_subdirectory(src/system)\nendif()\n",
                 "src/system/talk.py": "import rclpy\n",
+                "src/system/test_talk.launch.py": "import rclpy\n",
             },
         ),
         Example(

@@ -161,9 +161,8 @@ def _is_imported_by_tests(package: Package, name: str) -> bool:
 def _is_for_tests(package: Package, path: str) -> bool:
     """Return whether only tests run a file; ``tf_test.py`` may be a program."""
     directory, _, name = path.rpartition("/")
-    if name.endswith(".launch.py") and not is_in_tests(f"{directory}/"):
-        return False  # such as launch/test_arm.launch.py, started by users
-    if is_in_tests(path):
+    may_be_started = name.endswith(".launch.py") and not is_in_tests(f"{directory}/")
+    if is_in_tests(path) and not may_be_started:  # such as launch/test_arm.launch.py
         return path not in package.remember("programs named like tests", lambda: _programs(package))
     return _is_named_for_tests(package, path)
 
