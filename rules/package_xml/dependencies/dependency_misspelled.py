@@ -13,7 +13,7 @@ from scaffold.api.catalog import (
 from scaffold.api.interfaces import KINDS
 from scaffold.api.manifest import is_fetched
 
-from ._meant_packages import similar_neighbor
+from ._meant_packages import is_in_rosdep_cache, similar_neighbor
 
 
 class DependencyMisspelled(Rule):
@@ -153,7 +153,7 @@ class DependencyMisspelled(Rule):
                 message = f"unknown package {name!r}: rosdep stops; use {other!r}"
                 yield self.report(dependency, message)
             key = similar_key(name)
-            if key is not None and not _is_known(package, name):
+            if key is not None and not is_in_rosdep_cache(package, name):
                 message = f"unknown rosdep key {name!r}: rosdep stops; did you mean {key!r}?"
                 yield self.report(dependency, message)
             closest = similar_package(name) or similar_neighbor(package, name)
@@ -173,9 +173,3 @@ def _has_others(package: Package, name: str, closest: str) -> bool:
             if names is not None and any(imported.name not in names for imported in item.names):
                 return True
     return False
-
-
-def _is_known(package: Package, name: str) -> bool:
-    """Return whether rosdep's cache, if it exists, has a rule for a name."""
-    rosdep = package.workspace.rosdep
-    return rosdep is not None and rosdep.resolves(name) is not False

@@ -929,7 +929,7 @@ def _adds_sources(package: Package, need: requirements.Requirement) -> bool:
 def _runs_no_test(package: Package) -> bool:
     """Return whether colcon runs no Python test.
 
-    Because setup.py does not declare pytest, or CMakeLists.txt names no test file or directory.
+    It needs pytest in setup.py, or a test file or directory in CMakeLists.txt.
     """
     if package.build_type == "ament_cmake":
         values = (value for command in package.cmake.commands for value in command.values)
