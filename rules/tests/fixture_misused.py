@@ -170,8 +170,8 @@ class FixtureMisused(Rule):
                 "test/fixtures/conftest.py": _CONFTEST.format("away"),
                 "test/unit/test_a.py": "def test_a(near, away):\n    assert near == away\n",
             },
-            "test/unit/test_a.py:1:5: the fixture 'away' of test/fixtures/conftest.py is only for "
-            "tests below test/fixtures/",
+            "test/unit/test_a.py:1:5: unknown fixture 'away': that of test/fixtures/conftest.py is "
+            "only for tests below test/fixtures/",
         ),
     )
 
@@ -262,7 +262,8 @@ def _out_of_reach(package: Package, name: str) -> str:
         is_shared = other.path.endswith("/conftest.py")
         if is_shared and any(fixture.name == name for fixture in own_fixtures(other)):
             directory = other.path.rpartition("/")[0]
-            return f"the fixture {name!r} of {other.path} is only for tests below {directory}/"
+            where = f"that of {other.path} is only for tests below {directory}/"
+            return f"unknown fixture {name!r}: {where}"
     return ""
 
 

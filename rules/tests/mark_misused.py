@@ -32,7 +32,7 @@ _OF_PLUGINS = frozenset(
     xfail xmllint
     """.split()  # noqa: SIM905  a column of quoted names would hide them
 )
-"""The marks of pytest, its common plugins, and the linters of ament."""
+"""The marks of pytest, its common plugins and the linters of ament."""
 _PARAMETERS = (
     "import pytest\n\n\n@pytest.mark.parametrize('word, count', {})\n"
     "def test_text(word, count):\n    assert len(word) == count\n"
@@ -105,14 +105,14 @@ class MarkMisused(TestRule):
             "6:2: 2 names, but (1, 2, 3) has 3 values: pytest stops",
         ),
         Example(
-            "a mark that strict settings do not know, and those that they do",
+            "registered marks and another one, with --strict-markers",
             {
                 "pytest.ini": "[pytest]\naddopts = --strict-markers\nmarkers =\n    slow: long\n",
                 "test/test_text.py": "import pytest\n\n\n@pytest.mark.slow\n@pytest.mark.linter\n"
                 "@pytest.mark.hardware\ndef test_one():\n    pass\n",
             },
-            "test/test_text.py:6:2: mark 'hardware' is not in the markers of the settings: pytest "
-            "stops",
+            "test/test_text.py:6:2: mark 'hardware' is not registered, and markers are strict: "
+            "pytest stops; add it to markers in the settings",
         ),
     )
 
@@ -122,7 +122,10 @@ class MarkMisused(TestRule):
             for name, decorator in marks(module, test.node):
                 problem = _mark_problem(module, name, decorator)
                 if not problem and registered is not None and name not in registered:
-                    problem = f"mark {name!r} is not in the markers of the settings: pytest stops"
+                    problem = (
+                        f"mark {name!r} is not registered, and markers are strict: pytest stops; "
+                        "add it to markers in the settings"
+                    )
                 if problem:
                     yield self.report(module.location(decorator), problem)
 

@@ -130,13 +130,13 @@ class TestMisdefined(Rule):
             "test/test_talk.py",
         ),
         Example(
-            "settings that leave out the directory of the tests",
+            "settings that exclude the directory of the tests",
             {
                 "setup.py": "",
                 "pytest.ini": "[pytest]\nnorecursedirs = test\n",
                 "test/test_talker.py": "def test_talker():\n    pass\n",
             },
-            "pytest.ini:2:17: norecursedirs leaves out all tests: pytest does not collect "
+            "pytest.ini:2:17: norecursedirs excludes all tests: pytest does not collect "
             "test/test_talker.py",
         ),
         Example(
@@ -190,11 +190,12 @@ class TestMisdefined(Rule):
         files, usual = files_collected(package, settings), files_collected(package, {})
         if not files and usual:
             names = ("norecursedirs", "python_files", "testpaths")
-            setting, name = next((settings[name], name) for name in names if name in settings)
+            name = next(name for name in names if name in settings)
+            setting = settings[name]
             of_file = f" of {setting.file}" if setting.file else ""
             problem = f"no test file matches {name}{of_file}"
             if name == "norecursedirs":
-                problem = f"{name}{of_file} leaves out all tests"
+                problem = f"{name}{of_file} excludes all tests"
             message = f"{problem}: pytest does not collect {usual[0]}"
             yield self.report(setting.location, message)
         is_other = any("import" in option or "ignore" in option for option in options)
