@@ -308,6 +308,7 @@ class _Ignored(NamedTuple):
         """Return a hint at the parameters of the node, and the severity."""
         names = sorted({key for declared in self.declarations for key in declared.types})
         closest = closest_name(self.package, self.name, names, 0.6)
+        # A parameter that is set as well is meant only if its name is much the same.
         unset = [name for name in names if name not in self.others]
         meant = closest_name(self.package, self.name, unset, 0.6)
         meant = meant or closest_name(self.package, self.name, names, 0.8)

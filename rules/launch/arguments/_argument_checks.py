@@ -193,9 +193,9 @@ def _parameter_problem(node: ast.expr) -> str:
 
 
 def _arguments_of_include(launch: LaunchFile, call: LaunchCall, node: ast.expr) -> Iterator[Flaw]:
-    given = given_arguments(launch, call)
-    passed = [] if given else [given_arguments(launch, call, x) for x in launch.cases(call.call)]
-    for name, _, value in [*(given or ()), *(item for found in passed for item in found or ())]:
+    cases = launch.cases(call.call) or (None,)
+    given = (item for case in cases for item in given_arguments(launch, call, case) or ())
+    for name, _, value in dict.fromkeys(given):
         problem = _include_problem(launch, value)
         if problem:
             yield value, f"{name!r} gets {problem}"

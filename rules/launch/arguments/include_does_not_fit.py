@@ -207,8 +207,8 @@ class IncludeDoesNotFit(LaunchRule):
                     continue  # which included files see as well
                 if not closest and name in leaked:
                     continue  # the argument stays set for files that are included later
-                hint = f"did you mean {closest[0]!r}?" if closest else ""
-                hint = hint or f"it has {listed_names(other.names, name, 'none')}"
+                has = f"it has {listed_names(other.names, name, 'none')}"
+                hint = f"did you mean {closest[0]!r}?" if closest else has
                 message = f"{other.path} has no argument {name!r}: it is ignored; {hint}"
                 severity = None if closest else Severity.WARNING
                 yield self.report(launch.location(node), message, severity=severity)

@@ -48,8 +48,8 @@ _SUBSTITUTIONS: Mapping[str, str] = {
 _LISTS = frozenset({"children", "choice", "launch"})
 """Keys of YAML besides those of actions and their parts."""
 _INCLUDED = re.compile(r"\$\(find-pkg-share ([\w-]+)\)/([\w./-]+)")
-_MOST_OF_EVAL = 2
-"""An expression, and the modules that it uses."""
+_MAX_EVAL_ARGUMENTS = 2
+"""$(eval ...) takes an expression, and the modules that it uses."""
 _CAUSE = "launch files of ROS 1"
 _RIGHT = (
     "<launch>\n  <arg name='robot' default='a'><choice value='a'/></arg>\n"
@@ -178,7 +178,7 @@ class MarkupRefused(Rule):
             "3:27: $(var b) is read before the file sets it: the launch stops",
         ),
         Example(
-            "YAML with all that it may have",
+            "keys of YAML",
             {
                 "launch/a.launch.yaml": "launch:\n- arg:\n    name: rate\n    default: '1'\n"
                 "- group:\n  - push_ros_namespace:\n      namespace: a\n  - node:\n"
@@ -187,7 +187,7 @@ class MarkupRefused(Rule):
             },
         ),
         Example(
-            "keys and a configuration that YAML does not know",
+            "unknown keys, and a configuration that is not set, in YAML",
             {
                 "launch/a.launch.yaml": "launch:\n- args:\n    name: rate\n- node:\n"
                 "    pkg: talker\n    exec: talk\n    params:\n"
@@ -266,9 +266,11 @@ def _ignored(package: Package, file: MarkupFile) -> Iterator[tuple[Location, str
         target = element.attributes.get("file") if element.tag == "include" else None
         path = _INCLUDED.fullmatch(target.value) if target is not None else None
         other = included_at(package, path[1], path[2]) if path is not None else None
-        for name in element.arguments if other is not None and not other.is_open else ():
+        if other is None or other.is_open:
+            continue
+        for name in element.arguments:
             is_declared = given[name.value] < setters[name.value]
-            if other is not None and name.value not in other.names and not is_declared:
+            if name.value not in other.names and not is_declared:
                 has = listed_names(other.names, name.value, "none")
                 problem = (
                     f"{other.path} has no argument {name.value!r}: it is ignored; it has {has}"
@@ -299,7 +301,7 @@ def _problems(element: MarkupElement, *, is_xml: bool) -> Iterator[tuple[Locatio
             if problem:
                 yield attribute.location, problem
         for name, *words in substitution_words(attribute.value):
-            if name == "eval" and len(words) > _MOST_OF_EVAL:
+            if name == "eval" and len(words) > _MAX_EVAL_ARGUMENTS:
                 yield attribute.location, "$(eval ...) takes one expression: put it in quotes"
 
 

@@ -186,10 +186,10 @@ class RemappingWithoutEffect(Rule):
         for node in _remapped_nodes(package):
             names = names_of(node, package)
             for source, target, location in node.remappings if names is not None else ():
-                problem, is_stale = _problem(package, node, names or set(), (source, target))
+                problem, is_unlike_all = _problem(package, node, names or set(), (source, target))
                 if problem:
                     is_kept = _is_absolute_in(names or set(), target)
-                    severity = Severity.WARNING if is_kept or is_stale else None
+                    severity = Severity.WARNING if is_kept or is_unlike_all else None
                     cause = f"names of {node.program}"
                     yield self.report(location, problem, severity=severity, cause=cause)
 
@@ -197,7 +197,7 @@ class RemappingWithoutEffect(Rule):
 def _problem(
     package: Package, node: Remapped, names: set[str], remapping: tuple[str, str | None]
 ) -> tuple[str, bool]:
-    """Return why a remapping has no effect, and whether it may be left over; empty without one."""
+    """Return why a remapping has no effect, if so, and whether its source is like no name."""
     source, target = remapping
     mistake = _mistake(node, names, source, target)
     if mistake:
@@ -211,7 +211,7 @@ def _problem(
 
 
 def _mistake(node: Remapped, names: set[str], source: str, target: str | None) -> str:
-    """Return what the node uses instead of a name that is written wrongly."""
+    """Return the name that the node uses instead of a misspelled one; empty if unknown."""
     full_name = _misses_namespace(names, source, node.namespace)
     if full_name:
         right = source.removeprefix("/")

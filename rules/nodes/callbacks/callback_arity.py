@@ -242,7 +242,7 @@ class CallbackArity(RclpyRule):
             "RuntimeError",
         ),
         Example(
-            "functions that a method makes",
+            "functions that a method returns",
             {
                 "listener.py": _NODE.format(", word")
                 .replace("self.hear,", "self.hear('said'),")

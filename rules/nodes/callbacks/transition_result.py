@@ -261,10 +261,8 @@ def _result_of(file: RclpyFile, call: ast.Call) -> tuple[str, str]:
     values = [statement.value for statement in returned(function)]
     if may_end(function) or is_generator(function) or not values:
         return "", ""
-    texts = [_plain(value) for value in values if value is not None]
-    return function.name, " or ".join(dict.fromkeys(texts)) if len(texts) == len(values) and all(
-        texts
-    ) else ""
+    texts = [_plain(value) if value is not None else "" for value in values]
+    return function.name, " or ".join(dict.fromkeys(texts)) if all(texts) else ""
 
 
 def _plain(value: ast.expr) -> str:

@@ -117,7 +117,7 @@ class SpunWrongly(RclpyRule):
                 + "        rclpy.spin(item)\n        rclpy.init()\n",
             },
             "talker.py:15:9: the first spin of this loop returns only at shutdown: the other "
-            "nodes are never spun; add all to an executor",
+            "nodes are never spun; add them all to an executor",
         ),
         Example(
             "a node that a thread spins",
@@ -334,7 +334,7 @@ def _spun_too_late(file: RclpyFile, call: RclpyCall, node: ast.expr) -> str:
     if _is_in_loop(file, call, node):
         return (
             "the first spin of this loop returns only at shutdown: the other nodes are never spun; "
-            "add all to an executor"
+            "add them all to an executor"
         )
     statement = file.module.parent(call.call)
     block = file.module.parent(statement) if isinstance(statement, ast.Expr) else None
@@ -343,11 +343,11 @@ def _spun_too_late(file: RclpyFile, call: RclpyCall, node: ast.expr) -> str:
         if other.name != "spin" or not isinstance(before, ast.Expr) or before is statement:
             continue
         if file.module.parent(before) is block and before.lineno < call.call.lineno:
+            if _is_again(file, before, call.call):
+                return ""
             return (
                 f"the spin in line {before.lineno} returns only at shutdown: this node is never "
-                f"spun; add both to an executor"
-                if not _is_again(file, before, call.call)
-                else ""
+                "spun; add both to an executor"
             )
     return ""
 
