@@ -12,7 +12,7 @@ import sys
 from collections.abc import Iterator
 from importlib import import_module
 from pathlib import Path
-from types import ModuleType
+from types import GenericAlias, ModuleType
 from typing import TypeGuard
 
 from scaffold import api
@@ -47,7 +47,8 @@ def _entry(module: ModuleType, name: str) -> Iterator[str]:
     value = getattr(module, name)
     yield f"### `{name}{_signature(value)}`"
     yield ""
-    documented = callable(value) or inspect.ismodule(value)
+    is_alias = isinstance(value, GenericAlias)  # whose documentation is that of tuple
+    documented = (callable(value) and not is_alias) or inspect.ismodule(value)
     summary = inspect.cleandoc(value.__doc__ or "").partition("\n\n")[0] if documented else ""
     if summary:
         yield summary.replace("``", "`")
