@@ -240,7 +240,7 @@ class ShareDirectoryNotInstalled(Rule):
             {**_FILES_PATHS, "CMakeLists.txt": _LISTS_PATHS.format("config/", "")},
             Report(
                 "CMakeLists.txt:2:19",
-                "the files of config/ are installed to share/talker/, not in share/talker/config/",
+                "the files of config/ are installed to share/talker/, not to share/talker/config/",
                 fix="Install to config/",
                 severity=Severity.WARNING,
             ),
@@ -252,7 +252,7 @@ class ShareDirectoryNotInstalled(Rule):
             Report(
                 "CMakeLists.txt:2:19",
                 "the files of config/ are installed to share/talker/config/config/, "
-                "not in share/talker/config/",
+                "not to share/talker/config/",
                 fix="Install to config/",
                 severity=Severity.WARNING,
             ),
@@ -322,7 +322,9 @@ class ShareDirectoryNotInstalled(Rule):
 
     def _check_paths(self, package: Package) -> Iterator[Diagnostic]:
         name = package.cmake.project_name
-        destinations = {f"{install.destination}".rstrip("/") for install in package.cmake.installs}
+        destinations = {
+            (install.destination or "").rstrip("/") for install in package.cmake.installs
+        }
         for install in package.cmake.installs:
             target = (install.destination or "").rstrip("/")
             if install.kind != "DIRECTORY" or install.command.name != "install":
@@ -338,11 +340,11 @@ class ShareDirectoryNotInstalled(Rule):
                 if slash and target == f"share/{name}" and directory != "launch":
                     end = item.argument.end
                     edit = Edit(item.argument.path, end - 1, end, "")
-                    lands = f"{target}/, not in {target}/{directory}/"
+                    lands = f"{target}/, not to {target}/{directory}/"
                 elif not slash and target == f"share/{name}/{directory}":
                     end = item.argument.end
                     edit = Edit(item.argument.path, end, end, "/")
-                    lands = f"{target}/{directory}/, not in {target}/"
+                    lands = f"{target}/{directory}/, not to {target}/"
                 else:
                     continue
                 message = f"the files of {directory}/ are installed to {lands}"

@@ -221,7 +221,8 @@ class ModuleNotPacked(Rule):
                 "setup.cfg": "[options]\npackages = find\n",
                 "talker/__init__.py": "",
             },
-            "setup.cfg:2:12: packages lists 'find', which does not exist: the build stops",
+            "setup.cfg:2:12: packages lists 'find', which does not exist: the build stops; did you "
+            "mean 'find:'?",
         ),
     )
 
@@ -263,6 +264,8 @@ class ModuleNotPacked(Rule):
             is_top = not package.has_directory(root)
             missing = "which" if is_top else f"but {place}/"
             message = f"packages lists {name!r}, {missing} does not exist: the build stops"
+            if at.path == "setup.cfg" and name in {"find", "find_namespace"}:
+                message = f"{message}; did you mean '{name}:'?"
             yield self.report(at, message, cause=f"directory {root if is_top else place}")
 
     def _check_found(
