@@ -131,8 +131,12 @@ class MarkupRefused(Rule):
         Example(
             "a configuration that the including file sets, or an included one",
             {
-                "launch/a.launch.xml": "<launch><node exec='$(var kind)'/></launch>\n",
-                "launch/b.launch.xml": "<launch><arg name='kind'/><include file='a.launch.xml'/>\n"
+                "config/preset.yaml": "launch:\n- arg:\n    name: rate\n    default: '1'\n",
+                "launch/a.launch.xml": "<launch><node exec='$(var kind)' args='$(var rate)'/>"
+                "</launch>\n",
+                "launch/b.launch.xml": "<launch><arg name='kind'/>"
+                "<include file='$(find-pkg-share talker)/config/preset.yaml'/>\n"
+                "<include file='a.launch.xml'/>\n"
                 "<include file='$(find-pkg-share other)/c.launch.xml'/>\n"
                 "<node exec='$(var other)'/></launch>\n",
             },

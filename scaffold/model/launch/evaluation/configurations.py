@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterator
+from contextlib import suppress
 from typing import TYPE_CHECKING
 
 from scaffold import lazy_re
@@ -11,6 +12,7 @@ from scaffold.model.launch.calls import LaunchCall
 from scaffold.model.launch.evaluation.evaluator import share_path
 from scaffold.model.launch.python_file import LaunchFile
 from scaffold.model.launch.unused.written_commands import gives_argument
+from scaffold.model.remembered import remembered
 from scaffold.source import ViewError
 
 if TYPE_CHECKING:
@@ -20,6 +22,8 @@ _SETTERS = ("DeclareLaunchArgument", "SetLaunchConfiguration", "SetLaunchConfigu
 BY_LAUNCH = frozenset({"ros_namespace", "global_params", "ros_remaps", "launch_file_directory"})
 """Configurations that launch itself sets."""
 _ENDINGS = (".py", ".xml", ".yaml", ".yml")
+_MARKUP = lazy_re.compile(r"(?m)^(?:launch:|<launch>)")
+"""The start of a launch file, also in a directory such as `config`."""
 _COMPUTED = lazy_re.compile(r"(?:[}%]|\+ ?['\"])([\w.-]*launch\.(?:py|xml|ya?ml))")
 """Matches the known end of a computed name, ``f'{world}.launch.py'``."""
 
@@ -77,15 +81,23 @@ def _may_compute(text: str, basename: str) -> bool:
 def _other_launch_files(package: Package, but: str) -> Iterator[str]:
     """Yield the texts of the other launch files of the workspace."""
     for other in package.workspace:
-        for path in other.files:
-            if "launch" not in path or not path.endswith(_ENDINGS):
-                continue
-            if other is package and path == but:
-                continue
-            try:
-                yield other.source(path).text
-            except ViewError:
-                continue
+        for path in _launch_files(other):
+            if other is not package or path != but:
+                with suppress(ViewError):
+                    yield other.source(path).text
+
+
+@remembered
+def _launch_files(package: Package) -> list[str]:
+    """Return what is named like a launch file, or starts like one in XML or YAML."""
+    paths = [path for path in package.files if path.endswith(_ENDINGS)]
+    return [path for path in paths if "launch" in path or _is_markup(package, path)]
+
+
+def _is_markup(package: Package, path: str) -> bool:
+    with suppress(ViewError):
+        return not path.endswith(".py") and bool(_MARKUP.search(package.source(path).text))
+    return False
 
 
 def _has_own_actions(launch: LaunchFile) -> bool:
