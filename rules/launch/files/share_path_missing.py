@@ -255,7 +255,7 @@ class SharePathMissing(Rule):
                 "launch/a.launch.py": _LAUNCH.format("'config', 'talker.yaml'").replace(
                     "    return",
                     "    lights = open(os.path.join(share, 'config', 'lights.txt')).read()\n"
-                    "    with open('/tmp/lights.txt', 'w') as stream:\n"
+                    "    with open('lights.txt', 'w') as stream:\n"
                     "        stream.write(lights)\n    return",
                 ),
             },
