@@ -12,7 +12,7 @@ from ._pure_packages import PURE_PACKAGES
 
 KINDS = ("build_depend", "buildtool_depend")
 _NOT_FOUND_BY_NAME = (
-    "ament_cmake",  # rosidl_default_generators also finds it
+    "ament_cmake_",
     "rosidl_",
     "ament_index",
     "ament_lint",
@@ -69,6 +69,18 @@ class DeclaredNotFound(Rule):
             },
         ),
         Example(
+            "a build tool of a file that finds nothing",
+            {
+                "package.xml": _MANIFEST.replace(
+                    "<build_depend>std_msgs</build_depend>",
+                    "<buildtool_depend>ament_cmake</buildtool_depend>",
+                ),
+                "CMakeLists.txt": "project(talker)\n",
+            },
+            "package.xml:3:21: <buildtool_depend> 'ament_cmake', but CMakeLists.txt does not call "
+            "find_package(ament_cmake); add the call, or declare <exec_depend>",
+        ),
+        Example(
             "found in a loop",
             {
                 "package.xml": _MANIFEST,
@@ -108,6 +120,8 @@ class DeclaredNotFound(Rule):
                 continue
             if name not in ROS_PACKAGES - PURE_PACKAGES or name.startswith(_NOT_FOUND_BY_NAME):
                 continue
+            if name == "ament_cmake" and any(cmake.found_packages):
+                continue  # rosidl_default_generators and others find it as well
             if not any(name in argument for argument in self._arguments(package)):
                 message = (
                     f"<{dependency.kind}> {name!r}, but CMakeLists.txt does not call "
